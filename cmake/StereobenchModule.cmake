@@ -1,0 +1,36 @@
+# What every target of the project is compiled with, and the two shapes of target there are:
+# a module (a library made of all sources below one folder) and a module's tests.
+
+add_library(stereobench_options INTERFACE)
+target_compile_features(stereobench_options INTERFACE cxx_std_20)
+target_include_directories(stereobench_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(stereobench_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wdouble-promotion -Werror
+  -ffp-contract=off)  # results do not depend on whether the machine has fused multiply-add
+target_compile_definitions(stereobench_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+
+option(STEREOBENCH_TIDY "run clang-tidy on every source" OFF)
+if(STEREOBENCH_TIDY)
+  find_program(CLANG_TIDY clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
+endif()
+
+# stereobench_module(<name> LINKS <libraries...>): the library stereobench_<name>.
+function(stereobench_module name)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  add_library(stereobench_${name} STATIC ${sources})
+  target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
+endfunction()
+
+# stereobench_tests(<module> LABEL <unit|render|e2e>): the executable <module>_tests from tests/<module>/.
+function(stereobench_tests module)
+  cmake_parse_arguments(ARG "" "LABEL" "LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/*.cpp)
+  add_executable(${module}_tests ${sources})
+  target_link_libraries(${module}_tests PRIVATE stereobench_${module} ${ARG_LINKS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${module}_tests PRIVATE STEREOBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                             STEREOBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(${module}_tests PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 120)
+endfunction()

@@ -1,0 +1,47 @@
+/// The vocabulary of the harness: logs that filters are replayed on, and what they score.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/types.h"
+
+namespace stereobench::harness {
+
+/// One instant at which the robot looked: the odometry since the instant before, and what it saw.
+struct LogStep {
+  std::int64_t stamp_ns = 0;
+  std::vector<slam::Control> odometry;             ///< as measured, with its noise
+  std::vector<slam::RangeBearing> measurements;
+  std::optional<slam::Pose> truth;                 ///< world_from_robot, where it is known
+};
+
+/// A landmark's true place.
+struct LandmarkTruth {
+  int landmark_id = slam::kUnknown;
+  int colour_class = slam::kUnknown;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+};
+
+/// Everything that the SLAM stage is given, and the truth it is scored against. Rendered runs and
+/// recorded logs of real robots come to the filters as this one type.
+struct MeasurementLog {
+  slam::Pose start;            ///< where the filters begin
+  std::vector<LogStep> steps;  ///< in order of time
+  std::vector<LandmarkTruth> landmarks;
+};
+
+/// One filter's estimates over a log, aligned with its steps.
+struct FilterRun {
+  std::string filter;
+  int particles = 1;
+  std::uint64_t seed = 0;
+  std::vector<slam::Pose> poses;
+  std::vector<Eigen::Matrix3d> covariances;
+  slam::Estimate last;    ///< the final estimate, with its map
+  bool failed = false;    ///< it threw, or a pose was not finite
+};
+
+}  // namespace stereobench::harness

@@ -1,0 +1,22 @@
+/// The vocabulary of the renderer: pictures and the truth behind each of their pixels.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vision/types.h"
+
+namespace stereobench::renderer {
+
+/// One eye's picture with its truth, all of the rig's width and height.
+struct EyeFrame {
+  cv::Mat colour;   ///< CV_8UC3, BGR, linear light, anti-aliased, noise-free
+  cv::Mat ball_id;  ///< CV_8UC1, 0 = no ball, k = World::balls[k - 1] is what the pixel's centre sees
+  cv::Mat depth_m;  ///< CV_32FC1, planar Z in the eye's camera frame of what the centre sees, +inf = nothing
+};
+
+struct StereoFrame {
+  EyeFrame left;
+  EyeFrame right;
+};
+
+}  // namespace stereobench::renderer

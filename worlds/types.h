@@ -1,0 +1,117 @@
+/// The vocabulary of worlds: what can be seen, how the robot moves, and what a scenario says of both.
+///
+/// Frame **world**: x east, y north, z up; the floor is z = 0.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "slam/types.h"
+#include "vision/types.h"
+
+namespace stereobench::worlds {
+
+/// A coloured ball: a landmark. Its index in World::balls is its identity.
+struct Ball {
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  double radius_m = 0.05;
+  int colour = 0;  ///< index into vision::kPalette
+};
+
+enum class Material { kPlain, kTiles, kPlaster, kBricks, kWood };
+
+/// A wall: an upright rectangle without thickness, standing on the floor, seen from both sides.
+struct Wall {
+  Eigen::Vector2d from_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
+  double height_m = 2.5;
+  Material material = Material::kPlaster;
+};
+
+/// A mesh file put somewhere: a door, a column. Mesh axes are the world's (z up, metres).
+struct MeshInstance {
+  std::string file;  ///< path of the mesh file, absolute after reading
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double heading_rad = 0.0;  ///< about z
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Material material = Material::kWood;
+};
+
+/// Sunlight without shadows: Lambert's cosine law above a constant ambient part.
+struct Light {
+  Eigen::Vector3d towards_light = {0.3, 0.2, 0.9};  ///< any length but zero
+  double ambient = 0.45;  ///< in [0, 1]
+  double diffuse = 0.55;  ///< in [0, 1]
+};
+
+struct World {
+  std::vector<Ball> balls;  ///< at most 254: identities are written into 8 bits
+  std::vector<Wall> walls;
+  std::vector<MeshInstance> meshes;
+  Material floor = Material::kTiles;
+  Light light;
+  Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]
+};
+
+/// One instant of the robot's drive: where it is, and the true controls that brought it here.
+struct PathStep {
+  std::int64_t stamp_ns = 0;
+  slam::Pose pose;                       ///< truth, world_from_robot
+  std::vector<slam::Control> controls;   ///< since the step before, exact; empty at the first step
+};
+
+using GroundTruth = std::vector<PathStep>;
+
+enum class SensorKind { kStereo, kOracle };
+
+/// How landmarks are seen without pixels: Gaussian range and bearing within a sector.
+struct OracleSensor {
+  double range_sd_m = 0.3;
+  double bearing_sd_rad = 0.0523598775598299;
+  double max_range_m = 30.0;
+  double field_of_view_rad = 3.14159265358979;  ///< whole angle, centred forward
+};
+
+/// What the camera adds to a perfect picture.
+struct CameraSensor {
+  double noise_sd_levels = 0.0;  ///< Gaussian, per pixel, channel and eye, in levels of 255
+};
+
+/// How the robot tells landmarks apart.
+enum class Identity {
+  kKnown,        ///< every sighting carries the landmark's identity (stereo: colours are unique)
+  kColourClass,  ///< colours repeat: a sighting carries a colour, the filter finds out which one it is
+};
+
+/// A limit on a metric of run.json, e.g. {"filters.ufastslam.ate_rms_m.mean", <=, 0.05}.
+struct Gate {
+  std::string metric;
+  enum class Relation { kAtMost, kAtLeast } relation = Relation::kAtMost;
+  double limit = 0.0;
+};
+
+/// Everything that a run is made from.
+struct Scenario {
+  std::string name;
+  std::string description;
+  World world;
+  double placement_jitter_m = 0.0;  ///< each seed moves each ball by up to this much in x and y
+  vision::StereoRig rig;
+  GroundTruth path;
+  slam::OdometryNoise odometry_noise;           ///< what the odometry really has
+  slam::OdometryNoise believed_odometry_noise;  ///< what the filters are told
+  SensorKind sensor = SensorKind::kStereo;
+  OracleSensor oracle;
+  CameraSensor camera;
+  Identity identity = Identity::kKnown;
+  double colour_spacing_m = 0.0;  ///< kColourClass: two balls of one colour are at least this far apart
+  std::vector<std::string> filters = {"dead_reckoning", "fastslam2", "ufastslam"};
+  int particles = 100;
+  std::vector<std::uint64_t> seeds = {0};
+  std::vector<Gate> gates;
+};
+
+}  // namespace stereobench::worlds
