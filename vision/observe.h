@@ -1,0 +1,30 @@
+/// The vision stage: from a stereo pair to the balls in it.
+#pragma once
+
+#include <vector>
+
+#include "vision/types.h"
+
+namespace stereobench::vision {
+
+/// What the observer knows of the balls and of the camera before it looks.
+struct ObserverSettings {
+  double ball_radius_m = 0.05;   ///< all balls are of one size
+  double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
+  double min_radius_px = 3.0;    ///< smaller outlines are not measured
+  double min_depth_m = 0.15;     ///< nearer balls are not looked for
+};
+
+/// Finds every ball that both eyes see and measures range and bearing to it.
+/// Colour gives the identity (or its class), the outline's centre in each eye the position; eq. of sphere.h.
+/// @param pair two CV_8UC3 images of the rig's size, BGR, linear light; row padding is fine
+/// @param rig the rig as it is believed to be
+/// @return the balls sorted by colour, then by column; truncated and occluded ones are included, flagged, and
+///         their measurements are not to be trusted; empty when no ball is seen by both eyes
+/// @throws std::invalid_argument when an image is empty, not CV_8UC3 or not of the rig's size, or when the
+/// rig
+///         or the settings are not positive and finite
+std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
+                                     const ObserverSettings& settings);
+
+}  // namespace stereobench::vision

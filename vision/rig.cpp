@@ -1,0 +1,50 @@
+#include "vision/rig.h"
+
+#include <cmath>
+
+namespace stereobench::vision {
+
+Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
+  const double sin_pitch = std::sin(rig.pitch_down_rad);
+  const double cos_pitch = std::cos(rig.pitch_down_rad);
+  const double side = eye == Eye::kLeft ? 0.5 : -0.5;
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().col(0) = Eigen::Vector3d(0.0, -1.0, 0.0);               // right
+  result.linear().col(1) = Eigen::Vector3d(-sin_pitch, 0.0, -cos_pitch);  // down
+  result.linear().col(2) = Eigen::Vector3d(cos_pitch, 0.0, -sin_pitch);   // forward
+  result.translation() = Eigen::Vector3d(0.0, side * rig.baseline_m, rig.height_m);
+  return result;
+}
+
+Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye) {
+  const double shift_m = eye == Eye::kLeft ? 0.0 : rig.baseline_m;
+  return point_in_left_camera - Eigen::Vector3d(shift_m, 0.0, 0.0);
+}
+
+Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
+  return {camera.cx_px + camera.focal_px * point_in_camera.x() / point_in_camera.z(),
+          camera.cy_px + camera.focal_px * point_in_camera.y() / point_in_camera.z()};
+}
+
+std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
+                                                  const Eigen::Vector3d& point_in_camera) {
+  if (!(point_in_camera.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d pixel = project(camera, point_in_camera);
+  const bool inside = pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
+                      pixel.y() <= camera.height_px - 0.5;
+  return inside ? std::optional(pixel) : std::nullopt;
+}
+
+Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px) {
+  return {(pixel_px.x() - camera.cx_px) / camera.focal_px, (pixel_px.y() - camera.cy_px) / camera.focal_px,
+          1.0};
+}
+
+bool is_usable(const StereoRig& rig) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  return rig.camera.width_px > 0 && rig.camera.height_px > 0 && positive(rig.camera.focal_px) &&
+         positive(rig.baseline_m) && std::isfinite(rig.camera.cx_px) && std::isfinite(rig.camera.cy_px) &&
+         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad);
+}
+
+}  // namespace stereobench::vision

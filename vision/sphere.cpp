@@ -1,0 +1,46 @@
+#include "vision/sphere.h"
+
+#include <cmath>
+
+#include "vision/rig.h"
+
+namespace stereobench::vision {
+
+double OutlineEllipse::radius_px() const {
+  return std::sqrt(semi_major_px * semi_minor_px);
+}
+
+std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eigen::Vector3d& ball_in_camera,
+                                             double radius_m) {
+  const double depth = ball_in_camera.z();
+  if (!(depth > radius_m)) return std::nullopt;
+  const double gap = depth * depth - radius_m * radius_m;
+  const double minor = radius_m / std::sqrt(gap);
+  const double stretch = std::sqrt((ball_in_camera.squaredNorm() - radius_m * radius_m) / gap);
+  const Eigen::Vector2d centre = ball_in_camera.head<2>() * (depth / gap);  // (1 + b^2) (X/Z, Y/Z)
+
+  OutlineEllipse ellipse;
+  ellipse.centre_px = Eigen::Vector2d(camera.cx_px, camera.cy_px) + camera.focal_px * centre;
+  ellipse.semi_minor_px = camera.focal_px * minor;
+  ellipse.semi_major_px = camera.focal_px * minor * stretch;
+  ellipse.angle_rad = std::atan2(centre.y(), centre.x());
+  return ellipse;
+}
+
+double ball_depth(double triangulated_depth_m, double radius_m) {
+  const double zn = triangulated_depth_m;
+  return 0.5 * (zn + std::sqrt(zn * zn + 4.0 * radius_m * radius_m));
+}
+
+std::optional<Eigen::Vector3d> triangulate_ball(const StereoRig& rig, const Eigen::Vector2d& left_px,
+                                                const Eigen::Vector2d& right_px, double radius_m) {
+  const double disparity_px = left_px.x() - right_px.x();
+  if (!(disparity_px > 0.0)) return std::nullopt;
+  const double zn = rig.camera.focal_px * rig.baseline_m / disparity_px;
+  const Eigen::Vector2d pixel(left_px.x(), 0.5 * (left_px.y() + right_px.y()));
+  Eigen::Vector3d ball_in_camera = zn * pixel_ray(rig.camera, pixel);
+  ball_in_camera.z() = ball_depth(zn, radius_m);
+  return ball_in_camera;
+}
+
+}  // namespace stereobench::vision
