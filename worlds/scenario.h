@@ -1,0 +1,32 @@
+/// Scenario files: everything a run is made from, read from strict YAML.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "worlds/types.h"
+
+namespace stereobench::worlds {
+
+/// Reads a scenario file, with some of its values replaced.
+///
+/// Strict: an unknown or repeated key, a wrong type, a value that is out of range or not finite, a required
+/// key or a mesh file that is missing, and a world that breaks the promises of its `identity` are all errors.
+///
+/// @param file the YAML file; paths of meshes in it are relative to its folder
+/// @param overrides "key.path=value", put in place before reading, e.g. "camera.noise_sd_levels=4"; a list is
+///        replaced whole
+/// @return the scenario, its path already driven (poses and exact controls)
+/// @throws std::runtime_error of one line, "file:line: key.path: expected ... (got ...)", or
+///         "--set key.path: ..." when an override is to blame
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The world of one seed: the scenario's, with each ball moved by a uniform draw of up to
+/// +-placement_jitter_m in x and in y. Each ball has a stream of its own, so adding one moves no other.
+///
+/// @return a copy of scenario.world with its balls moved; exactly scenario.world when the jitter is 0
+World world_for_seed(const Scenario& scenario, std::uint64_t seed);
+
+}  // namespace stereobench::worlds
