@@ -1,0 +1,29 @@
+/// Files that are either wholly there or not there at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <opencv2/core.hpp>
+
+namespace stereobench::harness {
+
+/// Makes sure that results can be written into a folder, creating it and its parents where needed.
+/// @param folder the output folder
+/// @throws std::runtime_error naming the folder and the cause: it is a file, it cannot be created or written
+void prepare_output_folder(const std::filesystem::path& folder);
+
+/// Writes a file through a temporary name in the same folder, synced and then renamed, so that a run
+/// that is killed leaves the old file or the new one, never a part.
+/// @param path the file to write or to replace
+/// @param bytes all of its content
+/// @throws std::runtime_error naming the path and the cause (missing folder, no permission, full disk)
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes a picture as PNG, as one whole file (see write_file_atomically).
+/// @param path the file to write or to replace
+/// @param image 8-bit or 16-bit, 1, 3 (BGR) or 4 (BGRA) channels
+/// @throws std::runtime_error when it cannot be written; std::invalid_argument when it is no such picture
+void write_png(const std::filesystem::path& path, const cv::Mat& image);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,34 @@
+/// Logs recorded by real robots, or written by write_log, read into what the filters are replayed on.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/types.h"
+
+namespace stereobench::harness {
+
+/// What the reader tells the filters of a sensor whose log carries no covariances.
+struct SensorNoise {
+  double range_sd_m = 0.15;
+  double bearing_sd_rad = 0.02;
+};
+
+/// A log together with what was left out of it on purpose.
+struct RecordedLog {
+  MeasurementLog log;
+  long robot_sightings = 0;  ///< MRCLAM: sightings of the other robots, which are no landmarks
+};
+
+/// Reads a recorded log: `odometry.csv`, `observations.csv` and, where they exist, `landmarks.csv` (also
+/// in the parent folder), `groundtruth.csv` and `instants.csv`; or UTIAS MRCLAM's `Barcodes.dat`,
+/// `Landmark_Groundtruth.dat` and `Robot<k>_{Odometry,Measurement,Groundtruth}.dat`. Every file may be
+/// plain or gzip-compressed with `.gz` added to its name. How streams become steps: see log_steps.h.
+///
+/// The stamps of `.dat` files count from the whole second of the first odometry reading.
+/// @param folder_or_file the folder, or one of its files (which picks the robot among MRCLAM's)
+/// @param noise the standard deviations of sightings whose file states no covariance, > 0
+/// @return at least one step, in order of time
+/// @throws std::runtime_error `file:line: column: what was expected` for whatever cannot be read exactly
+RecordedLog read_log(const std::filesystem::path& folder_or_file, const SensorNoise& noise);
+
+}  // namespace stereobench::harness

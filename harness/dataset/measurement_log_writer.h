@@ -1,0 +1,18 @@
+/// Rendered runs as measurement logs, to be replayed later or read by other people's programs.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/types.h"
+
+namespace stereobench::harness {
+
+/// Writes a log as `odometry.csv`, `observations.csv`, `landmarks.csv`, `groundtruth.csv` and
+/// `instants.csv` (the stamps of all steps, also of those at which nothing was seen), each atomically.
+/// Numbers are as short as they can be and still be read back exactly; stamps are exact nanoseconds.
+/// @param folder an existing folder
+/// @param log its odometry must fill the time between its steps, to a microsecond
+/// @throws std::invalid_argument when it does not; std::runtime_error when a file cannot be written
+void write_log(const std::filesystem::path& folder, const MeasurementLog& log);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,29 @@
+/// How far a map of landmarks is from the true one, and whether it holds each landmark once.
+#pragma once
+
+#include <span>
+
+#include "harness/types.h"
+
+namespace stereobench::harness {
+
+/// What a map is worth.
+struct MapScore {
+  double rms_m = 0.0;  ///< over all estimates that belong to a true landmark; NaN when none does
+  double max_m = 0.0;
+  long found_once = 0;  ///< true landmarks with one estimate
+  long duplicated = 0;  ///< true landmarks with several
+  long missed = 0;      ///< true landmarks with none
+  long spurious = 0;    ///< estimates that belong to no true landmark
+};
+
+/// Scores a map. An estimate with an identity belongs to the landmark of that identity, however far it
+/// is; one without belongs to the nearest landmark of its colour class within the limit.
+/// @param estimates the filter's map
+/// @param truth the true landmarks; an empty list scores as all spurious
+/// @param truth_from_estimate applied to the estimates first: identity, or the path's alignment
+/// @param match_limit_m the farthest that an estimate without an identity may be from its landmark
+MapScore score_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
+                   const slam::Pose& truth_from_estimate = {}, double match_limit_m = 2.0);
+
+}  // namespace stereobench::harness

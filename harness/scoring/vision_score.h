@@ -1,0 +1,65 @@
+/// How well balls were found in a stereo pair, against the renderer's truth.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/types.h"
+#include "vision/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// The truth behind one stereo pair.
+struct VisionTruth {
+  const worlds::World& world;
+  const vision::StereoRig& rig;
+  slam::Pose world_from_robot;
+  const renderer::StereoFrame& frame;
+};
+
+/// What became of the balls of some pairs. Scores of any pairs can be merged, in any order.
+struct VisionScore {
+  long visible = 0;                    ///< balls that had to be found, see score_observations
+  long found = 0;                      ///< of these, the ones that were
+  long observations = 0;               ///< whole observations (neither truncated nor occluded)
+  long right = 0;                      ///< of these, the first of each ball, with the ball's colour
+  long misidentified = 0;              ///< of these, the ones on a ball of another colour
+  long spurious = 0;                   ///< of these, the ones on no ball
+  long repeated = 0;                   ///< of these, the ones on a ball that is observed already
+  long flagged = 0;                    ///< truncated or occluded observations, which are not scored
+  std::vector<double> range_errors_m;  ///< of the right ones, measured minus true, horizontal
+  std::vector<double> bearing_errors_rad;
+  std::vector<double> disparity_errors_px;
+  std::vector<double> normalised_errors;  ///< e' R^-1 e / 2 with the covariance that SLAM is told
+
+  double recall() const;       ///< found / visible; NaN when nothing was visible
+  double precision() const;    ///< right / observations; NaN when there is none
+  double range_rms_m() const;  ///< NaN when there is none, and so below
+  double bearing_rms_rad() const;
+  double disparity_rms_px() const;
+  double mean_normalised_error() const;  ///< 1 when the covariance is honest
+
+  VisionScore& operator+=(const VisionScore& other);
+};
+
+/// How much of a ball each eye sees.
+struct BallVisibility {
+  int ball = 0;                ///< index into World::balls
+  double left_fraction = 0.0;  ///< pixels of this ball over the area of its whole outline
+  double right_fraction = 0.0;
+  double smaller_radius_px = 0.0;  ///< of the outline, the smaller of both eyes
+  bool inside_both = false;        ///< the whole outline lies within both images
+};
+
+/// How much of each ball in front of both eyes can be seen.
+/// @return one for each ball whose whole outline is in front of both cameras, in order of the balls
+std::vector<BallVisibility> ball_visibility(const VisionTruth& truth);
+
+/// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
+/// radius of at least 3 px, and at least 95 % of it is seen by each eye. An observation is right
+/// when its centres lie within the outlines of a ball of its colour in both eyes.
+VisionScore score_observations(const VisionTruth& truth,
+                               std::span<const vision::BallObservation> observations);
+
+}  // namespace stereobench::harness
