@@ -1,0 +1,27 @@
+/// How far each filter was from the truth, over time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stereobench::harness {
+
+/// Position errors of one filter, of every run of it.
+struct ErrorCurves {
+  std::string filter;
+  std::vector<std::vector<double>> error_m_by_run;  ///< one row a run, aligned with ErrorPicture::time_s
+};
+
+struct ErrorPicture {
+  std::string title;
+  std::vector<double> time_s;
+  std::vector<ErrorCurves> filters;
+};
+
+/// Draws each filter's mean error over its runs, a band from the least to the greatest, and in the legend
+/// the mean over runs of the rms over time. The error axis is logarithmic when the mean curves' typical
+/// sizes are more than a factor of 30 apart.
+/// @return the bytes of a PNG file; errors that are not finite are left out
+std::string draw_error_picture(const ErrorPicture& picture);
+
+}  // namespace stereobench::harness
