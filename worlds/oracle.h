@@ -19,8 +19,10 @@ namespace stereobench::worlds {
 /// @param sensor noise and sector
 /// @param identity kKnown sets landmark_id, kColourClass sets colour_class; the other stays kUnknown
 /// @param noise two normal draws are taken for each ball in view, in order of identity
-/// @return sightings in order of identity, covariance diag(range_sd^2, bearing_sd^2); empty when none is in view
+/// @return sightings in order of identity, covariance diag(range_sd^2, bearing_sd^2); empty when none is in
+/// view
 std::vector<slam::RangeBearing> sense(const World& world, const slam::Pose& world_from_robot,
-                                      const OracleSensor& sensor, Identity identity, slam::RandomStream& noise);
+                                      const OracleSensor& sensor, Identity identity,
+                                      slam::RandomStream& noise);
 
 }  // namespace stereobench::worlds

@@ -24,7 +24,7 @@ struct PolylinePath {
   std::vector<Eigen::Vector2d> points_m;  ///< open: first and last are the ends; closed: all are corners
   bool closed = false;
   double corner_radius_m = 1.0;  ///< of the arc that rounds each corner
-  double overlap_m = 0.0;        ///< closed: how much further to drive after the lap is complete
+  double overlap_m = 0.0;        ///< closed: how much further to drive after the lap, at most another lap
   double speed_mps = 1.0;
   double step_s = 1.0;
 };

@@ -43,8 +43,8 @@ struct MeshInstance {
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.
 struct Light {
   Eigen::Vector3d towards_light = {0.3, 0.2, 0.9};  ///< any length but zero
-  double ambient = 0.45;  ///< in [0, 1]
-  double diffuse = 0.55;  ///< in [0, 1]
+  double ambient = 0.45;                            ///< in [0, 1]
+  double diffuse = 0.55;                            ///< in [0, 1]
 };
 
 struct World {
@@ -59,8 +59,8 @@ struct World {
 /// One instant of the robot's drive: where it is, and the true controls that brought it here.
 struct PathStep {
   std::int64_t stamp_ns = 0;
-  slam::Pose pose;                       ///< truth, world_from_robot
-  std::vector<slam::Control> controls;   ///< since the step before, exact; empty at the first step
+  slam::Pose pose;                      ///< truth, world_from_robot
+  std::vector<slam::Control> controls;  ///< since the step before, exact; empty at the first step
 };
 
 using GroundTruth = std::vector<PathStep>;

@@ -1,0 +1,103 @@
+#include <array>
+#include <numbers>
+#include <stdexcept>
+
+#include "worlds/path.h"
+#include "worlds/scenario_parts.h"
+
+namespace stereobench::worlds {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr Interval kPlace_m = {-1e4, 1e4};
+constexpr Interval kSize_m = {1e-3, 1e4};
+constexpr Interval kSpeed_mps = {1e-3, 100.0};
+constexpr Interval kStep_s = {1e-3, 1e3};
+constexpr Interval kNoise = {0.0, 100.0};
+
+GroundTruth read_circle(const YamlValue& value) {
+  const YamlMap map(value,
+                    {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s"});
+  CirclePath path;
+  if (const auto start = map.find("start_m")) {
+    const Eigen::Vector2d start_m = read_vector<2>(*start, kPlace_m);
+    path.start = {start_m.x(), start_m.y(), 0.0};
+  }
+  path.start.heading_rad = map.number("start_heading_deg", {-179.999999, 180.0}, 0.0) * kDegree;
+  path.radius_m = map.number("radius_m", kSize_m);
+  path.speed_mps = map.number("speed_mps", kSpeed_mps);
+  path.laps = map.number("laps", {1e-3, 1e3}, 1.0);
+  path.step_s = map.number("step_s", kStep_s);
+  return drive_circle(path);
+}
+
+GroundTruth read_polyline(const YamlValue& value) {
+  const YamlMap map(value,
+                    {"kind", "points_m", "closed", "corner_radius_m", "overlap_m", "speed_mps", "step_s"});
+  PolylinePath path;
+  for (const YamlValue& point : map.at("points_m").list(2, 1000)) {
+    path.points_m.push_back(read_vector<2>(point, kPlace_m));
+  }
+  if (const auto closed = map.find("closed")) path.closed = closed->flag();
+  path.corner_radius_m = map.number("corner_radius_m", kSize_m);
+  path.overlap_m = map.number("overlap_m", {0.0, 1e4}, 0.0);
+  path.speed_mps = map.number("speed_mps", kSpeed_mps);
+  path.step_s = map.number("step_s", kStep_s);
+  return drive_polyline(path);
+}
+
+}  // namespace
+
+GroundTruth read_path(const YamlValue& value) {
+  const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "laps", "points_m", "closed",
+                            "corner_radius_m", "overlap_m", "speed_mps", "step_s"});
+  constexpr std::array<std::string_view, 2> kKinds = {"circle", "polyline"};
+  const bool circle = map.at("kind").choice(kKinds) == 0;
+  try {
+    return circle ? read_circle(value) : read_polyline(value);
+  } catch (const std::invalid_argument& error) {
+    value.refuse(error.what());
+  }
+}
+
+vision::StereoRig read_rig(const YamlValue& value) {
+  const YamlMap map(value, {"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
+                            "pitch_down_deg"});
+  vision::StereoRig rig;
+  rig.camera.width_px = map.at("width_px").integer(16, 4096);
+  rig.camera.height_px = map.at("height_px").integer(16, 4096);
+  rig.camera.focal_px = map.number("focal_px", {1.0, 1e5});
+  const double right_px = rig.camera.width_px - 1;
+  const double bottom_px = rig.camera.height_px - 1;
+  rig.camera.cx_px = map.number("cx_px", {0.0, right_px}, right_px / 2.0);
+  rig.camera.cy_px = map.number("cy_px", {0.0, bottom_px}, bottom_px / 2.0);
+  rig.baseline_m = map.number("baseline_m", {1e-3, 10.0});
+  rig.height_m = map.number("height_m", {1e-3, 100.0});
+  rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, 0.0) * kDegree;
+  return rig;
+}
+
+slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
+  const YamlMap map(value,
+                    {"v_constant_mps", "v_per_v", "v_per_w", "w_constant_degps", "w_per_v", "w_per_w"});
+  slam::OdometryNoise noise;
+  noise.v_constant_mps = map.number("v_constant_mps", kNoise, 0.0);
+  noise.v_per_v = map.number("v_per_v", kNoise, 0.0);
+  noise.v_per_w = map.number("v_per_w", kNoise, 0.0);
+  noise.w_constant_radps = map.number("w_constant_degps", {0.0, 1e4}, 0.0) * kDegree;
+  noise.w_per_v = map.number("w_per_v", kNoise, 0.0);
+  noise.w_per_w = map.number("w_per_w", kNoise, 0.0);
+  return noise;
+}
+
+OracleSensor read_oracle(const YamlValue& value) {
+  const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg"});
+  OracleSensor sensor;
+  sensor.range_sd_m = map.number("range_sd_m", kNoise);
+  sensor.bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree;
+  sensor.max_range_m = map.number("max_range_m", kSize_m);
+  sensor.field_of_view_rad = map.number("field_of_view_deg", {0.1, 360.0}) * kDegree;
+  return sensor;
+}
+
+}  // namespace stereobench::worlds

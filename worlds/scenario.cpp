@@ -1,0 +1,105 @@
+#include "worlds/scenario.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "slam/random.h"
+#include "worlds/scenario_checks.h"
+#include "worlds/scenario_parts.h"
+#include "worlds/seeds.h"
+
+namespace stereobench::worlds {
+namespace {
+
+std::string read_name(const YamlValue& value) {
+  const std::string name = value.text();
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (name.find_first_not_of(kLetters) != std::string::npos || name.size() > 64) {
+    value.fail("expected a name of small letters, digits and _, at most 64");
+  }
+  return name;
+}
+
+std::vector<std::string> read_filters(const YamlValue& value) {
+  std::vector<std::string> filters;
+  for (const YamlValue& entry : value.list(1, 16)) {
+    filters.push_back(entry.text());
+    if (std::ranges::count(filters, filters.back()) > 1) entry.fail("expected each filter once");
+  }
+  return filters;
+}
+
+std::vector<std::uint64_t> read_seeds(const YamlValue& value) {
+  const std::string text = value.text();
+  try {
+    return parse_seeds(text);
+  } catch (const std::invalid_argument& error) {
+    value.fail(error.what());
+  }
+}
+
+CameraSensor read_camera(const YamlValue& value) {
+  const YamlMap map(value, {"noise_sd_levels"});
+  return {map.number("noise_sd_levels", {0.0, 255.0}, 0.0)};
+}
+
+/// What is done with the world: who looks at it, how often, and what the outcome must be.
+void read_run(const YamlMap& map, Scenario& scenario) {
+  if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
+  if (const auto particles = map.find("particles")) scenario.particles = particles->integer(1, 100000);
+  if (const auto seeds = map.find("seeds")) scenario.seeds = read_seeds(*seeds);
+  if (const auto gates = map.find("gates")) scenario.gates = read_gates(*gates);
+}
+
+void read_sensing(const YamlMap& map, Scenario& scenario) {
+  constexpr std::array<std::string_view, 2> kSensors = {"stereo", "oracle"};
+  constexpr std::array<std::string_view, 2> kIdentities = {"known", "colour_class"};
+  scenario.sensor = static_cast<SensorKind>(map.at("sensor").choice(kSensors));
+  scenario.identity = static_cast<Identity>(map.at("identity").choice(kIdentities));
+  scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
+  const bool stereo = scenario.sensor == SensorKind::kStereo;
+  if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
+  if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
+  if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
+    scenario.oracle = read_oracle(*oracle);
+}
+
+void read_odometry(const YamlMap& map, Scenario& scenario) {
+  scenario.odometry_noise = read_odometry_noise(map.at("odometry_noise"));
+  const auto believed = map.find("believed_odometry_noise");
+  scenario.believed_odometry_noise = believed ? read_odometry_noise(*believed) : scenario.odometry_noise;
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const YamlDocument document = load_yaml(file, overrides);
+  const YamlMap map(YamlValue(document, "", document.root),
+                    {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
+                     "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise",
+                     "believed_odometry_noise", "path", "placement_jitter_m", "world"});
+  Scenario scenario;
+  scenario.name = read_name(map.at("name"));
+  if (const auto description = map.find("description")) scenario.description = description->text();
+  read_run(map, scenario);
+  read_sensing(map, scenario);
+  read_odometry(map, scenario);
+  scenario.path = read_path(map.at("path"));
+  scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
+  scenario.world = read_world(map.at("world"), file.parent_path());
+  check_balls(scenario, YamlValue(document, "world.balls", document.root["world"]["balls"]));
+  return scenario;
+}
+
+World world_for_seed(const Scenario& scenario, std::uint64_t seed) {
+  World world = scenario.world;
+  for (std::size_t i = 0; i < world.balls.size(); ++i) {
+    slam::RandomStream draws(seed, slam::Stream::kWorld, i);
+    world.balls[i].centre_m.x() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
+    world.balls[i].centre_m.y() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
+  }
+  return world;
+}
+
+}  // namespace stereobench::worlds

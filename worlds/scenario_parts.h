@@ -1,0 +1,36 @@
+/// The parts of a scenario file, each read from its group of keys.
+#pragma once
+
+#include "worlds/types.h"
+#include "worlds/yaml_value.h"
+
+namespace stereobench::worlds {
+
+/// `world:` balls, walls, meshes, floor, light and sky. Mesh files must exist.
+World read_world(const YamlValue& value, const std::filesystem::path& folder);
+
+/// `path:` a circle or a polyline, driven.
+GroundTruth read_path(const YamlValue& value);
+
+/// `rig:` the cameras and how they sit on the robot.
+vision::StereoRig read_rig(const YamlValue& value);
+
+/// `odometry_noise:` and `believed_odometry_noise:`.
+slam::OdometryNoise read_odometry_noise(const YamlValue& value);
+
+/// `oracle:` the pixel-free sensor.
+OracleSensor read_oracle(const YamlValue& value);
+
+/// `gates:` limits on metrics of the run.
+std::vector<Gate> read_gates(const YamlValue& value);
+
+/// A list of exactly N numbers within bounds, e.g. [1, 2.5].
+template <int N>
+Eigen::Matrix<double, N, 1> read_vector(const YamlValue& value, const Interval& within) {
+  Eigen::Matrix<double, N, 1> vector;
+  const std::vector<YamlValue> entries = value.list(N, N);
+  for (int i = 0; i < N; ++i) vector[i] = entries[static_cast<std::size_t>(i)].number(within);
+  return vector;
+}
+
+}  // namespace stereobench::worlds

@@ -1,0 +1,27 @@
+/// A YAML file with values put in place from outside, and who is to blame for each of its values.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+namespace stereobench::worlds {
+
+/// One YAML document and where it came from.
+struct YamlDocument {
+  std::filesystem::path file;
+  std::vector<std::string> overridden;  ///< key paths that were put in place of what the file says
+  YAML::Node root;
+};
+
+/// Loads a file of exactly one YAML document and puts "key.path=value" overrides in place.
+///
+/// @throws std::runtime_error when the file is missing, empty or not YAML, or an override is malformed
+YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// Where a complaint about a value points to: "file:line: key", or "--set key" when an override put it there.
+std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark);
+
+}  // namespace stereobench::worlds

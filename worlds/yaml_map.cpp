@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "worlds/yaml_value.h"
+
+namespace stereobench::worlds {
+namespace {
+
+/// Levenshtein's distance: how many letters to insert, drop or change.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// "did you mean x?" when a known key is near, else all that are known.
+std::string advice(std::string_view key, std::span<const std::string_view> known) {
+  const auto nearer = [&](std::string_view a, std::string_view b) {
+    return edit_distance(key, a) < edit_distance(key, b);
+  };
+  const std::string_view nearest = *std::ranges::min_element(known, nearer);
+  if (edit_distance(key, nearest) * 2 <= nearest.size()) return fmt::format("did you mean {}?", nearest);
+  return fmt::format("expected one of {}", fmt::join(known, ", "));
+}
+
+std::string joined(const std::string& group, std::string_view key) {
+  return group.empty() ? std::string(key) : fmt::format("{}.{}", group, key);
+}
+
+}  // namespace
+
+YamlMap::YamlMap(const YamlValue& value, std::span<const std::string_view> known) : value_(value) {
+  if (!value.node_.IsMap()) value.fail("expected a group of keys");
+  std::set<std::string> seen;
+  for (const auto& entry : value.node_) {
+    if (!entry.first.IsScalar()) value.refuse("expected keys that are plain text");
+    const std::string& key = entry.first.Scalar();
+    const YamlValue here(*value.document_, joined(value.key_, key), entry.first);
+    if (std::ranges::find(known, key) == known.end()) here.refuse("unknown key, " + advice(key, known));
+    if (!seen.insert(key).second) here.refuse("expected each key once (this one is repeated)");
+  }
+}
+
+std::optional<YamlValue> YamlMap::find(std::string_view key) const {
+  const YAML::Node node = value_.node_[std::string(key)];
+  if (!node.IsDefined()) return std::nullopt;
+  return YamlValue(*value_.document_, joined(value_.key_, key), node);
+}
+
+YamlValue YamlMap::at(std::string_view key) const {
+  if (const auto found = find(key)) return *found;
+  const YamlValue missing(*value_.document_, joined(value_.key_, key), value_.node_);
+  missing.refuse("this key is missing and has no default");
+}
+
+double YamlMap::number(std::string_view key, const Interval& within, std::optional<double> fallback) const {
+  const auto found = fallback ? find(key) : at(key);
+  return found ? found->number(within) : *fallback;
+}
+
+}  // namespace stereobench::worlds
