@@ -1,0 +1,35 @@
+#include "slam/belief.h"
+
+#include <cmath>
+
+#include "slam/motion.h"
+
+namespace stereobench::slam {
+
+Pose displace(const Pose& pose, const Eigen::Vector3d& step) {
+  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.heading_rad + step.z())};
+}
+
+Eigen::Vector3d displacement(const Pose& to, const Pose& from) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.heading_rad - from.heading_rad)};
+}
+
+PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now) {
+  const double c = std::cos(world_from_start.heading_rad);
+  const double s = std::sin(world_from_start.heading_rad);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << c, -s, s, c;
+  const Eigen::Matrix3d covariance = turn * start_from_now.covariance * turn.transpose();
+  return {compose(world_from_start, start_from_now.mean), 0.5 * (covariance + covariance.transpose())};
+}
+
+PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now) {
+  PoseBelief now = follow(world_from_start.mean, start_from_now);
+  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
+  lever(0, 2) = -(now.mean.y_m - world_from_start.mean.y_m);
+  lever(1, 2) = now.mean.x_m - world_from_start.mean.x_m;
+  now.covariance += lever * world_from_start.covariance * lever.transpose();
+  return now;
+}
+
+}  // namespace stereobench::slam

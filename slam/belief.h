@@ -1,0 +1,50 @@
+/// What a particle believes: Gaussians of its pose and of each landmark, and what it expects to see.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "slam/types.h"
+
+namespace stereobench::slam {
+
+/// A pose with its covariance over (x, y, heading); singular where nothing is uncertain.
+struct PoseBelief {
+  Pose mean;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// A landmark's place in the world, given the particle's path.
+struct LandmarkBelief {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
+/// A sighting as the models read it; the noise carries its floor already.
+struct Observation {
+  Eigen::Vector2d range_bearing = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
+};
+
+/// What a landmark should look like from an uncertain pose: moments of the sighting before it is used.
+struct Innovation {
+  Eigen::Vector2d expected = Eigen::Vector2d::Zero();             ///< range, bearing
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();           ///< S: pose, landmark and sensor together
+  Eigen::Matrix<double, 3, 2> cross = Eigen::Matrix<double, 3, 2>::Zero();  ///< of pose and sighting
+};
+
+/// The mean of poses moved by a small vector (dx, dy, dheading).
+Pose displace(const Pose& pose, const Eigen::Vector3d& step);
+
+/// The vector (dx, dy, dheading) from one pose to another, the heading wrapped.
+Eigen::Vector3d displacement(const Pose& to, const Pose& from);
+
+/// Puts a relative motion behind a pose that is known exactly.
+///
+/// Rotating and shifting a Gaussian is linear, so this loses nothing: motion in the plane does not depend on where
+/// it happens, and the motion since the last update can be predicted once for all particles.
+PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now);
+
+/// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.
+PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now);
+
+}  // namespace stereobench::slam

@@ -1,0 +1,32 @@
+#include "slam/dead_reckoning.h"
+
+#include "slam/measurement.h"
+#include "slam/motion.h"
+
+namespace stereobench::slam {
+
+DeadReckoning::DeadReckoning(const FilterConfig& config, const Pose& start)
+    : noise_(config.odometry_noise), belief_{start, Eigen::Matrix3d::Zero()} {}
+
+void DeadReckoning::predict(const Control& control) {
+  if (!is_valid(control)) {
+    ++counters_.rejected_inputs;
+    return;
+  }
+  const Eigen::Vector2d control_sd = standard_deviations(control, noise_);
+  belief_ = Linearised().move(belief_, control, control_sd, counters_.covariance_repairs);
+}
+
+void DeadReckoning::update(std::span<const RangeBearing> sightings) {
+  for (const RangeBearing& sighting : sightings) counters_.rejected_inputs += is_valid(sighting) ? 0 : 1;
+}
+
+Estimate DeadReckoning::estimate() const {
+  Estimate estimate;
+  estimate.pose = belief_.mean;
+  estimate.covariance = belief_.covariance;
+  estimate.counters = counters_;
+  return estimate;
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,27 @@
+/// The filter that looks at nothing: odometry summed up.
+#pragma once
+
+#include <span>
+
+#include "slam/linearised.h"
+
+namespace stereobench::slam {
+
+/// Integrates controls; the covariance is that of the odometry's noise to first order. Sightings are checked and
+/// counted like everywhere, and otherwise ignored.
+class DeadReckoning {
+ public:
+  DeadReckoning(const FilterConfig& config, const Pose& start);
+
+  void predict(const Control& control);
+  void update(std::span<const RangeBearing> sightings);
+  Estimate estimate() const;
+  Estimate estimate_without_map() const { return estimate(); }
+
+ private:
+  OdometryNoise noise_;
+  PoseBelief belief_;
+  FilterCounters counters_;
+};
+
+}  // namespace stereobench::slam

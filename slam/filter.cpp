@@ -1,0 +1,66 @@
+#include "slam/filter.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace stereobench::slam {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("make_filter: ") + what);
+}
+
+bool is_sd(double value) { return std::isfinite(value) && value >= 0.0; }
+
+void check(const OdometryNoise& noise) {
+  require(is_sd(noise.v_constant_mps) && is_sd(noise.v_per_v) && is_sd(noise.v_per_w) &&
+              is_sd(noise.w_constant_radps) && is_sd(noise.w_per_v) && is_sd(noise.w_per_w),
+          "odometry_noise must be finite and >= 0");
+}
+
+void check(const FilterConfig& config) {
+  check(config.odometry_noise);
+  require(config.particles >= 1, "particles must be >= 1");
+  require(is_sd(config.range_floor_m) && is_sd(config.bearing_floor_rad), "noise floors must be finite and >= 0");
+  require(config.resample_below >= 0.0 && config.resample_below <= 1.0, "resample_below must be in [0, 1]");
+  require(config.gate_probability > 0.0 && config.gate_probability <= 1.0, "gate_probability must be in (0, 1]");
+  require(is_sd(config.colour_spacing_m), "colour_spacing_m must be finite and >= 0");
+  const UnscentedParameters& unscented = config.unscented;
+  require(std::isfinite(unscented.alpha) && unscented.alpha > 0.0, "unscented.alpha must be > 0");
+  require(std::isfinite(unscented.beta) && std::isfinite(unscented.kappa) && unscented.kappa > -2.0,
+          "unscented.beta and kappa must be finite, kappa > -2");
+}
+
+}  // namespace
+
+std::vector<std::string> filter_names() { return {"dead_reckoning", "fastslam2", "ufastslam"}; }
+
+Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start, std::uint64_t seed) {
+  check(config);
+  require(std::isfinite(start.x_m) && std::isfinite(start.y_m) && std::isfinite(start.heading_rad),
+          "the start pose must be finite");
+  if (name == "dead_reckoning") return DeadReckoning(config, start);
+  if (name == "fastslam2") return FastSlam2(config, start, seed);
+  if (name == "ufastslam") return UFastSlam(config, start, seed);
+  std::string known;
+  for (const std::string& filter : filter_names()) known += (known.empty() ? "" : ", ") + filter;
+  throw std::invalid_argument("make_filter: no filter '" + name + "'; there are " + known);
+}
+
+void predict(Filter& filter, const Control& control) {
+  std::visit([&](auto& some) { some.predict(control); }, filter);
+}
+
+void update(Filter& filter, std::span<const RangeBearing> sightings) {
+  std::visit([&](auto& some) { some.update(sightings); }, filter);
+}
+
+Estimate estimate(const Filter& filter) {
+  return std::visit([](const auto& some) { return some.estimate(); }, filter);
+}
+
+Estimate estimate_without_map(const Filter& filter) {
+  return std::visit([](const auto& some) { return some.estimate_without_map(); }, filter);
+}
+
+}  // namespace stereobench::slam

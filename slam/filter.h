@@ -1,0 +1,45 @@
+/// The filters, by name, behind one contract: predict with each control, update with each frame, ask.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "slam/dead_reckoning.h"
+#include "slam/fast_slam.h"
+#include "slam/filter_config.h"
+#include "slam/types.h"
+
+namespace stereobench::slam {
+
+/// A filter is a value: a copy goes its own way and shares nothing with the original.
+using Filter = std::variant<DeadReckoning, FastSlam2, UFastSlam>;
+
+/// @return the names that make_filter knows: dead_reckoning, fastslam2, ufastslam
+std::vector<std::string> filter_names();
+
+/// Starts a filter at a known pose with an empty map.
+///
+/// @param name one of filter_names()
+/// @param config settings
+/// @param start world_from_robot, without uncertainty: the start defines the world frame
+/// @param seed key of the filter's random numbers
+/// @throws std::invalid_argument for an unknown name, a setting out of range or a start that is not finite
+Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start, std::uint64_t seed);
+
+/// Moves the belief by one control. One that is not finite or runs backwards in time is ignored and counted.
+void predict(Filter& filter, const Control& control);
+
+/// Corrects the belief by what was seen at one instant; an empty frame is none at all. A sighting that is not
+/// finite, has a negative range or an impossible covariance is ignored and counted.
+void update(Filter& filter, std::span<const RangeBearing> sightings);
+
+/// @return what the filter believes now: pose, map and what it had to mend so far
+Estimate estimate(const Filter& filter);
+
+/// @return the same without its map, at a cost that does not depend on the map
+Estimate estimate_without_map(const Filter& filter);
+
+}  // namespace stereobench::slam

@@ -1,0 +1,88 @@
+/// Small Gaussians whose covariance may be singular: square roots, log densities, and their repairs.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace stereobench::slam {
+
+/// A square root L of a semidefinite matrix, P = L L', lower triangular.
+///
+/// A Cholesky factorisation that takes a vanishing pivot as what it is: a direction without uncertainty. Motion
+/// noise has rank 2 and a sampled pose has P = 0, so such pivots are normal life. A pivot that is negative beyond
+/// rounding is taken as zero and counted.
+///
+/// @param covariance symmetric
+/// @param repairs incremented when the matrix was not semidefinite
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
+                                                      long& repairs) {
+  constexpr double kVanishing = 1e-14;
+  constexpr double kIndefinite = -1e-7;
+  Eigen::Matrix<double, kSize, kSize> root = Eigen::Matrix<double, kSize, kSize>::Zero();
+  bool repaired = false;
+  for (int j = 0; j < kSize; ++j) {
+    double pivot = covariance(j, j);
+    for (int k = 0; k < j; ++k) pivot -= root(j, k) * root(j, k);
+    repaired |= !(pivot >= kIndefinite * std::abs(covariance(j, j)));
+    if (!(pivot > kVanishing * covariance(j, j)) || !(pivot > 0.0)) continue;
+    root(j, j) = std::sqrt(pivot);
+    for (int i = j + 1; i < kSize; ++i) {
+      double sum = covariance(i, j);
+      for (int k = 0; k < j; ++k) sum -= root(i, k) * root(j, k);
+      root(i, j) = sum / root(j, j);
+    }
+  }
+  if (repaired) ++repairs;
+  return root;
+}
+
+/// A positive definite 2x2 covariance, factored once and used for gain, distance and density.
+class Factor2 {
+ public:
+  /// @param covariance symmetric; one that is not positive definite is mended and counted
+  Factor2(const Eigen::Matrix2d& covariance, long& repairs) {
+    constexpr double kVanishing = 1e-14;
+    first_ = covariance(0, 0);
+    bool repaired = !(first_ > kSmallest);
+    if (repaired) first_ = kSmallest;
+    slope_ = covariance(1, 0) / first_;
+    second_ = covariance(1, 1) - slope_ * covariance(1, 0);
+    if (!(second_ > kVanishing * covariance(1, 1)) || !(second_ > kSmallest)) {
+      second_ = std::fmax(kVanishing * covariance(1, 1), kSmallest);
+      repaired = true;
+    }
+    if (repaired) ++repairs;
+  }
+
+  /// @return v' S^-1 v, the squared Mahalanobis length
+  double squared_length(const Eigen::Vector2d& v) const {
+    const double rest = v.y() - slope_ * v.x();
+    return v.x() * v.x() / first_ + rest * rest / second_;
+  }
+
+  /// @return log det(2 pi S)
+  double log_det_2_pi() const {
+    constexpr double kLogTwoPi = 1.8378770664093454836;
+    return 2.0 * kLogTwoPi + std::log(first_) + std::log(second_);
+  }
+
+  /// @return A S^-1 for a matrix A with two columns
+  template <int kRows>
+  Eigen::Matrix<double, kRows, 2> divide(const Eigen::Matrix<double, kRows, 2>& a) const {
+    Eigen::Matrix<double, kRows, 2> quotient;
+    quotient.col(1) = (a.col(1) - slope_ * a.col(0)) / second_;
+    quotient.col(0) = a.col(0) / first_ - slope_ * quotient.col(1);
+    return quotient;
+  }
+
+ private:
+  static constexpr double kSmallest = 1e-200;
+  double first_, slope_, second_;
+};
+
+/// The quantile of the chi-square distribution with two degrees of freedom, -2 log(1 - p).
+inline double chi_square_2_quantile(double probability) { return -2.0 * std::log1p(-probability); }
+
+}  // namespace stereobench::slam

@@ -1,0 +1,94 @@
+#include "slam/linearised.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/gaussian.h"
+#include "slam/measurement.h"
+#include "slam/motion.h"
+
+namespace stereobench::slam {
+namespace {
+
+/// d(range, bearing) / d(landmark x, y). From the landmark's own place the bearing has no slope: the range is
+/// taken as at least a millimetre, and the direction as zero when there is none.
+Eigen::Matrix2d landmark_jacobian(const Pose& robot, const Eigen::Vector2d& point) {
+  constexpr double kNearest_m = 1e-3;
+  const double dx = point.x() - robot.x_m;
+  const double dy = point.y() - robot.y_m;
+  const double range = std::max(std::sqrt(dx * dx + dy * dy), kNearest_m);
+  const double c = dx / range;
+  const double s = dy / range;
+  Eigen::Matrix2d slope;
+  slope << c, s, -s / range, c / range;
+  return slope;
+}
+
+}  // namespace
+
+PoseBelief Linearised::move(const PoseBelief& belief, const Control& control, const Eigen::Vector2d& control_sd,
+                            long&) const {
+  const PoseBelief moved{advance(belief.mean, control), belief.covariance};
+  const double dt = control.duration_s;
+  const double half_turn = 0.5 * control.w_radps * dt;
+  const double direction = belief.mean.heading_rad + half_turn;
+  const Eigen::Vector2d along(std::cos(direction), std::sin(direction));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  // chord = v dt sinc(h), h = w dt / 2; d sinc/dh = (cos h - sinc h) / h, about -h/3 for small h.
+  const bool small = std::abs(half_turn) < 1e-4;
+  const double sinc = small ? 1.0 - half_turn * half_turn / 6.0 : std::sin(half_turn) / half_turn;
+  const double sinc_slope = small ? -half_turn / 3.0 : (std::cos(half_turn) - sinc) / half_turn;
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
+  by_pose(0, 2) = -(moved.mean.y_m - belief.mean.y_m);
+  by_pose(1, 2) = moved.mean.x_m - belief.mean.x_m;
+  Eigen::Matrix<double, 3, 2> by_control = Eigen::Matrix<double, 3, 2>::Zero();
+  by_control.block<2, 1>(0, 0) = dt * sinc * along;
+  by_control.block<2, 1>(0, 1) =
+      0.5 * control.v_mps * dt * dt * (sinc_slope * along + sinc * across);
+  by_control(2, 1) = dt;
+  const Eigen::Matrix<double, 3, 2> spread = by_control * control_sd.asDiagonal();
+  const Eigen::Matrix3d covariance = by_pose * belief.covariance * by_pose.transpose() + spread * spread.transpose();
+  return {moved.mean, 0.5 * (covariance + covariance.transpose())};
+}
+
+Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
+                              const Eigen::Matrix2d& noise, long&) const {
+  const Eigen::Matrix2d by_landmark = landmark_jacobian(belief.mean, landmark.mean);
+  Eigen::Matrix<double, 2, 3> by_pose;
+  by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
+  Innovation innovation;
+  innovation.expected = predict_sighting(belief.mean, landmark.mean);
+  innovation.cross = belief.covariance * by_pose.transpose();
+  innovation.covariance =
+      by_pose * innovation.cross + by_landmark * landmark.covariance * by_landmark.transpose() + noise;
+  return innovation;
+}
+
+LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
+                                  const Observation& observation, long& repairs) const {
+  const Eigen::Matrix2d slope = landmark_jacobian(robot, landmark.mean);
+  const Eigen::Matrix2d cross = landmark.covariance * slope.transpose();
+  const Factor2 factor(slope * cross + observation.noise, repairs);
+  const Eigen::Matrix2d gain = factor.divide<2>(cross);
+  const Eigen::Vector2d surprise =
+      sighting_residual(observation.range_bearing, predict_sighting(robot, landmark.mean));
+  // Joseph's form stays semidefinite under rounding.
+  const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * slope;
+  const Eigen::Matrix2d covariance =
+      kept * landmark.covariance * kept.transpose() + gain * observation.noise * gain.transpose();
+  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+}
+
+LandmarkBelief Linearised::found(const Pose& robot, const Observation& observation, long&) const {
+  const double direction = robot.heading_rad + observation.range_bearing.y();
+  // A range of 0 was noisy too: the bearing's lever is at least the range's own standard deviation.
+  const double lever = std::max(observation.range_bearing.x(), std::sqrt(observation.noise(0, 0)));
+  const double c = std::cos(direction);
+  const double s = std::sin(direction);
+  Eigen::Matrix2d slope;
+  slope << c, -lever * s, s, lever * c;
+  const Eigen::Matrix2d covariance = slope * observation.noise * slope.transpose();
+  return {locate(robot, observation.range_bearing), 0.5 * (covariance + covariance.transpose())};
+}
+
+}  // namespace stereobench::slam

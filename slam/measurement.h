@@ -1,0 +1,39 @@
+/// How a landmark is seen: range and bearing of a point from a pose, and back.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "slam/motion.h"
+#include "slam/types.h"
+
+namespace stereobench::slam {
+
+/// Range and bearing (m, rad) at which a point is seen: eq. 5 with atan2(dy, dx) - heading, wrapped.
+///
+/// @param robot world_from_robot
+/// @param point_in_world m
+/// @return (range >= 0, bearing in (-pi, pi]); at range 0 every bearing is as good, and -heading is returned
+inline Eigen::Vector2d predict_sighting(const Pose& robot, const Eigen::Vector2d& point_in_world) {
+  const double dx = point_in_world.x() - robot.x_m;
+  const double dy = point_in_world.y() - robot.y_m;
+  return {std::sqrt(dx * dx + dy * dy), wrap_angle(std::atan2(dy, dx) - robot.heading_rad)};
+}
+
+/// The point in the world that is seen at a range and bearing: the inverse of predict_sighting.
+inline Eigen::Vector2d locate(const Pose& robot, const Eigen::Vector2d& range_bearing) {
+  const double direction_rad = robot.heading_rad + range_bearing.y();
+  return {robot.x_m + range_bearing.x() * std::cos(direction_rad),
+          robot.y_m + range_bearing.x() * std::sin(direction_rad)};
+}
+
+/// The difference a - b of two sightings: the bearing is wrapped, the range is not.
+inline Eigen::Vector2d sighting_residual(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return {a.x() - b.x(), wrap_angle(a.y() - b.y())};
+}
+
+/// @return whether a sighting can be used: finite, range >= 0, covariance symmetric and semidefinite
+bool is_valid(const RangeBearing& sighting);
+
+}  // namespace stereobench::slam

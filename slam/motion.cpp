@@ -1,0 +1,64 @@
+#include "slam/motion.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace stereobench::slam {
+namespace {
+
+/// sin(x) / x, which is 1 - x^2/6 to the last bit where the quotient would lose it.
+double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
+
+}  // namespace
+
+double wrap_angle(double angle_rad) {
+  constexpr double kPi = std::numbers::pi;
+  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
+  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
+  return wrapped <= -kPi ? kPi : wrapped;
+}
+
+Pose advance(const Pose& pose, const Control& control) {
+  const double half_turn_rad = 0.5 * control.w_radps * control.duration_s;
+  const double chord_m = control.v_mps * control.duration_s * sinc(half_turn_rad);
+  const double direction_rad = pose.heading_rad + half_turn_rad;
+  return {pose.x_m + chord_m * std::cos(direction_rad), pose.y_m + chord_m * std::sin(direction_rad),
+          wrap_angle(pose.heading_rad + 2.0 * half_turn_rad)};
+}
+
+Pose compose(const Pose& a_from_b, const Pose& b_from_c) {
+  const double c = std::cos(a_from_b.heading_rad);
+  const double s = std::sin(a_from_b.heading_rad);
+  return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
+          a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
+          wrap_angle(a_from_b.heading_rad + b_from_c.heading_rad)};
+}
+
+Pose inverse(const Pose& a_from_b) {
+  const double c = std::cos(a_from_b.heading_rad);
+  const double s = std::sin(a_from_b.heading_rad);
+  return {-c * a_from_b.x_m - s * a_from_b.y_m, s * a_from_b.x_m - c * a_from_b.y_m,
+          wrap_angle(-a_from_b.heading_rad)};
+}
+
+Eigen::Vector2d standard_deviations(const Control& control, const OdometryNoise& noise) {
+  const double v = std::abs(control.v_mps);
+  const double w = std::abs(control.w_radps);
+  return {noise.v_constant_mps + noise.v_per_v * v + noise.v_per_w * w,
+          noise.w_constant_radps + noise.w_per_v * v + noise.w_per_w * w};
+}
+
+Control perturb(const Control& control, const OdometryNoise& noise, RandomStream& random) {
+  const Eigen::Vector2d sd = standard_deviations(control, noise);
+  Control perturbed = control;
+  perturbed.v_mps += sd.x() * random.normal();
+  perturbed.w_radps += sd.y() * random.normal();
+  return perturbed;
+}
+
+bool is_valid(const Control& control) {
+  return std::isfinite(control.v_mps) && std::isfinite(control.w_radps) && std::isfinite(control.duration_s) &&
+         control.duration_s >= 0.0;
+}
+
+}  // namespace stereobench::slam
