@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/measurement.h"
 #include "slam/motion.h"
 
 namespace stereobench::worlds {
@@ -11,10 +12,10 @@ std::vector<slam::RangeBearing> sense(const World& world, const slam::Pose& worl
                                       slam::RandomStream& noise) {
   std::vector<slam::RangeBearing> sightings;
   for (std::size_t id = 0; id < world.balls.size(); ++id) {
-    const double dx_m = world.balls[id].centre_m.x() - world_from_robot.x_m;
-    const double dy_m = world.balls[id].centre_m.y() - world_from_robot.y_m;
-    const double range_m = std::hypot(dx_m, dy_m);
-    const double bearing_rad = slam::wrap_angle(std::atan2(dy_m, dx_m) - world_from_robot.heading_rad);
+    const Eigen::Vector2d truth =
+        slam::predict_sighting(world_from_robot, world.balls[id].centre_m.head<2>());
+    const double range_m = truth.x();
+    const double bearing_rad = truth.y();
     if (range_m > sensor.max_range_m || std::abs(bearing_rad) > sensor.field_of_view_rad / 2.0) continue;
 
     slam::RangeBearing sighting;

@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "slam/filter.h"
 #include "slam/random.h"
 #include "worlds/scenario_checks.h"
 #include "worlds/scenario_parts.h"
@@ -22,9 +23,11 @@ std::string read_name(const YamlValue& value) {
 }
 
 std::vector<std::string> read_filters(const YamlValue& value) {
+  const std::vector<std::string> known = slam::filter_names();
+  const std::vector<std::string_view> names(known.begin(), known.end());
   std::vector<std::string> filters;
   for (const YamlValue& entry : value.list(1, 16)) {
-    filters.push_back(entry.text());
+    filters.push_back(known[entry.choice(names)]);
     if (std::ranges::count(filters, filters.back()) > 1) entry.fail("expected each filter once");
   }
   return filters;

@@ -93,10 +93,10 @@ YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std:
 }
 
 std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark) {
+  if (mark.is_null()) return "--set " + key;  // in a group that was made on the way to an override
   for (const std::string& overridden : document.overridden) {
-    // A group without a place in the file was made on the way to an override.
-    if (lies_within(key, overridden) || (mark.is_null() && lies_within(overridden, key)))
-      return "--set " + key;
+    if (lies_within(key, overridden)) return "--set " + key;
+    if (!key.empty() && lies_within(overridden, key)) return "--set " + overridden;
   }
   if (key.empty()) return fmt::format("{}:{}", document.file.string(), mark.line + 1);
   return fmt::format("{}:{}: {}", document.file.string(), mark.line + 1, key);
