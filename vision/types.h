@@ -26,9 +26,9 @@ struct Intrinsics {
 /// floor, half a baseline left and right of the robot's origin, looking forward and `pitch_down_rad` down.
 struct StereoRig {
   Intrinsics camera;
-  double baseline_m = 0.12;      ///< > 0
-  double height_m = 0.30;        ///< above the floor
-  double pitch_down_rad = 0.0;   ///< positive looks at the floor
+  double baseline_m = 0.12;     ///< > 0
+  double height_m = 0.30;       ///< above the floor
+  double pitch_down_rad = 0.0;  ///< positive looks at the floor
 };
 
 /// The two images of one instant, 8-bit BGR, linear light.
@@ -39,15 +39,15 @@ struct StereoPair {
 
 /// One ball seen by both eyes.
 struct BallObservation {
-  int colour = slam::kUnknown;  ///< index into the palette
-  Eigen::Vector2d left_px = Eigen::Vector2d::Zero();   ///< centre of the outline's ellipse
+  int colour = slam::kUnknown;                        ///< index into the palette
+  Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  ///< centre of the outline's ellipse
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
-  double left_radius_px = 0.0;   ///< of the circle of the same area
+  double left_radius_px = 0.0;  ///< of the circle of the same area
   double right_radius_px = 0.0;
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< centre in the left camera's frame, m
   slam::RangeBearing range_bearing;  ///< in the robot frame; colour_class is set, landmark_id is not
-  bool truncated = false;  ///< cut by the image border in an eye
-  bool occluded = false;   ///< partly hidden in an eye
+  bool truncated = false;            ///< cut by the image border in an eye
+  bool occluded = false;             ///< partly hidden in an eye
   /// True when the measurement can be trusted.
   bool whole() const { return !truncated && !occluded; }
 };

@@ -1,0 +1,89 @@
+#include "vision/arc_fit.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace stereobench::vision {
+namespace {
+
+// Measured on rendered balls (see tests/vision/noise_law_test.cpp): errors of alpha that the noise does not
+// explain, and how much larger than by the noise of single pixels the error of an arc is, since its pixels
+// share their colours.
+constexpr double kQuantisation = 0.01;
+constexpr double kNoiseFactor = 1.0;
+
+constexpr int kReweightings = 4;
+constexpr double kHuberSigmas = 2.0;
+constexpr double kCutOff = 3.0;  // times the Huber threshold
+constexpr double kMinArcShare = 1.0 / 3.0;
+
+double robust_weight(double residual_px, double threshold_px) {
+  const double size = std::abs(residual_px) / threshold_px;
+  if (size <= 1.0) return 1.0;
+  return size < kCutOff ? 1.0 / size : 0.0;
+}
+
+Eigen::Vector3d direction(const ArcOffset& arc) {
+  return {arc.normal.x(), arc.normal.y(), 1.0};
+}
+
+}  // namespace
+
+std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>& colours,
+                                   const OutlineModel& outline, double ramp_half_width_px) {
+  std::vector<ArcOffset> arcs(rim.sectors);
+  std::vector<double> information(rim.sectors, 0.0);
+  for (const RimPixel& pixel : rim.pixels) {
+    const ArcColours& colour = colours[pixel.sector];
+    if (!colour.usable) continue;
+    const RimPoint point = outline.rim_point(pixel.position_px);
+    const Coverage covered =
+        ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : edge_coverage(point);
+    if (covered.per_px <= 0.0) continue;
+    const double alpha = colour.unmix.dot(pixel.bgr - colour.background);
+    ArcOffset& arc = arcs[pixel.sector];
+    arc.offset_px += covered.per_px * (alpha - covered.fraction);
+    arc.normal += covered.per_px * covered.per_px * point.normal;
+    information[pixel.sector] += covered.per_px * covered.per_px;
+  }
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (!(information[i] > 0.25)) continue;
+    arcs[i].offset_px /= information[i];
+    arcs[i].normal /= information[i];
+    arcs[i].variance_px2 =
+        (kNoiseFactor * colours[i].alpha_variance + kQuantisation * kQuantisation) / information[i];
+    arcs[i].weight = 1.0;
+  }
+  return arcs;
+}
+
+std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double tolerance_px) {
+  OutlineStep step;
+  for (int pass = 0; pass < kReweightings; ++pass) {
+    Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+    double share = 0.0;
+    for (const ArcOffset& arc : arcs) {
+      if (arc.weight <= 0.0) continue;
+      const double weight = arc.weight / arc.variance_px2;
+      const Eigen::Vector3d along = direction(arc);
+      normal_matrix.noalias() += weight * along * along.transpose();
+      right_side += weight * arc.offset_px * along;
+      share += arc.weight;
+    }
+    if (!(share > kMinArcShare * static_cast<double>(arcs.size()))) return std::nullopt;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal_matrix);
+    step.change_px = solver.solve(right_side);
+    step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());
+    if (!step.change_px.allFinite()) return std::nullopt;
+    for (ArcOffset& arc : arcs) {
+      if (arc.variance_px2 <= 0.0) continue;
+      const double residual = arc.offset_px - direction(arc).dot(step.change_px);
+      arc.weight = robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
+    }
+  }
+  return step;
+}
+
+}  // namespace stereobench::vision

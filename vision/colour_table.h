@@ -1,0 +1,33 @@
+/// Which palette colour a pixel has, answered by one look-up.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace stereobench::vision {
+
+inline constexpr std::uint8_t kBackground = 255;  ///< a pixel that has no ball's colour
+
+/// Palette colours by BGR value, 6 bits a channel: the nearest colour in rg chromaticity, which shading
+/// leaves alone, if the pixel is bright, saturated and close enough to it.
+class ColourTable {
+ public:
+  /// Computes all 64^3 entries from kPalette.
+  ColourTable();
+
+  /// @return an index into kPalette, or kBackground
+  std::uint8_t classify(std::uint8_t b, std::uint8_t g, std::uint8_t r) const {
+    const auto cell = (static_cast<std::size_t>(b >> 2) << 12) | (static_cast<std::size_t>(g >> 2) << 6) |
+                      static_cast<std::size_t>(r >> 2);
+    return cells_[cell];
+  }
+
+ private:
+  std::array<std::uint8_t, 64 * 64 * 64> cells_;
+};
+
+/// The one table there is: it follows from kPalette alone, is built on first use and never changes.
+const ColourTable& palette_table();
+
+}  // namespace stereobench::vision

@@ -1,0 +1,113 @@
+#include "vision/observe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "vision/blobs.h"
+#include "vision/outline_fit.h"
+#include "vision/range_bearing.h"
+#include "vision/rig.h"
+#include "vision/sphere.h"
+#include "vision/stereo_match.h"
+
+namespace stereobench::vision {
+namespace {
+
+constexpr double kMinPatch = 0.3;  // of the smallest outline's area that shows its colour clearly
+constexpr double kMaxHidden =
+    0.06;  // of an outline's area, between the 5 % that are fine and the 7 % that are not
+constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
+constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
+
+void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
+  if (image.type() != CV_8UC3 || image.empty())
+    throw std::invalid_argument(fmt::format("{} image: expected 8-bit BGR (CV_8UC3)", eye));
+  if (image.cols != camera.width_px || image.rows != camera.height_px)
+    throw std::invalid_argument(fmt::format("{} image: {} x {} pixels, the rig's have {} x {}", eye,
+                                            image.cols, image.rows, camera.width_px, camera.height_px));
+}
+
+void check_settings(const StereoRig& rig, const ObserverSettings& settings) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  if (!is_usable(rig))
+    throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
+  if (!positive(settings.ball_radius_m) || !positive(settings.min_radius_px) ||
+      !positive(settings.min_depth_m))
+    throw std::invalid_argument("observer settings: expected positive ball radius, outline radius and depth");
+  if (!std::isfinite(settings.noise_sd_levels) || settings.noise_sd_levels < 0.0)
+    throw std::invalid_argument("observer settings: expected an image noise of at least 0 levels");
+}
+
+bool same_place(const MeasuredOutline& a, const MeasuredOutline& b) {
+  return (a.centre_px - b.centre_px).norm() < kSamePlace * std::max(a.radius_px, b.radius_px);
+}
+
+// Pieces of one ball, and rims that look like a third colour, all lead to the same outline: the largest patch
+// is right.
+std::vector<MeasuredOutline> without_duplicates(std::vector<MeasuredOutline> outlines) {
+  std::stable_sort(outlines.begin(), outlines.end(),
+                   [](const auto& a, const auto& b) { return a.seen_px > b.seen_px; });
+  std::vector<MeasuredOutline> result;
+  for (const MeasuredOutline& outline : outlines) {
+    const auto is_same = [&](const MeasuredOutline& other) { return same_place(other, outline); };
+    if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(outline);
+  }
+  return result;
+}
+
+std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const StereoRig& rig,
+                                           const ObserverSettings& settings) {
+  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
+  const FitSettings fit_settings{rig.camera, settings.noise_sd_levels, settings.min_radius_px};
+  std::vector<MeasuredOutline> outlines;
+  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
+    const auto outline = fit_outline(image, blob, fit_settings);
+    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
+    outlines.push_back(*outline);
+  }
+  return without_duplicates(std::move(outlines));
+}
+
+BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const ObserverSettings& settings) {
+  const OutlineCentres centres{pair.left.centre_px, pair.right.centre_px, pair.left.covariance_px2,
+                               pair.right.covariance_px2};
+  BallObservation ball;
+  ball.colour = pair.left.colour;
+  ball.left_px = pair.left.centre_px;
+  ball.right_px = pair.right.centre_px;
+  ball.left_radius_px = pair.left.radius_px;
+  ball.right_radius_px = pair.right.radius_px;
+  ball.ball_in_camera = triangulate_ball(rig, ball.left_px, ball.right_px, settings.ball_radius_m).value();
+  ball.range_bearing = range_bearing(
+      ball.ball_in_camera, ball_covariance(rig, centres, settings.ball_radius_m), robot_from_camera(rig));
+  ball.range_bearing.colour_class = ball.colour;
+  ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMaxHidden;
+  ball.occluded =
+      !pair.sizes_agree || std::max(pair.left.hidden_fraction, pair.right.hidden_fraction) > kMaxHidden;
+  return ball;
+}
+
+bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
+  return a.colour != b.colour ? a.colour < b.colour : a.left_px.x() < b.left_px.x();
+}
+
+}  // namespace
+
+std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
+                                     const ObserverSettings& settings) {
+  check_settings(rig, settings);
+  check_image(pair.left, rig.camera, "left");
+  check_image(pair.right, rig.camera, "right");
+  const auto left = find_outlines(pair.left, rig, settings);
+  const auto right = find_outlines(pair.right, rig, settings);
+  std::vector<BallObservation> balls;
+  for (const OutlinePair& outlines : match_outlines(left, right, rig, settings))
+    balls.push_back(measure(outlines, rig, settings));
+  std::sort(balls.begin(), balls.end(), by_colour_then_column);
+  return balls;
+}
+
+}  // namespace stereobench::vision

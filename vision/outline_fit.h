@@ -1,0 +1,44 @@
+/// Sub-pixel outlines of balls: the ellipse that explains how much of each rim pixel the ball covers.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "vision/blobs.h"
+#include "vision/types.h"
+
+namespace stereobench::vision {
+
+/// A ball's outline as one eye measures it.
+struct MeasuredOutline {
+  int colour = 0;                                            ///< index into kPalette
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();       ///< of the ellipse
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
+  double radius_px = 0.0;                                    ///< of the circle of the same area
+  double radius_sd_px = 0.0;
+  double hidden_fraction = 0.0;   ///< of the outline's area, hidden by something in front of it, in [0, 1]
+  double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
+  long seen_px = 0;               ///< pixels of the patch that it was found by
+};
+
+/// What outlines are fitted with.
+struct FitSettings {
+  Intrinsics camera;
+  double noise_sd_levels = 0.0;
+  double min_radius_px = 3.0;
+};
+
+/// Fits a ball's outline (centre and radius of an ellipse of known shape) around a patch of colour.
+///
+/// Each arc of about three rim pixels is unmixed into ball and background and says how far the edge is from
+/// where the model has it (Gauss-Newton on the coverage, weighted by what the arc can know); arcs that are
+/// hidden, cut off, without contrast or at odds with the rest do not count. The edge starts as a wide ramp,
+/// for a poor start, and ends as the pixels' own box filter, for precision.
+/// @param image CV_8UC3, BGR
+/// @return empty when there is no ball's outline around the patch
+std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
+                                           const FitSettings& settings);
+
+}  // namespace stereobench::vision

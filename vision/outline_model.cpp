@@ -1,0 +1,50 @@
+#include "vision/outline_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stereobench::vision {
+
+OutlineModel::OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px)
+    : centre_px_(centre_px), radius_px_(radius_px) {
+  // a / b = sqrt((D^2 - R^2) / (Z^2 - R^2)) = sqrt(1 + |m|^2 / (1 + b^2)), m the centre in normalised
+  // coordinates
+  const Eigen::Vector2d off_axis_px = centre_px - Eigen::Vector2d(camera.cx_px, camera.cy_px);
+  const Eigen::Vector2d m = off_axis_px / camera.focal_px;
+  const double b = radius_px / camera.focal_px;
+  const double stretch = std::sqrt(1.0 + m.squaredNorm() / (1.0 + b * b));
+  semi_major_px_ = radius_px * std::sqrt(stretch);
+  const double semi_minor_px = radius_px / std::sqrt(stretch);
+  const double m_norm = m.norm();
+  const Eigen::Vector2d major = m_norm > 0.0 ? Eigen::Vector2d(m / m_norm) : Eigen::Vector2d(1.0, 0.0);
+  const double across = 1.0 / (semi_minor_px * semi_minor_px);
+  const double along = 1.0 / (semi_major_px_ * semi_major_px_);
+  form_ = across * Eigen::Matrix2d::Identity() + (along - across) * major * major.transpose();
+}
+
+Coverage edge_coverage(const RimPoint& rim) {
+  const double nx = std::abs(rim.normal.x());
+  const double ny = std::abs(rim.normal.y());
+  const double larger = std::max(nx, ny);
+  const double smaller = std::min(nx, ny);
+  const double t = std::abs(rim.distance_px);
+  const double corner = 0.5 * (larger + smaller);  // where the edge leaves the square
+  const double side = 0.5 * (larger - smaller);    // where it meets the square's nearer corner
+  if (t >= corner) return {rim.distance_px > 0.0 ? 0.0 : 1.0, 0.0};
+  double outer = 0.5 - t / larger;
+  double per_px = 1.0 / larger;
+  if (t > side) {
+    outer = (corner - t) * (corner - t) / (2.0 * larger * smaller);
+    per_px = (corner - t) / (larger * smaller);
+  }
+  return {rim.distance_px > 0.0 ? outer : 1.0 - outer, per_px};
+}
+
+Coverage ramp_coverage(const RimPoint& rim, double half_width_px) {
+  const double fraction = 0.5 - 0.5 * rim.distance_px / half_width_px;
+  if (fraction <= 0.0) return {0.0, 0.0};
+  if (fraction >= 1.0) return {1.0, 0.0};
+  return {fraction, 0.5 / half_width_px};
+}
+
+}  // namespace stereobench::vision

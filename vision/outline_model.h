@@ -1,0 +1,59 @@
+/// The outline that a ball of a given centre and size must have, and what it covers of each pixel.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "vision/types.h"
+
+namespace stereobench::vision {
+
+/// Where a pixel lies relative to an outline.
+struct RimPoint {
+  double distance_px = 0.0;                          ///< to the outline, positive outside, to first order
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit, outwards
+};
+
+/// The outline of a ball as an ellipse with three parameters: centre and radius of the circle of equal area.
+/// The eccentricity and the direction of the major axis follow from them, since only spheres are looked at.
+class OutlineModel {
+ public:
+  /// @param centre_px of the ellipse
+  /// @param radius_px > 0
+  OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px);
+
+  /// @param pixel_px a pixel's centre, not the ellipse's centre itself
+  RimPoint rim_point(const Eigen::Vector2d& pixel_px) const {
+    const Eigen::Vector2d offset = pixel_px - centre_px_;
+    const Eigen::Vector2d gradient = form_ * offset;
+    const double level = std::sqrt(offset.dot(gradient));
+    const double slope = gradient.norm();
+    if (!(slope > 0.0)) return {-radius_px_, Eigen::Vector2d(1.0, 0.0)};
+    return {(level - 1.0) * level / slope, gradient / slope};
+  }
+
+  const Eigen::Vector2d& centre_px() const { return centre_px_; }
+  double radius_px() const { return radius_px_; }
+  double semi_major_px() const { return semi_major_px_; }
+
+ private:
+  Eigen::Vector2d centre_px_;
+  double radius_px_;
+  double semi_major_px_;
+  Eigen::Matrix2d form_;  // offset' form offset = 1 on the outline
+};
+
+/// What a straight edge leaves of a pixel, and how fast that changes when the edge moves outwards.
+struct Coverage {
+  double fraction = 0.0;  ///< of the pixel's square inside the outline, in [0, 1]
+  double per_px = 0.0;    ///< derivative by a shift of the edge along its normal, >= 0
+};
+
+/// Coverage of a unit square pixel by the inside of an edge: a box filter, exact for straight edges.
+Coverage edge_coverage(const RimPoint& rim);
+
+/// The same with the edge blurred to a ramp of the given half width: finds outlines that are further away.
+Coverage ramp_coverage(const RimPoint& rim, double half_width_px);
+
+}  // namespace stereobench::vision

@@ -1,0 +1,55 @@
+/// The pixels around a ball's outline and the two colours that mix in them.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "vision/outline_model.h"
+
+namespace stereobench::vision {
+
+/// A pixel near the outline.
+struct RimPixel {
+  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
+  Eigen::Vector3d bgr = Eigen::Vector3d::Zero();
+  std::size_t sector = 0;  ///< which arc of the outline it belongs to
+};
+
+/// The pixels of the image that are near an outline, sorted into short arcs.
+struct Rim {
+  std::vector<RimPixel> pixels;  ///< row by row
+  std::size_t sectors = 0;
+};
+
+/// Collects the pixels at most `reach_px` inside or outside of the outline, in arcs of about three pixels.
+/// @param image CV_8UC3; pixels outside it are missing from the rim
+Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_px);
+
+/// How a pixel of one arc is split into ball and background: alpha = unmix . (bgr - background).
+struct ArcColours {
+  Eigen::Vector3d background = Eigen::Vector3d::Zero();  ///< BGR, just outside
+  Eigen::Vector3d unmix = Eigen::Vector3d::Zero();       ///< per level; zero where the arc shows nothing
+  double alpha_variance = 0.0;  ///< of a pixel's alpha from noise and from the background's texture
+  bool usable = false;          ///< the ball's colour inside, another one outside, enough contrast
+};
+
+/// What arc colours are judged by.
+struct UnmixSettings {
+  Eigen::Vector3d ball_bgr = Eigen::Vector3d::Zero();  ///< palette colour, any brightness
+  double noise_sd_levels = 0.0;
+  double gap_px = 0.9;  ///< colours are sampled this far from the outline and two pixels further
+};
+
+/// Samples both colours of each arc and prepares the unmixing I = alpha ball + (1 - alpha) background. The
+/// ball's brightness at the very rim is known from further inside only to some 15 % (Lambert shading changes
+/// fastest there), so differences along the ball's own colour count for little, and chromaticity for much.
+std::vector<ArcColours> arc_colours(const Rim& rim, const OutlineModel& outline,
+                                    const UnmixSettings& settings);
+
+/// Whether a colour is a shade of the ball's: close to the line from black to the ball's colour.
+/// @param noise_levels standard deviation of the colour's channels
+bool is_shade_of(const Eigen::Vector3d& bgr, const Eigen::Vector3d& ball_bgr, double noise_levels);
+
+}  // namespace stereobench::vision

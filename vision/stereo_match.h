@@ -1,0 +1,24 @@
+/// Which outline of the right eye is the same ball as which of the left.
+#pragma once
+
+#include <vector>
+
+#include "vision/observe.h"
+#include "vision/outline_fit.h"
+
+namespace stereobench::vision {
+
+/// The same ball's outline in both eyes.
+struct OutlinePair {
+  MeasuredOutline left;
+  MeasuredOutline right;
+  bool sizes_agree = true;  ///< both radii are what a whole ball at the triangulated place must have
+};
+
+/// Pairs outlines of one colour on one row whose disparity is positive and whose radii suit the depth that
+/// the disparity gives (f R / Z for balls of known radius). Only mutual best partners are paired.
+std::vector<OutlinePair> match_outlines(const std::vector<MeasuredOutline>& left,
+                                        const std::vector<MeasuredOutline>& right, const StereoRig& rig,
+                                        const ObserverSettings& settings);
+
+}  // namespace stereobench::vision
