@@ -42,6 +42,7 @@ struct FilterRun {
   std::vector<Eigen::Matrix3d> covariances;
   slam::Estimate last;    ///< the final estimate, with its map
   bool failed = false;    ///< it threw, or a pose was not finite
+  std::string failure;    ///< why, and at which step; empty when it did not fail
 };
 
 }  // namespace stereobench::harness

@@ -16,7 +16,8 @@ struct SensorNoise {
 /// A log together with what was left out of it on purpose.
 struct RecordedLog {
   MeasurementLog log;
-  long robot_sightings = 0;  ///< MRCLAM: sightings of the other robots, which are no landmarks
+  long robot_sightings = 0;   ///< MRCLAM: sightings of the other robots, which are no landmarks
+  long unknown_barcodes = 0;  ///< MRCLAM: sightings of a barcode that `Barcodes.dat` does not name
 };
 
 /// Reads a recorded log: `odometry.csv`, `observations.csv` and, where they exist, `landmarks.csv` (also

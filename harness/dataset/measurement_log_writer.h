@@ -11,8 +11,9 @@ namespace stereobench::harness {
 /// `instants.csv` (the stamps of all steps, also of those at which nothing was seen), each atomically.
 /// Numbers are as short as they can be and still be read back exactly; stamps are exact nanoseconds.
 /// @param folder an existing folder
-/// @param log its odometry must fill the time between its steps, to a microsecond
-/// @throws std::invalid_argument when it does not; std::runtime_error when a file cannot be written
+/// @param log its odometry must fill the time between its steps, to a microsecond, and it must start where a
+///   reader starts: at the first step's truth, or at the origin where that is unknown
+/// @throws std::invalid_argument when it does not so; std::runtime_error when a file cannot be written
 void write_log(const std::filesystem::path& folder, const MeasurementLog& log);
 
 }  // namespace stereobench::harness

@@ -17,7 +17,7 @@ namespace stereobench::harness {
 /// @return its estimate after every step. `failed` when the filter threw or its estimate was not finite; then
 /// the
 ///   steps before that are kept
-/// @throws std::invalid_argument when there is no such filter
+/// @throws std::invalid_argument when there is no such filter, or a setting or the start is out of range
 FilterRun replay(const MeasurementLog& log, const std::string& filter, const slam::FilterConfig& config,
                  std::uint64_t seed);
 

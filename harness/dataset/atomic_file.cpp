@@ -1,0 +1,110 @@
+#include "harness/dataset/atomic_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <unistd.h>
+
+namespace stereobench::harness {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
+  throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
+}
+
+/// A file under a name of its own, which is removed again unless it was renamed into place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& final_path) : final_path_(final_path) {
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+      name_ = fmt::format("{}.{}-{}.tmp", final_path.string(), getpid(), attempt);
+      descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST) fail(final_path_, "cannot be written", errno);
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!moved_) unlink(name_.c_str());
+  }
+
+  void write_all(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(final_path_, "cannot be written", errno);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  void move_into_place() {
+    if (fsync(descriptor_) != 0) fail(final_path_, "cannot be written", errno);
+    if (close(std::exchange(descriptor_, -1)) != 0) fail(final_path_, "cannot be written", errno);
+    if (std::rename(name_.c_str(), final_path_.c_str()) != 0) fail(final_path_, "cannot be replaced", errno);
+    moved_ = true;
+  }
+
+ private:
+  fs::path final_path_;
+  std::string name_;
+  int descriptor_ = -1;
+  bool moved_ = false;
+};
+
+/// Makes a rename in a folder survive a power cut. File systems that cannot do so are let be.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+}  // namespace
+
+void prepare_output_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw std::runtime_error(
+        fmt::format("{}: is a file, not a folder that results can be written to", folder.string()));
+  }
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "cannot be created", error.value());
+  if (access(folder.c_str(), W_OK | X_OK) != 0) fail(folder, "cannot be written to", errno);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  if (fs::is_directory(path)) fail(path, "cannot be replaced", EISDIR);
+  TemporaryFile file(path);
+  file.write_all(bytes);
+  file.move_into_place();
+  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void write_png(const fs::path& path, const cv::Mat& image) {
+  const int channels = image.channels();
+  const bool suitable = !image.empty() && (image.depth() == CV_8U || image.depth() == CV_16U) &&
+                        (channels == 1 || channels == 3 || channels == 4);
+  if (!suitable) {
+    throw std::invalid_argument(
+        fmt::format("write_png: {}: not a picture of 8 or 16 bits and 1, 3 or 4 channels", path.string()));
+  }
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", image, bytes)) {
+    throw std::runtime_error(fmt::format("{}: cannot be encoded as PNG", path.string()));
+  }
+  write_file_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,82 @@
+#include "harness/dataset/measurement_log_reader.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/dataset/log_steps.h"
+#include "harness/dataset/number_table.h"
+#include "harness/dataset/recorded_streams.h"
+
+namespace stereobench::harness {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kRobots = 5;
+
+bool is_csv_file(const std::string& name) {
+  for (const char* stem : {"odometry", "observations", "landmarks", "groundtruth", "instants"}) {
+    if (name == fmt::format("{}.csv", stem) || name == fmt::format("{}.csv.gz", stem)) return true;
+  }
+  return false;
+}
+
+/// The robot that one of MRCLAM's files is about.
+std::optional<int> robot_of(const std::string& name) {
+  for (int robot = 1; robot <= kRobots; ++robot) {
+    for (const char* what : {"Odometry", "Measurement", "Groundtruth"}) {
+      const std::string plain = fmt::format("Robot{}_{}.dat", robot, what);
+      if (name == plain || name == plain + ".gz") return robot;
+    }
+  }
+  return {};
+}
+
+RecordedStreams read_file_named(const fs::path& file, const SensorNoise& noise) {
+  const std::string name = file.filename().string();
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (is_csv_file(name)) return read_csv_streams(folder, noise);
+  if (const auto robot = robot_of(name)) return read_mrclam_streams(folder, *robot, noise);
+  throw std::runtime_error(fmt::format(
+      "{}: expected a log's folder, its odometry.csv[.gz] or its Robot<k>_Odometry.dat[.gz]", file.string()));
+}
+
+RecordedStreams read_folder(const fs::path& folder, const SensorNoise& noise) {
+  std::vector<int> robots;
+  for (int robot = 1; robot <= kRobots; ++robot) {
+    if (find_plain_or_gz(folder / fmt::format("Robot{}_Odometry.dat", robot))) robots.push_back(robot);
+  }
+  if (find_plain_or_gz(folder / "odometry.csv")) return read_csv_streams(folder, noise);
+  if (robots.size() == 1) return read_mrclam_streams(folder, robots.front(), noise);
+  if (robots.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: expected odometry.csv or Robot<k>_Odometry.dat in it, plain or .gz", folder.string()));
+  }
+  throw std::runtime_error(fmt::format("{}: holds robots {}; name one, as in {}", folder.string(),
+                                       fmt::join(robots, ", "),
+                                       (folder / fmt::format("Robot{}_Odometry.dat", robots[0])).string()));
+}
+
+}  // namespace
+
+RecordedLog read_log(const fs::path& folder_or_file, const SensorNoise& noise) {
+  if (!(noise.range_sd_m > 0.0 && noise.bearing_sd_rad > 0.0 && std::isfinite(noise.range_sd_m) &&
+        std::isfinite(noise.bearing_sd_rad))) {
+    throw std::invalid_argument("read_log: standard deviations must be positive and finite");
+  }
+  if (!fs::exists(folder_or_file)) {
+    throw std::runtime_error(fmt::format("{}: no such file or folder", folder_or_file.string()));
+  }
+  const RecordedStreams streams = fs::is_directory(folder_or_file) ? read_folder(folder_or_file, noise)
+                                                                   : read_file_named(folder_or_file, noise);
+  return {steps_from_streams(streams), streams.robot_sightings, streams.unknown_barcodes};
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,116 @@
+#include "harness/dataset/rendered_dataset.h"
+
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/measurement_log_writer.h"
+#include "vision/palette.h"
+#include "vision/rig.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// What the folder's marker says while frames are still being written, and after.
+constexpr const char* kUnfinished = "dataset.unfinished.json";
+constexpr const char* kFinished = "dataset.json";
+
+std::string read_whole(const std::filesystem::path& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+std::string encoded(const char* extension, const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(extension, image, bytes))
+    throw std::runtime_error(fmt::format("cannot encode a picture as {}", extension));
+  return {bytes.begin(), bytes.end()};
+}
+
+void write_once(const std::filesystem::path& path, const char* extension, const cv::Mat& image) {
+  if (!std::filesystem::exists(path)) write_file_atomically(path, encoded(extension, image));
+}
+
+cv::Mat projection(const vision::StereoRig& rig, double baseline_m) {
+  const vision::Intrinsics& c = rig.camera;
+  return (cv::Mat_<double>(3, 4) << c.focal_px, 0, c.cx_px, -c.focal_px * baseline_m, 0, c.focal_px, c.cy_px,
+          0, 0, 0, 1, 0);
+}
+
+cv::Mat matrix_of(const Eigen::Isometry3d& transform) {
+  cv::Mat matrix(4, 4, CV_64F);
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix.at<double>(row, column) = transform.matrix()(row, column);
+  return matrix;
+}
+
+}  // namespace
+
+RenderedDataset::RenderedDataset(std::filesystem::path folder, std::string identity)
+    : folder_(std::move(folder)), identity_(std::move(identity)) {
+  prepare_output_folder(folder_);
+  for (const char* marker : {kFinished, kUnfinished})
+    if (std::filesystem::exists(folder_ / marker) && read_whole(folder_ / marker) != identity_)
+      throw std::runtime_error(fmt::format(
+          "{}: holds a data set of another scenario, seed or version; choose another folder or remove it",
+          (folder_ / marker).string()));
+  for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
+    prepare_output_folder(folder_ / part);
+  if (!std::filesystem::exists(folder_ / kFinished)) write_file_atomically(folder_ / kUnfinished, identity_);
+}
+
+void RenderedDataset::write(const Look& look) const {
+  const std::string name = fmt::format("{:06}", look.step);
+  const std::array<std::pair<const char*, const renderer::EyeFrame*>, 2> eyes = {
+      {{"left", &look.frame.left}, {"right", &look.frame.right}}};
+  for (const auto& [eye, frame] : eyes) {
+    const cv::Mat& picture = frame == &look.frame.left ? look.pair.left : look.pair.right;
+    write_once(folder_ / eye / (name + ".png"), ".png", picture);
+    write_once(folder_ / (std::string(eye) + "_id") / (name + ".png"), ".png", frame->ball_id);
+    write_once(folder_ / (std::string(eye) + "_depth") / (name + ".pfm"), ".pfm", frame->depth_m);
+  }
+}
+
+void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig& rig,
+                             const MeasurementLog& log) const {
+  write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(rig));
+  write_file_atomically(folder_ / "balls.csv", balls_csv(world));
+  write_log(folder_, log);
+  write_file_atomically(folder_ / kFinished, identity_);
+  std::filesystem::remove(folder_ / kUnfinished);
+}
+
+std::string calibration_yaml(const vision::StereoRig& rig) {
+  cv::FileStorage file(".yaml",
+                       cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
+  file << "K" << projection(rig, 0.0).colRange(0, 3).clone();
+  file << "D" << cv::Mat::zeros(1, 5, CV_64F);
+  file << "P1" << projection(rig, 0.0) << "P2" << projection(rig, rig.baseline_m);
+  file << "baseline_m" << rig.baseline_m;
+  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft));
+  file << "robot_from_right_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight));
+  return file.releaseAndGetString();
+}
+
+std::string balls_csv(const worlds::World& world) {
+  std::string csv = "ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m\n";
+  for (std::size_t i = 0; i < world.balls.size(); ++i) {
+    const worlds::Ball& ball = world.balls[i];
+    const vision::PaletteColour rgb = vision::kPalette[static_cast<std::size_t>(ball.colour)];
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.r, rgb.g, rgb.b, ball.centre_m.x(),
+                       ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
+  }
+  return csv;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,52 @@
+#include "harness/scoring/replay.h"
+
+#include <cmath>
+#include <exception>
+
+#include <fmt/format.h>
+
+namespace stereobench::harness {
+
+namespace {
+
+bool is_finite(const slam::Estimate& estimate) {
+  return std::isfinite(estimate.pose.x_m) && std::isfinite(estimate.pose.y_m) &&
+         std::isfinite(estimate.pose.heading_rad) && estimate.covariance.allFinite();
+}
+
+/// @return false when the estimate after the step is not finite
+bool drive_step(slam::Filter& filter, const LogStep& step, FilterRun& run) {
+  for (const slam::Control& control : step.odometry) slam::predict(filter, control);
+  slam::update(filter, step.measurements);
+  const slam::Estimate estimate = slam::estimate_without_map(filter);
+  if (!is_finite(estimate)) return false;
+  run.poses.push_back(estimate.pose);
+  run.covariances.push_back(estimate.covariance);
+  return true;
+}
+
+}  // namespace
+
+FilterRun replay(const MeasurementLog& log, const std::string& filter, const slam::FilterConfig& config,
+                 std::uint64_t seed) {
+  FilterRun run;
+  run.filter = filter;
+  run.particles = config.particles;
+  run.seed = seed;
+  slam::Filter state = slam::make_filter(filter, config, log.start, seed);
+  try {
+    for (const LogStep& step : log.steps) {
+      if (drive_step(state, step, run)) continue;
+      run.failed = true;
+      run.failure = fmt::format("step {}: the estimate is not finite", run.poses.size());
+      break;
+    }
+    run.last = slam::estimate(state);
+  } catch (const std::exception& error) {
+    run.failed = true;
+    run.failure = fmt::format("step {}: {}", run.poses.size(), error.what());
+  }
+  return run;
+}
+
+}  // namespace stereobench::harness
