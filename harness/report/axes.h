@@ -19,9 +19,9 @@ enum class Scale { kLinear, kLog };
 
 struct Axis {
   std::string label;  ///< with its unit
-  Range range;        ///< > 0 when logarithmic
+  Range range = {};   ///< > 0 when logarithmic
   Scale scale = Scale::kLinear;
-  std::vector<std::string> categories;  ///< when not empty: names of the values 0, 1, 2...
+  std::vector<std::string> categories = {};  ///< when not empty: names of the values 0, 1, 2...
 };
 
 /// @return the smallest range that holds every finite number (every number > 0 on a log scale), widened on
@@ -32,8 +32,12 @@ Range range_of(std::span<const double> numbers, Scale scale = Scale::kLinear, do
 /// scale powers of ten, with 2 and 5 times them when those are few
 std::vector<double> ticks(const Range& range, Scale scale = Scale::kLinear, int count = 6);
 
-/// @return the tick's number, with as many decimals as the steps between ticks need
-std::string tick_label(double tick, std::span<const double> all_ticks);
+/// @return the tick's number, with as many decimals as the step between ticks needs
+std::string tick_label(double tick, double step);
+
+/// @return logarithmic when the sizes > 0 differ by more than a factor of 12, so that the small ones would
+/// lie flat on the axis; linear otherwise
+Scale scale_for(std::span<const double> sizes);
 
 /// Where the data lie on the sheet.
 class Axes {

@@ -38,7 +38,7 @@ struct Colour {
 enum class Dash { kSolid, kDashed, kDotted };
 
 struct Stroke {
-  Colour colour;
+  Colour colour = {};
   double width_px = 1.5;
   Dash dash = Dash::kSolid;
 };

@@ -19,8 +19,8 @@ struct ErrorPicture {
 };
 
 /// Draws each filter's mean error over its runs, a band from the least to the greatest, and in the legend
-/// the mean over runs of the rms over time. The error axis is logarithmic when the mean curves' typical
-/// sizes are more than a factor of 30 apart.
+/// the mean over runs of the rms over time. The error axis is logarithmic when those
+/// are more than a factor of 12 apart.
 /// @return the bytes of a PNG file; errors that are not finite are left out
 std::string draw_error_picture(const ErrorPicture& picture);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/report/axes.h"
 #include "harness/types.h"
 #include "slam/types.h"
 #include "worlds/types.h"
@@ -24,6 +25,16 @@ struct MapPicture {
   std::vector<LandmarkTruth> landmarks;  ///< discs in their ball's colour, crosses when it has none
   std::vector<MapEstimate> estimates;    ///< dead reckoning among them, by its name
 };
+
+/// A sheet of paper for a map and where metres lie on it.
+struct MapSheet {
+  int width_px = 0;
+  int height_px = 0;
+  Axes axes;
+};
+
+/// Chooses a sheet on which all of the map can be seen, both axes to one scale; covariances do not count.
+MapSheet lay_out_map(const MapPicture& picture);
 
 /// Draws the map in metres, east to the right, both axes to one scale; 95 % ellipses about estimated
 /// landmarks.

@@ -24,13 +24,13 @@ struct SweepPicture {
   std::string parameter;              ///< label of the horizontal axis, e.g. "camera.noise_sd_levels"
   std::vector<std::string> values;    ///< as the user wrote them; numeric axis when all of them are numbers
   bool log_parameter = false;         ///< needs numbers > 0, others are left out
-  std::vector<SweepCurve> detection;  ///< at most two: the first is read on the left, the second on the right
-  std::vector<SweepCurve> ate_m;      ///< one for each filter
+  std::vector<SweepCurve> detection;  ///< each in a panel of its own, since each has a unit of its own
+  std::vector<SweepCurve> ate_m;      ///< one for each filter, in one panel below
 };
 
-/// Draws detection error above and ATE below, against the varied parameter.
+/// Draws detection errors above and ATE below, against the varied parameter, with bars for the intervals.
 /// @return the bytes of a PNG file
-/// @throws std::invalid_argument when a curve has another length than `values`, or detection has over two
+/// @throws std::invalid_argument when a curve has another length than `values`
 std::string draw_sweep_picture(const SweepPicture& picture);
 
 }  // namespace stereobench::harness

@@ -7,16 +7,18 @@
 namespace stereobench::harness {
 
 /// Rows of cells below a header. Cells are UTF-8; the first column is left-aligned, the others right.
-struct TextTable {
+struct AlignedTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
+using TextTable = AlignedTable;
+
 /// Aligns the columns with spaces. @throws std::invalid_argument when a row is not as long as the header
-std::string plain_text(const TextTable& table);
+std::string plain_text(const AlignedTable& table);
 
 /// Writes a pipe table; `|` in cells is escaped. @throws std::invalid_argument as above
-std::string markdown(const TextTable& table);
+std::string markdown(const AlignedTable& table);
 
 /// @return the value to so many significant digits in plain notation where that is short; "-" when not finite
 std::string format_number(double value, int digits = 3);

@@ -1,0 +1,160 @@
+#include "harness/report/detection_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "harness/report/canvas.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr Colour kLine = {1.0, 1.0, 1.0, 1.0};
+constexpr Colour kShade = {0.0, 0.0, 0.0, 0.75};
+
+void check(const vision::StereoPair& pair, int max_width_px) {
+  const bool alike = !pair.left.empty() && pair.left.size() == pair.right.size();
+  if (!alike || pair.left.type() != CV_8UC3 || pair.right.type() != CV_8UC3) {
+    throw std::invalid_argument("detections are drawn on two 8-bit BGR images of one size");
+  }
+  if (max_width_px < 64) throw std::invalid_argument("a detection picture is at least 64 pixels wide");
+}
+
+cv::Mat side_by_side(const vision::StereoPair& pair, double scale) {
+  cv::Mat both;
+  cv::hconcat(pair.left, pair.right, both);
+  if (scale < 1.0) cv::resize(both, both, {}, scale, scale, cv::INTER_AREA);
+  return both;
+}
+
+/// White on a black line is seen on every background.
+void draw_contrasting(Canvas& canvas, std::span<const Point> points, Dash dash) {
+  canvas.draw_line(points, {kShade, 3.6, Dash::kSolid});
+  canvas.draw_line(points, {kLine, 1.6, dash});
+}
+
+void draw_outline(Canvas& canvas, const Point& centre, double radius_px, Dash dash) {
+  constexpr int kCorners = 72;
+  std::vector<Point> outline;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    outline.push_back({centre.x_px + radius_px * std::cos(angle), centre.y_px + radius_px * std::sin(angle)});
+  }
+  draw_contrasting(canvas, outline, dash);
+}
+
+void draw_plus(Canvas& canvas, const Point& at, double arm_px) {
+  const std::vector<Point> across = {{at.x_px - arm_px, at.y_px}, {at.x_px + arm_px, at.y_px}};
+  const std::vector<Point> up = {{at.x_px, at.y_px - arm_px}, {at.x_px, at.y_px + arm_px}};
+  draw_contrasting(canvas, across, Dash::kSolid);
+  draw_contrasting(canvas, up, Dash::kSolid);
+}
+
+std::string label_of(const vision::BallObservation& ball) {
+  std::string label = fmt::format("{}: {:.2f} m", ball.colour, ball.range_bearing.range_m);
+  if (ball.truncated) label += " cut";
+  if (ball.occluded) label += " hidden";
+  return label;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return a.left_px < b.left_px + b.width_px && b.left_px < a.left_px + a.width_px &&
+         a.top_px < b.top_px + b.height_px && b.top_px < a.top_px + a.height_px;
+}
+
+/// Puts labels below their balls, farther down where another label is in the way, inside one eye's picture.
+class LabelPlacer {
+ public:
+  explicit LabelPlacer(const Box& eye) : eye_(eye) {}
+
+  Box place(const Point& below, double width_px, double height_px) {
+    Box box = {below.x_px - 0.5 * width_px, below.y_px, width_px, height_px};
+    const double last_left_px = std::max(eye_.left_px, eye_.left_px + eye_.width_px - width_px);
+    box.left_px = std::clamp(box.left_px, eye_.left_px, last_left_px);
+    const double last_top_px = std::max(eye_.top_px, eye_.top_px + eye_.height_px - height_px);
+    box.top_px = std::clamp(box.top_px, eye_.top_px, last_top_px);
+    for (std::size_t tried = 0; tried <= taken_.size(); ++tried) {
+      const auto hit =
+          std::find_if(taken_.begin(), taken_.end(), [&](const Box& b) { return overlap(b, box); });
+      if (hit == taken_.end()) break;
+      box.top_px = std::min(hit->top_px + hit->height_px + 1.0, last_top_px);
+    }
+    taken_.push_back(box);
+    return box;
+  }
+
+ private:
+  Box eye_;
+  std::vector<Box> taken_;
+};
+
+void draw_label(Canvas& canvas, LabelPlacer& placer, const Point& below, const std::string& label) {
+  const TextStyle style = {.size_px = 13.0, .colour = kLine};
+  const Box box = placer.place(below, canvas.text_width_px(label, style) + 8.0, 17.0);
+  const double right_px = box.left_px + box.width_px;
+  const double bottom_px = box.top_px + box.height_px;
+  const std::vector<Point> corners = {
+      {box.left_px, box.top_px}, {right_px, box.top_px}, {right_px, bottom_px}, {box.left_px, bottom_px}};
+  canvas.fill(corners, kShade);
+  canvas.write({box.left_px + 4.0, box.top_px + 0.5 * box.height_px}, label, style);
+}
+
+/// One eye's part of the picture.
+struct EyeView {
+  vision::Eye eye;
+  Box box;
+  double scale;  ///< pixels of the picture per pixel of the eye's image
+
+  /// Pixel (0, 0) of an image is the centre of its top-left pixel; a canvas begins at that pixel's corner.
+  Point centre_of(const vision::BallObservation& ball) const {
+    const Eigen::Vector2d& px = eye == vision::Eye::kLeft ? ball.left_px : ball.right_px;
+    return {box.left_px + scale * (px.x() + 0.5), box.top_px + scale * (px.y() + 0.5)};
+  }
+  double radius_of(const vision::BallObservation& ball) const {
+    return scale * (eye == vision::Eye::kLeft ? ball.left_radius_px : ball.right_radius_px);
+  }
+};
+
+void draw_eye(Canvas& canvas, const EyeView& view, std::span<const vision::BallObservation> observations) {
+  canvas.clip_to(view.box);
+  for (const vision::BallObservation& ball : observations) {
+    const double radius_px = view.radius_of(ball);
+    draw_outline(canvas, view.centre_of(ball), radius_px, ball.whole() ? Dash::kSolid : Dash::kDashed);
+    draw_plus(canvas, view.centre_of(ball), std::min(5.0, 0.5 * radius_px));
+  }
+  LabelPlacer placer(view.box);
+  for (const vision::BallObservation& ball : observations) {
+    const Point centre = view.centre_of(ball);
+    const Point below = {centre.x_px, centre.y_px + view.radius_of(ball) + 4.0};
+    if (std::isfinite(below.x_px) && std::isfinite(below.y_px)) {
+      draw_label(canvas, placer, below, label_of(ball));
+    }
+  }
+  canvas.clip_to({});
+}
+
+}  // namespace
+
+std::string draw_detection_picture(const vision::StereoPair& pair,
+                                   std::span<const vision::BallObservation> observations, int max_width_px) {
+  check(pair, max_width_px);
+  const double scale = std::min(1.0, max_width_px / (2.0 * pair.left.cols));
+  const cv::Mat both = side_by_side(pair, scale);
+  Canvas canvas(both);
+  const double eye_width_px = 0.5 * both.cols;
+  for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
+    const double left_px = eye == vision::Eye::kLeft ? 0.0 : eye_width_px;
+    const Box box = {left_px, 0.0, eye_width_px, static_cast<double>(both.rows)};
+    draw_eye(canvas, {eye, box, eye_width_px / pair.left.cols}, observations);
+  }
+  const std::vector<Point> seam = {{eye_width_px, 0.0}, {eye_width_px, static_cast<double>(both.rows)}};
+  canvas.draw_line(seam, {kLine, 2.0});
+  return canvas.png();
+}
+
+}  // namespace stereobench::harness

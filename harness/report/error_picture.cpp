@@ -1,0 +1,168 @@
+#include "harness/report/error_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "harness/report/axes.h"
+#include "harness/report/legend.h"
+#include "harness/report/text_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr int kWidth_px = 1000;
+constexpr int kHeight_px = 480;
+constexpr Box kPlot = {76.0, 42.0, 740.0, 386.0};
+
+/// Mean, least and greatest error at each instant; NaN where no run has one.
+struct Summary {
+  std::vector<double> mean_m;
+  std::vector<double> least_m;
+  std::vector<double> greatest_m;
+  double rms_m = 0.0;  ///< mean over runs of the rms over time
+};
+
+double rms_of(const std::vector<double>& errors_m) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double error_m : errors_m) {
+    if (!std::isfinite(error_m)) continue;
+    sum += error_m * error_m;
+    count += 1.0;
+  }
+  return std::sqrt(sum / count);  // 0 / 0: a run without errors has no rms
+}
+
+double mean_of(const std::vector<double>& numbers) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) continue;
+    sum += number;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+std::vector<double> errors_at(const ErrorCurves& curves, std::size_t instant) {
+  std::vector<double> errors_m;
+  for (const std::vector<double>& run : curves.error_m_by_run) {
+    if (instant < run.size() && std::isfinite(run[instant])) errors_m.push_back(run[instant]);
+  }
+  return errors_m;
+}
+
+Summary summarise(const ErrorCurves& curves, std::size_t instants) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Summary summary;
+  for (std::size_t i = 0; i < instants; ++i) {
+    const std::vector<double> errors_m = errors_at(curves, i);
+    const auto [least, greatest] = std::minmax_element(errors_m.begin(), errors_m.end());
+    summary.mean_m.push_back(mean_of(errors_m));
+    summary.least_m.push_back(errors_m.empty() ? kNone : *least);
+    summary.greatest_m.push_back(errors_m.empty() ? kNone : *greatest);
+  }
+  std::vector<double> rms_m;
+  for (const std::vector<double>& run : curves.error_m_by_run) rms_m.push_back(rms_of(run));
+  summary.rms_m = mean_of(rms_m);
+  return summary;
+}
+
+Axis error_axis(const std::vector<Summary>& summaries) {
+  std::vector<double> sizes_m;
+  std::vector<double> ends_m;
+  for (const Summary& summary : summaries) {
+    sizes_m.push_back(summary.rms_m);
+    ends_m.insert(ends_m.end(), summary.least_m.begin(), summary.least_m.end());
+    ends_m.insert(ends_m.end(), summary.greatest_m.begin(), summary.greatest_m.end());
+  }
+  Axis axis = {"position error [m]", {}, scale_for(sizes_m)};
+  axis.range = range_of(ends_m, axis.scale);
+  // Errors begin at zero. On a log scale the first ones must not push all others to the top.
+  const double least_rms_m = range_of(sizes_m, Scale::kLog, 0.0).low;
+  axis.range.low = axis.scale == Scale::kLinear ? 0.0 : std::max(axis.range.low, 0.1 * least_rms_m);
+  return axis;
+}
+
+/// On a log scale zero lies nowhere: smaller errors are drawn at a floor below the axis.
+void lift(std::vector<double>& errors_m, double floor_m) {
+  for (double& error_m : errors_m) error_m = error_m < floor_m ? floor_m : error_m;
+}
+
+void lift(Summary& summary, double floor_m) {
+  lift(summary.mean_m, floor_m);
+  lift(summary.least_m, floor_m);
+  lift(summary.greatest_m, floor_m);
+}
+
+/// Fills between the least and the greatest error, one step of time after the other.
+void draw_band(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s, const Summary& summary,
+               Colour colour) {
+  colour.alpha = 0.16;
+  std::vector<Point> corners;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const Point point = axes.to_pixel(time_s[i], summary.greatest_m[i]);
+    if (std::isfinite(point.x_px) && std::isfinite(point.y_px)) corners.push_back(point);
+  }
+  for (std::size_t i = time_s.size(); i-- > 0;) {
+    const Point point = axes.to_pixel(time_s[i], summary.least_m[i]);
+    if (std::isfinite(point.x_px) && std::isfinite(point.y_px)) corners.push_back(point);
+  }
+  canvas.fill(corners, colour);
+}
+
+void draw_mean(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s, const Summary& summary,
+               const Stroke& stroke) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    points.push_back(axes.to_pixel(time_s[i], summary.mean_m[i]));
+  }
+  canvas.draw_line(points, stroke);
+}
+
+void draw_curves(Canvas& canvas, const Axes& axes, const ErrorPicture& picture,
+                 const std::vector<Summary>& summaries) {
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    draw_band(canvas, axes, picture.time_s, summaries[i], filter_stroke(picture.filters[i].filter).colour);
+  }
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    draw_mean(canvas, axes, picture.time_s, summaries[i], filter_stroke(picture.filters[i].filter));
+  }
+}
+
+std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vector<Summary>& summaries) {
+  std::vector<LegendEntry> entries;
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    const ErrorCurves& curves = picture.filters[i];
+    entries.push_back({filter_title(curves.filter),
+                       fmt::format("rms {} m", format_number(summaries[i].rms_m)), Mark::kLine,
+                       filter_stroke(curves.filter)});
+  }
+  return entries;
+}
+
+}  // namespace
+
+std::string draw_error_picture(const ErrorPicture& picture) {
+  std::vector<Summary> summaries;
+  for (const ErrorCurves& curves : picture.filters) {
+    summaries.push_back(summarise(curves, picture.time_s.size()));
+  }
+  const Axis vertical = error_axis(summaries);
+  for (Summary& summary : summaries) lift(summary, 0.9 * vertical.range.low);
+  const Axes axes({"time [s]", range_of(picture.time_s, Scale::kLinear, 0.0)}, vertical, kPlot);
+
+  Canvas canvas(kWidth_px, kHeight_px);
+  axes.draw(canvas);
+  canvas.clip_to(kPlot);
+  draw_curves(canvas, axes, picture, summaries);
+  canvas.clip_to({});
+  draw_legend(canvas, {kPlot.left_px + kPlot.width_px + 18.0, kPlot.top_px}, legend_of(picture, summaries));
+  canvas.write({kPlot.left_px, 0.5 * kPlot.top_px}, picture.title, {.size_px = 15.0, .bold = true});
+  return canvas.png();
+}
+
+}  // namespace stereobench::harness
