@@ -1,0 +1,61 @@
+#include "slam/resampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stereobench::slam {
+
+bool normalise(std::vector<double>& log_weights) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double w : log_weights) {
+    if (w > largest) largest = w;
+  }
+  if (!std::isfinite(largest)) {
+    std::fill(log_weights.begin(), log_weights.end(), -std::log(static_cast<double>(log_weights.size())));
+    return false;
+  }
+  double sum = 0.0;
+  for (double& w : log_weights) {
+    w = std::isnan(w) ? -std::numeric_limits<double>::infinity() : w - largest;
+    sum += std::exp(w);
+  }
+  for (double& w : log_weights) w -= std::log(sum);
+  return true;
+}
+
+double effective_particles(const std::vector<double>& log_weights) {
+  double sum = 0.0;
+  for (const double w : log_weights) sum += std::exp(2.0 * w);
+  return std::clamp(1.0 / sum, 1.0, static_cast<double>(log_weights.size()));
+}
+
+std::vector<int> systematic_descendants(const std::vector<double>& log_weights, double uniform) {
+  const std::size_t count = log_weights.size();
+  std::vector<int> descendants(count, 0);
+  std::size_t particle = 0;
+  double reached = std::exp(log_weights[0]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double position = (static_cast<double>(i) + uniform) / static_cast<double>(count);
+    while (reached <= position && particle + 1 < count) reached += std::exp(log_weights[++particle]);
+    ++descendants[particle];
+  }
+  return descendants;
+}
+
+std::vector<int> ancestors_in_place(const std::vector<int>& descendants) {
+  std::vector<int> ancestors(descendants.size(), -1);
+  for (std::size_t i = 0; i < descendants.size(); ++i) {
+    if (descendants[i] > 0) ancestors[i] = static_cast<int>(i);
+  }
+  std::size_t vacant = 0;
+  for (std::size_t i = 0; i < descendants.size(); ++i) {
+    for (int copy = 1; copy < descendants[i]; ++copy) {
+      while (ancestors[vacant] >= 0) ++vacant;
+      ancestors[vacant] = static_cast<int>(i);
+    }
+  }
+  return ancestors;
+}
+
+}  // namespace stereobench::slam
