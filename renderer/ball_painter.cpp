@@ -1,0 +1,84 @@
+#include "renderer/ball_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr std::array<int, 6> kOutlineWidths = {4, 4, 4, 4, 4, 4};
+static_assert(sizeof(BallOutline) == 24 * sizeof(float), "outlines are streamed to the shader as they are");
+
+/// Indices of the balls, the farthest from the eye first.
+std::vector<std::size_t> far_to_near(const EyeView& view, const std::vector<worlds::Ball>& balls) {
+  const Eigen::Vector3d eye = view.centre_in_world();
+  const auto nearest = [&](std::size_t index) {
+    return (balls[index].centre_m - eye).norm() - balls[index].radius_m;
+  };
+  std::vector<std::size_t> order(balls.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return nearest(a) > nearest(b); });
+  return order;
+}
+
+std::vector<BallOutline> visible_outlines(const EyeView& view, const std::vector<worlds::Ball>& balls) {
+  std::vector<BallOutline> outlines;
+  for (const std::size_t index : far_to_near(view, balls)) {
+    const auto outline = ball_outline(view, balls[index], static_cast<int>(index) + 1);
+    if (outline) outlines.push_back(*outline);
+  }
+  return outlines;
+}
+
+}  // namespace
+
+BallPainter::BallPainter(const Gl& gl, const worlds::World& world)
+    : gl_(&gl),
+      balls_(world.balls),
+      light_(world.light),
+      outlines_(gl, kOutlineWidths, 1),
+      core_(make_part(gl, BallPart::kCore)),
+      rim_(make_part(gl, BallPart::kRim)) {}
+
+BallPainter::Part BallPainter::make_part(const Gl& gl, BallPart which) const {
+  Program program(gl, ball_vertex_shader(), ball_fragment_shader(which));
+  program.use();
+  gl.Uniform2f(program.uniform("u_light"), static_cast<float>(light_.ambient),
+               static_cast<float>(light_.diffuse));
+  gl.Uniform1f(program.uniform("u_near"), static_cast<float>(kNear_m));
+  const GLint towards_light = program.uniform("u_towards_light");
+  return {std::move(program), towards_light};
+}
+
+void BallPainter::prepare(const Part& part, const EyeView& view) const {
+  const Eigen::Vector3f towards =
+      (view.camera_from_world.linear() * light_.towards_light.normalized()).cast<float>();
+  part.program.use();
+  gl_->Uniform3f(part.towards_light, towards.x(), towards.y(), towards.z());
+}
+
+void BallPainter::draw(const EyeView& view) {
+  const std::vector<BallOutline> outlines = visible_outlines(view, balls_);
+  if (outlines.empty()) return;
+  prepare(core_, view);
+  prepare(rim_, view);
+  outlines_.bind();
+  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
+  gl_->Enable(GL_BLEND);
+  for (GLuint index = 0; index < outlines.size(); ++index) {
+    core_.program.use();
+    gl_->DepthMask(GL_TRUE);
+    gl_->BlendFuncSeparate(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR, GL_ONE, GL_ZERO);
+    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, 1, index);
+    rim_.program.use();
+    gl_->DepthMask(GL_FALSE);
+    gl_->BlendFuncSeparate(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR, GL_ZERO, GL_ONE);
+    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, 1, index);
+  }
+  gl_->DepthMask(GL_TRUE);
+  gl_->Disable(GL_BLEND);
+}
+
+}  // namespace stereobench::renderer

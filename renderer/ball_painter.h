@@ -1,0 +1,36 @@
+/// Draws balls: ray-cast quads, blended over what lies behind them.
+#pragma once
+
+#include <vector>
+
+#include "renderer/ball_outline.h"
+#include "renderer/ball_shader.h"
+#include "renderer/gl_objects.h"
+
+namespace stereobench::renderer {
+
+/// Owns the programs and the stream of outlines.
+class BallPainter {
+ public:
+  BallPainter(const Gl& gl, const worlds::World& world);
+
+  /// Draws every ball that the eye can see, far ones first, over a picture whose surfaces are already there.
+  void draw(const EyeView& view);
+
+ private:
+  struct Part {
+    Program program;
+    GLint towards_light;
+  };
+  Part make_part(const Gl& gl, BallPart which) const;
+  void prepare(const Part& part, const EyeView& view) const;
+
+  const Gl* gl_;
+  std::vector<worlds::Ball> balls_;
+  worlds::Light light_;
+  VertexArray outlines_;
+  Part core_;
+  Part rim_;
+};
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,76 @@
+/// The OpenGL functions that the renderer calls, fetched from its own context.
+#pragma once
+
+#include <string>
+
+#include <GL/glcorearb.h>
+
+#include "renderer/context.h"
+
+namespace stereobench::renderer {
+
+/// A table of functions, named as in the OpenGL specification without their "gl". Calling the symbols of a
+/// libGL instead would silently do nothing: they know another library's contexts.
+struct Gl {
+  /// Fetches every function. @throws std::runtime_error naming the one that is missing
+  explicit Gl(const Context& context);
+
+  PFNGLATTACHSHADERPROC AttachShader;
+  PFNGLBINDBUFFERPROC BindBuffer;
+  PFNGLBINDFRAMEBUFFERPROC BindFramebuffer;
+  PFNGLBINDRENDERBUFFERPROC BindRenderbuffer;
+  PFNGLBINDVERTEXARRAYPROC BindVertexArray;
+  PFNGLBLENDFUNCSEPARATEPROC BlendFuncSeparate;
+  PFNGLBUFFERDATAPROC BufferData;
+  PFNGLCHECKFRAMEBUFFERSTATUSPROC CheckFramebufferStatus;
+  PFNGLCLEARPROC Clear;
+  PFNGLCLEARCOLORPROC ClearColor;
+  PFNGLCLEARDEPTHPROC ClearDepth;
+  PFNGLCLIPCONTROLPROC ClipControl;
+  PFNGLCOMPILESHADERPROC CompileShader;
+  PFNGLCREATEPROGRAMPROC CreateProgram;
+  PFNGLCREATESHADERPROC CreateShader;
+  PFNGLDELETEBUFFERSPROC DeleteBuffers;
+  PFNGLDELETEFRAMEBUFFERSPROC DeleteFramebuffers;
+  PFNGLDELETEPROGRAMPROC DeleteProgram;
+  PFNGLDELETERENDERBUFFERSPROC DeleteRenderbuffers;
+  PFNGLDELETESHADERPROC DeleteShader;
+  PFNGLDELETEVERTEXARRAYSPROC DeleteVertexArrays;
+  PFNGLDEPTHFUNCPROC DepthFunc;
+  PFNGLDEPTHMASKPROC DepthMask;
+  PFNGLDISABLEPROC Disable;
+  PFNGLDRAWARRAYSPROC DrawArrays;
+  PFNGLDRAWARRAYSINSTANCEDBASEINSTANCEPROC DrawArraysInstancedBaseInstance;
+  PFNGLENABLEPROC Enable;
+  PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray;
+  PFNGLFRAMEBUFFERRENDERBUFFERPROC FramebufferRenderbuffer;
+  PFNGLGENBUFFERSPROC GenBuffers;
+  PFNGLGENFRAMEBUFFERSPROC GenFramebuffers;
+  PFNGLGENRENDERBUFFERSPROC GenRenderbuffers;
+  PFNGLGENVERTEXARRAYSPROC GenVertexArrays;
+  PFNGLGETERRORPROC GetError;
+  PFNGLGETPROGRAMINFOLOGPROC GetProgramInfoLog;
+  PFNGLGETPROGRAMIVPROC GetProgramiv;
+  PFNGLGETSHADERINFOLOGPROC GetShaderInfoLog;
+  PFNGLGETSHADERIVPROC GetShaderiv;
+  PFNGLGETSTRINGPROC GetString;
+  PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation;
+  PFNGLLINKPROGRAMPROC LinkProgram;
+  PFNGLPIXELSTOREIPROC PixelStorei;
+  PFNGLREADPIXELSPROC ReadPixels;
+  PFNGLRENDERBUFFERSTORAGEPROC RenderbufferStorage;
+  PFNGLSHADERSOURCEPROC ShaderSource;
+  PFNGLUNIFORM1FPROC Uniform1f;
+  PFNGLUNIFORM2FPROC Uniform2f;
+  PFNGLUNIFORM3FPROC Uniform3f;
+  PFNGLUNIFORMMATRIX4FVPROC UniformMatrix4fv;
+  PFNGLUSEPROGRAMPROC UseProgram;
+  PFNGLVERTEXATTRIBDIVISORPROC VertexAttribDivisor;
+  PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer;
+  PFNGLVIEWPORTPROC Viewport;
+};
+
+/// One of the context's descriptions of itself (GL_VERSION, GL_RENDERER, GL_VENDOR); empty when it has none.
+std::string gl_string(const Gl& gl, GLenum name);
+
+}  // namespace stereobench::renderer

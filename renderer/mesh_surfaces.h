@@ -1,0 +1,32 @@
+/// The meshes of a world, put in place and lit once: nothing of them changes while the robot drives.
+#pragma once
+
+#include <vector>
+
+#include "renderer/mesh_file.h"
+#include "renderer/surface_polygons.h"
+
+namespace stereobench::renderer {
+
+/// A mesh instance as a run of triangles in one list of vertices.
+struct MeshRun {
+  worlds::Material material = worlds::Material::kPlain;
+  int first = 0;                                       ///< vertex
+  int count = 0;                                       ///< vertices, three for each triangle
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of a sphere around it, world frame
+  double radius_m = 0.0;
+};
+
+struct MeshSurfaces {
+  std::vector<SurfaceVertex> vertices;  ///< positions in the world frame
+  std::vector<MeshRun> runs;            ///< one for each of World::meshes
+};
+
+/// Reads each mesh file once and puts its instances in their places.
+/// @throws std::runtime_error as read_mesh
+MeshSurfaces place_meshes(const worlds::World& world);
+
+/// Whether any of a run can be in the eye's picture.
+bool can_see(const EyeView& view, const MeshRun& run);
+
+}  // namespace stereobench::renderer

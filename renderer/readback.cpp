@@ -1,0 +1,67 @@
+#include "renderer/readback.h"
+
+#include <algorithm>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "renderer/eye_view.h"
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr int kBandRows = 32;  // what is read at once stays in the processor's cache
+
+void split_row(const std::uint8_t* pixels, std::uint8_t* colour, std::uint8_t* id, int count) {
+  int i = 0;
+  for (; i + cv::v_uint8x16::nlanes <= count; i += cv::v_uint8x16::nlanes) {
+    cv::v_uint8x16 blue, green, red, identity;
+    cv::v_load_deinterleave(pixels + 4 * i, blue, green, red, identity);
+    cv::v_store_interleave(colour + 3 * i, blue, green, red);
+    cv::v_store(id + i, identity);
+  }
+  for (; i < count; ++i) {
+    std::copy_n(pixels + 4 * i, 3, colour + 3 * i);
+    id[i] = pixels[4 * i + 3];
+  }
+}
+
+void row_to_metres(float* depth, int count, float near_m) {
+  const cv::v_float32x4 near = cv::v_setall_f32(near_m);
+  int i = 0;
+  for (; i + cv::v_float32x4::nlanes <= count; i += cv::v_float32x4::nlanes) {
+    cv::v_store(depth + i, near / cv::v_load(depth + i));
+  }
+  for (; i < count; ++i) depth[i] = near_m / depth[i];
+}
+
+}  // namespace
+
+void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame) {
+  frame.colour.create(pixels.size(), CV_8UC3);
+  frame.ball_id.create(pixels.size(), CV_8UC1);
+  for (int row = 0; row < pixels.rows; ++row) {
+    split_row(pixels.ptr(row), frame.colour.ptr(row), frame.ball_id.ptr(row), pixels.cols);
+  }
+}
+
+void depth_to_metres(cv::Mat& depth, float near_m) {
+  for (int row = 0; row < depth.rows; ++row) row_to_metres(depth.ptr<float>(row), depth.cols, near_m);
+}
+
+EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px) {
+  EyeFrame frame{cv::Mat(size_px, CV_8UC3), cv::Mat(size_px, CV_8UC1), cv::Mat(size_px, CV_32FC1)};
+  cv::Mat pixels(std::min(kBandRows, size_px.height), size_px.width, CV_8UC4);
+  for (int row = 0; row < size_px.height; row += kBandRows) {
+    const cv::Range rows(row, std::min(row + kBandRows, size_px.height));
+    EyeFrame band{frame.colour.rowRange(rows), frame.ball_id.rowRange(rows), frame.depth_m.rowRange(rows)};
+    const cv::Mat read = pixels.rowRange(0, rows.size());
+    gl.ReadPixels(first_column_px, row, size_px.width, rows.size(), GL_RGBA, GL_UNSIGNED_BYTE, read.data);
+    split_colour_and_id(read, band);
+    gl.ReadPixels(first_column_px, row, size_px.width, rows.size(), GL_DEPTH_COMPONENT, GL_FLOAT,
+                  band.depth_m.data);
+    depth_to_metres(band.depth_m, static_cast<float>(kNear_m));
+  }
+  return frame;
+}
+
+}  // namespace stereobench::renderer

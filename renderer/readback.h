@@ -1,0 +1,21 @@
+/// From the framebuffer's bytes to pictures, identities and metres.
+#pragma once
+
+#include "renderer/gl.h"
+#include "renderer/types.h"
+
+namespace stereobench::renderer {
+
+/// Splits the shader's four bytes of each pixel into colour and identity.
+/// @param pixels CV_8UC4: blue, green, red, identity
+void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame);
+
+/// Turns GL's depth n / Z into Z, in place; 0, where nothing was drawn, becomes +inf.
+/// @param depth CV_32FC1
+void depth_to_metres(cv::Mat& depth, float near_m);
+
+/// Reads one eye's part of the framebuffer that is bound.
+/// @param first_column_px where the eye's part begins
+EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px);
+
+}  // namespace stereobench::renderer

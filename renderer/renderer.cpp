@@ -1,0 +1,110 @@
+#include "renderer/renderer.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "renderer/ball_painter.h"
+#include "renderer/readback.h"
+#include "renderer/surface_painter.h"
+#include "vision/palette.h"
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr std::size_t kMostBalls = 254;
+
+void require(bool condition, const char* complaint) {
+  if (!condition) throw std::invalid_argument(complaint);
+}
+
+const worlds::World& checked(const worlds::World& world) {
+  require(world.balls.size() <= kMostBalls, "Renderer: identities are 8 bits: at most 254 balls");
+  for (const worlds::Ball& ball : world.balls) {
+    require(ball.centre_m.allFinite() && std::isfinite(ball.radius_m) && ball.radius_m > 0.0,
+            "Renderer: a ball needs a finite centre and a positive radius");
+    require(ball.colour >= 0 && ball.colour < static_cast<int>(vision::kPalette.size()),
+            "Renderer: a ball's colour is an index into the palette");
+  }
+  for (const worlds::Wall& wall : world.walls) {
+    require(wall.from_m.allFinite() && wall.to_m.allFinite() && wall.height_m > 0.0,
+            "Renderer: a wall is not finite");
+  }
+  for (const worlds::MeshInstance& mesh : world.meshes) {
+    require(
+        mesh.position_m.allFinite() && std::isfinite(mesh.heading_rad) && (mesh.scale.array() > 0.0).all(),
+        "Renderer: a mesh needs a finite place and a positive scale");
+  }
+  require(world.light.towards_light.allFinite() && world.light.towards_light.norm() > 0.0,
+          "Renderer: the light comes from nowhere");
+  return world;
+}
+
+const vision::StereoRig& checked(const vision::StereoRig& rig) {
+  require(vision::is_usable(rig),
+          "Renderer: the rig needs finite numbers, a focal length, a baseline and a size");
+  return rig;
+}
+
+/// State that never changes: see eye_view.h for the depth's convention.
+void set_state(const Gl& gl, const worlds::World& world) {
+  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_GREATER);
+  gl.ClearDepth(0.0);
+  const Eigen::Vector3f sky = world.sky_rgb.cast<float>();
+  gl.ClearColor(sky.z(), sky.y(), sky.x(), 0.0F);  // the picture's order is blue, green, red, identity
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+  vision::StereoRig rig;
+  Context context;
+  Gl gl;
+  Framebuffer framebuffer;
+  SurfacePainter surfaces;
+  BallPainter balls;
+
+  Parts(const worlds::World& world, const vision::StereoRig& asked)
+      : rig(checked(asked)),
+        gl(context),
+        framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
+        surfaces(gl, checked(world)),
+        balls(gl, world) {
+    set_state(gl, world);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() { context.make_current(); }  // what is deleted next belongs to it
+
+  void draw(const EyeView& view) {
+    gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
+    surfaces.draw(view);
+    balls.draw(view);
+  }
+};
+
+Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig)
+    : parts_(std::make_unique<Parts>(world, rig)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&& other) noexcept = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
+
+StereoFrame Renderer::render(const slam::Pose& world_from_robot) {
+  require(std::isfinite(world_from_robot.x_m) && std::isfinite(world_from_robot.y_m) &&
+              std::isfinite(world_from_robot.heading_rad),
+          "Renderer::render: the pose is not finite");
+  const EyeView left = eye_view(parts_->rig, vision::Eye::kLeft, world_from_robot);
+  const EyeView right = eye_view(parts_->rig, vision::Eye::kRight, world_from_robot);
+  parts_->context.make_current();
+  parts_->framebuffer.bind();
+  parts_->gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  parts_->draw(left);
+  parts_->draw(right);
+  const cv::Size size_px(parts_->rig.camera.width_px, parts_->rig.camera.height_px);
+  return {read_eye(parts_->gl, left.first_column_px, size_px),
+          read_eye(parts_->gl, right.first_column_px, size_px)};
+}
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,39 @@
+/// Renders what a stereo rig sees of a world, with the truth behind each pixel, in software and without a
+/// screen.
+#pragma once
+
+#include <memory>
+
+#include "renderer/types.h"
+#include "slam/types.h"
+#include "vision/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::renderer {
+
+/// Owns a GL context and everything of the world that GL must know. Move-only; several may live in one
+/// process, but only one thread at a time may use any of them: more speed takes more processes.
+class Renderer {
+ public:
+  /// @throws std::runtime_error when there is no GL to render with or a mesh file cannot be read
+  /// @throws std::invalid_argument when the rig cannot be computed with, or a ball, wall, mesh or light of
+  /// the
+  ///   world is not finite, has no size, or there are more than 254 balls
+  Renderer(const worlds::World& world, const vision::StereoRig& rig);
+  ~Renderer();
+  Renderer(Renderer&& other) noexcept;
+  Renderer& operator=(Renderer&& other) noexcept;
+
+  /// What both eyes see. Balls are exact: shape, depth, shading and the share of each edge pixel that they
+  /// cover. A ball that reaches behind the near plane (1 cm ahead of an eye) is not drawn in that eye.
+  /// @param world_from_robot where the robot stands
+  /// @return the same bytes for the same pose, whatever was rendered before
+  /// @throws std::invalid_argument when the pose is not finite
+  StereoFrame render(const slam::Pose& world_from_robot);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace stereobench::renderer

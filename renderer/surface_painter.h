@@ -1,0 +1,39 @@
+/// Draws what is not a ball: meshes, walls and the floor.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "renderer/gl_objects.h"
+#include "renderer/mesh_surfaces.h"
+
+namespace stereobench::renderer {
+
+/// Owns the programs of the materials in use, the meshes and the stream of polygons.
+class SurfacePainter {
+ public:
+  /// @throws std::runtime_error when a mesh cannot be read
+  SurfacePainter(const Gl& gl, const worlds::World& world);
+
+  /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
+  void draw(const EyeView& view);
+
+ private:
+  struct MaterialProgram {
+    Program program;
+    GLint clip_from_position;
+  };
+  void compile(worlds::Material material);
+  void use(worlds::Material material, const glm::mat4& clip_from_position) const;
+  void draw_meshes(const EyeView& view) const;
+  void draw_polygons(const EyeView& view);
+
+  const Gl* gl_;
+  worlds::World world_;
+  std::array<std::optional<MaterialProgram>, 5> programs_;  // by Material
+  std::vector<MeshRun> mesh_runs_;
+  VertexArray meshes_;
+  VertexArray polygons_;
+};
+
+}  // namespace stereobench::renderer

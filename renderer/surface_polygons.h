@@ -1,0 +1,36 @@
+/// The flat parts of a world as an eye sees them: walls and the floor, cut to the picture.
+///
+/// The cutting is done here in double precision, because GL would interpolate the corners it cuts in single
+/// precision, which a floor that reaches the horizon would show in its depth.
+#pragma once
+
+#include <vector>
+
+#include "renderer/eye_view.h"
+#include "worlds/types.h"
+
+namespace stereobench::renderer {
+
+/// A corner as the surface shader reads it.
+struct SurfaceVertex {
+  float position[4];  ///< clip space for polygons that are already cut; world frame and 1 for meshes
+  float along_m[2];   ///< place on the material: along and up a wall, east and north on the floor
+  float light;        ///< Lambert's law plus the ambient part, >= 0
+};
+inline constexpr int kSurfaceVertexFloats = 7;
+
+/// A convex polygon in the picture.
+struct SurfacePolygon {
+  worlds::Material material = worlds::Material::kPlain;
+  std::vector<SurfaceVertex> corners;  ///< in order around it; none when the eye does not see it
+  double nearest_m = 0.0;              ///< smallest Z of the corners
+};
+
+/// How brightly a surface with this outward unit normal (world frame) is lit.
+double lit(const worlds::Light& light, const Eigen::Vector3d& normal);
+
+/// What the eye sees of the walls, near ones first, and of the floor, last: the order in which the least is
+/// painted twice.
+std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::World& world);
+
+}  // namespace stereobench::renderer
