@@ -1,0 +1,13 @@
+#!/bin/bash
+# Installs what is missing, builds everything and runs every test.
+# usage: scripts/test.sh [dev|release|asan] [options of ctest, e.g. -L style]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+preset=release
+case "${1:-}" in dev | release | asan) preset=$1; shift ;; esac
+
+scripts/install_packages.sh
+cmake --preset "$preset" -Wno-dev >/dev/null
+cmake --build --preset "$preset"
+ctest --preset "$preset" "$@"
