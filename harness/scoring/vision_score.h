@@ -4,19 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "renderer/types.h"
+#include "harness/scoring/ball_outline.h"
 #include "vision/types.h"
-#include "worlds/types.h"
 
 namespace stereobench::harness {
-
-/// The truth behind one stereo pair.
-struct VisionTruth {
-  const worlds::World& world;
-  const vision::StereoRig& rig;
-  slam::Pose world_from_robot;
-  const renderer::StereoFrame& frame;
-};
 
 /// What became of the balls of some pairs. Scores of any pairs can be merged, in any order.
 struct VisionScore {
@@ -42,19 +33,6 @@ struct VisionScore {
 
   VisionScore& operator+=(const VisionScore& other);
 };
-
-/// How much of a ball each eye sees.
-struct BallVisibility {
-  int ball = 0;                ///< index into World::balls
-  double left_fraction = 0.0;  ///< pixels of this ball over the area of its whole outline
-  double right_fraction = 0.0;
-  double smaller_radius_px = 0.0;  ///< of the outline, the smaller of both eyes
-  bool inside_both = false;        ///< the whole outline lies within both images
-};
-
-/// How much of each ball in front of both eyes can be seen.
-/// @return one for each ball whose whole outline is in front of both cameras, in order of the balls
-std::vector<BallVisibility> ball_visibility(const VisionTruth& truth);
 
 /// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
 /// radius of at least 3 px, and at least 95 % of it is seen by each eye. An observation is right

@@ -1,0 +1,89 @@
+#include "harness/scoring/ball_outline.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "vision/rig.h"
+
+namespace stereobench::harness {
+
+namespace {
+
+using vision::Eye;
+using vision::OutlineEllipse;
+
+Eigen::Vector3d in_robot(const slam::Pose& world_from_robot, const Eigen::Vector3d& point_in_world) {
+  const double dx = point_in_world.x() - world_from_robot.x_m;
+  const double dy = point_in_world.y() - world_from_robot.y_m;
+  const double c = std::cos(world_from_robot.heading_rad);
+  const double s = std::sin(world_from_robot.heading_rad);
+  return {c * dx + s * dy, c * dy - s * dx, point_in_world.z()};
+}
+
+/// Half the width (axis 0) or height (axis 1) of an ellipse's bounding box.
+double half_extent_px(const OutlineEllipse& ellipse, int axis) {
+  const double c = std::cos(ellipse.angle_rad);
+  const double s = std::sin(ellipse.angle_rad);
+  return axis == 0 ? std::hypot(ellipse.semi_major_px * c, ellipse.semi_minor_px * s)
+                   : std::hypot(ellipse.semi_major_px * s, ellipse.semi_minor_px * c);
+}
+
+/// Whether an outline lies within the area of the image's pixels.
+bool lies_inside(const vision::Intrinsics& camera, const OutlineEllipse& ellipse) {
+  const Eigen::Vector2d half(half_extent_px(ellipse, 0), half_extent_px(ellipse, 1));
+  const Eigen::Vector2d low = ellipse.centre_px - half;
+  const Eigen::Vector2d high = ellipse.centre_px + half;
+  return low.minCoeff() >= -0.5 && high.x() <= camera.width_px - 0.5 && high.y() <= camera.height_px - 0.5;
+}
+
+double whole_area_px(const OutlineEllipse& ellipse) {
+  return std::numbers::pi * ellipse.semi_major_px * ellipse.semi_minor_px;
+}
+
+/// Pixels of each identity; index 0 is no ball.
+std::array<long, 256> count_ids(const cv::Mat& ball_id) {
+  std::array<long, 256> counts{};
+  for (int row = 0; row < ball_id.rows; ++row) {
+    const auto* ids = ball_id.ptr<std::uint8_t>(row);
+    for (int column = 0; column < ball_id.cols; ++column) ++counts[ids[column]];
+  }
+  return counts;
+}
+
+}  // namespace
+
+bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
+  const Eigen::Vector2d offset = pixel_px - ellipse.centre_px;
+  const double c = std::cos(ellipse.angle_rad);
+  const double s = std::sin(ellipse.angle_rad);
+  const double along = (c * offset.x() + s * offset.y()) / ellipse.semi_major_px;
+  const double across = (c * offset.y() - s * offset.x()) / ellipse.semi_minor_px;
+  return along * along + across * across <= 1.0;
+}
+
+std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
+  const vision::Intrinsics& camera = truth.rig.camera;
+  const Eigen::Isometry3d camera_from_robot = vision::robot_from_camera(truth.rig).inverse();
+  const std::array<long, 256> left_ids = count_ids(truth.frame.left.ball_id);
+  const std::array<long, 256> right_ids = count_ids(truth.frame.right.ball_id);
+  std::vector<BallOutline> outlines;
+  for (std::size_t i = 0; i < truth.world.balls.size(); ++i) {
+    const worlds::Ball& ball = truth.world.balls[i];
+    const Eigen::Vector3d ball_in_robot = in_robot(truth.world_from_robot, ball.centre_m);
+    const Eigen::Vector3d in_left = camera_from_robot * ball_in_robot;
+    const Eigen::Vector3d in_right = vision::point_in_eye(truth.rig, in_left, Eye::kRight);
+    const auto left = vision::sphere_outline(camera, in_left, ball.radius_m);
+    const auto right = vision::sphere_outline(camera, in_right, ball.radius_m);
+    if (!left || !right) continue;
+    BallOutline outline{static_cast<int>(i), ball_in_robot, *left, *right};
+    outline.left_fraction = static_cast<double>(left_ids.at(i + 1)) / whole_area_px(*left);
+    outline.right_fraction = static_cast<double>(right_ids.at(i + 1)) / whole_area_px(*right);
+    outline.inside_both = lies_inside(camera, *left) && lies_inside(camera, *right);
+    outlines.push_back(outline);
+  }
+  return outlines;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,72 @@
+/// A folder with a small log in it, for tests that spoil one file of it.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+namespace stereobench::harness {
+
+/// A folder of its own for each test, removed at the end.
+class TestFolder {
+ public:
+  TestFolder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(info->test_suite_name()) + "." + info->name();
+    for (char& c : name) c = c == '/' ? '_' : c;
+    path_ = std::filesystem::temp_directory_path() / ("stereobench." + std::to_string(getpid()) + "." + name);
+    std::filesystem::create_directories(path_);
+  }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+  ~TestFolder() { std::filesystem::remove_all(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+
+  void write_gz(const std::string& name, const std::string& text) const {
+    gzFile file = gzopen((path_ / name).c_str(), "wb");
+    ASSERT_NE(gzwrite(file, text.data(), static_cast<unsigned>(text.size())), 0);
+    gzclose(file);
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream stream(path_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const std::string kOdometry = "t_s,v_mps,w_radps\n0,1,0\n1,1,0.5\n2,0,0\n";
+inline const std::string kObservations = "t_s,landmark_id,range_m,bearing_rad\n0.5,7,2,0.1\n1.5,7,1.5,0.2\n";
+inline const std::string kTruth = "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,1,0,0\n2,2,0,0.5\n";
+inline const std::string kLandmarks = "landmark_id,x_m,y_m\n7,3,0\n";
+
+/// A log of two seconds in CSV files.
+inline void write_small_csv_log(const TestFolder& folder) {
+  folder.write("log/odometry.csv", kOdometry);
+  folder.write("log/observations.csv", kObservations);
+  folder.write("log/groundtruth.csv", kTruth);
+  folder.write("log/landmarks.csv", kLandmarks);
+}
+
+/// The same in MRCLAM's files, with a sighting of another robot and one of a barcode that nobody has.
+inline void write_small_mrclam_log(const TestFolder& folder) {
+  folder.write("log/Barcodes.dat", "# Subject Barcode\n 1 5\n 7 63\n");
+  folder.write("log/Landmark_Groundtruth.dat", "# x y sx sy\n 7 3.0 0.0 0.001 0.001\n");
+  folder.write("log/Robot3_Odometry.dat", "# t v w\n100.0 \t 1.0 \t 0.0 \n101.0 1.0 0.5\n102.0 0 0\n");
+  folder.write("log/Robot3_Measurement.dat",
+               "# t barcode r b\n100.5 63 2.0 0.1\n100.6 5 1.0 0.0\n101.0 99 1 0\n101.5 63 1.5 0.2\n");
+  folder.write("log/Robot3_Groundtruth.dat", "100 0 0 0\n101 1 0 0\n102 2 0 0.5\n");
+}
+
+}  // namespace stereobench::harness
