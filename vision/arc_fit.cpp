@@ -1,5 +1,6 @@
 #include "vision/arc_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,7 @@ namespace {
 // share their colours.
 constexpr double kQuantisation = 0.01;
 constexpr double kNoiseFactor = 1.0;
+constexpr double kTextureFactor = 0.5;
 
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;
@@ -34,9 +36,10 @@ std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>
                                    const OutlineModel& outline, double ramp_half_width_px) {
   std::vector<ArcOffset> arcs(rim.sectors);
   std::vector<double> information(rim.sectors, 0.0);
+  const double reach_px = std::max(ramp_half_width_px, 1.5);
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
-    if (!colour.usable) continue;
+    if (!colour.usable || std::abs(pixel.distance_px) > reach_px) continue;
     const RimPoint point = outline.rim_point(pixel.position_px);
     const Coverage covered =
         ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : edge_coverage(point);
@@ -52,7 +55,8 @@ std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>
     arcs[i].offset_px /= information[i];
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
-        (kNoiseFactor * colours[i].alpha_variance + kQuantisation * kQuantisation) / information[i];
+        (kNoiseFactor * colours[i].noise_variance + kQuantisation * kQuantisation) / information[i] +
+        kTextureFactor * colours[i].texture_variance;
     arcs[i].weight = 1.0;
   }
   return arcs;

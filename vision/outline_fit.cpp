@@ -13,11 +13,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFinestRamp_px = 1.5;
-constexpr double kGap_px = 0.9;  // between a sharp edge and the colours beside it
-constexpr double kReachBeyondRamp_px = 2.8;
-constexpr int kSharpSteps = 4;
+constexpr double kGap_px = 0.9;           // between a sharp edge and the colours beside it
+constexpr double kRing_px = 2.0;          // width of the ring that the colours are sampled in
+constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
+constexpr double kLookAgainAbove_px = 0.2;
+constexpr int kSharpSteps = 6;
 constexpr double kConverged_px = 1e-3;
-constexpr double kMinFill = 0.25;  // of the bounding box; a disc has 0.79
+constexpr double kRimDepth_px = 1.2;  // inside of it a pixel is wholly the ball's
+constexpr double kMinFill = 0.25;     // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 2000.0;
 
@@ -51,14 +54,8 @@ OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
   return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius)};
 }
 
-double gap_for(double ramp_px) {
-  return ramp_px > 0.0 ? std::max(kGap_px, ramp_px) : kGap_px;
-}
-
 // One step of the fit; the change's size, or empty when the arcs no longer make an outline.
-std::optional<double> improve(Fit& fit, int colour, const FitSettings& settings, double ramp_px) {
-  const UnmixSettings unmix{palette_bgr(colour), settings.noise_sd_levels, gap_for(ramp_px)};
-  fit.colours = arc_colours(fit.rim, fit.outline, unmix);
+std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px) {
   fit.arcs = arc_offsets(fit.rim, fit.colours, fit.outline, ramp_px);
   const auto step = solve_arcs(fit.arcs, ramp_px > 0.0 ? 0.5 * ramp_px : 0.05);
   if (!step) return std::nullopt;
@@ -71,67 +68,82 @@ std::optional<double> improve(Fit& fit, int colour, const FitSettings& settings,
   return change.cwiseAbs().maxCoeff();
 }
 
-std::optional<Fit> converge(const cv::Mat& image, const Blob& blob, const FitSettings& settings) {
+// Looks again at the image, around where the outline is by now.
+void look(Fit& fit, const cv::Mat& image, UnmixSettings unmix, double ramp_px) {
+  unmix.gap_px = std::max(kGap_px, ramp_px);
+  fit.rim = collect_rim(image, fit.outline, unmix.gap_px + kRing_px);
+  fit.colours = arc_colours(fit.rim, unmix);
+}
+
+std::optional<Fit> converge(const cv::Mat& image, const Blob& blob, const FitSettings& settings,
+                            const UnmixSettings& unmix) {
   Fit fit{first_guess(blob, settings.camera), {}, {}, {}};
-  double ramp = std::max(kFinestRamp_px, 0.08 * fit.outline.radius_px());
-  for (; ramp >= kFinestRamp_px; ramp *= 0.5) {
-    fit.rim = collect_rim(image, fit.outline, ramp + kReachBeyondRamp_px);
-    for (int i = 0; i < 2; ++i) {
-      if (!improve(fit, blob.colour, settings, ramp)) return std::nullopt;
-    }
-  }
-  fit.rim = collect_rim(image, fit.outline, kGap_px + kReachBeyondRamp_px);
-  for (int i = 0; i < kSharpSteps; ++i) {
-    const auto change = improve(fit, blob.colour, settings, 0.0);
+  for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
+    look(fit, image, unmix, ramp);
+    const auto change = improve(fit, settings, ramp);
     if (!change) return std::nullopt;
-    if (*change < kConverged_px) break;
+    if (*change < kSharpenBelow_px) break;
+    ramp = std::min(*change * 2.0, 0.7 * ramp);
+  }
+  std::optional<double> change = kLookAgainAbove_px + 1.0;
+  for (int i = 0; i<kSharpSteps&& * change> kConverged_px; ++i) {
+    if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
+    change = improve(fit, settings, 0.0);
+    if (!change) return std::nullopt;
   }
   return fit;
 }
 
 // How much of a rim pixel something else covers, of the part that the ball should.
-double hidden_part(const Fit& fit, const RimPixel& pixel, double covered, const UnmixSettings& unmix) {
+double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) {
+  const double covered = edge_coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
-  if (!colours.usable) return is_shade_of(pixel.bgr, unmix.ball_bgr, unmix.noise_sd_levels) ? 0.0 : covered;
+  if (covered <= 0.0) return 0.0;
+  if (!colours.usable) return shades.contain(pixel.bgr) ? 0.0 : covered;
   if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
   const double alpha = colours.unmix.dot(pixel.bgr - colours.background);
   return std::clamp(covered - alpha, 0.0, covered);
 }
 
-// Sums over the outline's pixels; the rim's were collected, the inside is looked at here.
-void measure_visibility(const cv::Mat& image, const Fit& fit, const UnmixSettings& unmix,
-                        MeasuredOutline& result) {
-  double total = 0.0;
-  double outside = 0.0;
+// Area of the outline, px, in which the image does not show the ball.
+double hidden_area(const cv::Mat& image, const Fit& fit, const Shades& shades) {
   double hidden = 0.0;
-  const double rim_width = 1.2;
+  const double inside = 1.0 - kRimDepth_px / fit.outline.semi_minor_px();
   for (const RimPixel& pixel : fit.rim.pixels) {
-    const RimPoint point = fit.outline.rim_point(pixel.position_px);
-    if (std::abs(point.distance_px) > rim_width) continue;
-    const double covered = edge_coverage(point).fraction;
-    if (covered > 0.0) hidden += hidden_part(fit, pixel, covered, unmix);
+    if (pixel.distance_px < 1.0 && fit.outline.level(pixel.position_px) > inside)
+      hidden += hidden_part(fit, pixel, shades);
   }
-  const Eigen::Vector2d centre = fit.outline.centre_px();
-  const double extent = fit.outline.semi_major_px() + 1.0;
-  const int last_y = static_cast<int>(std::floor(centre.y() + extent));
-  const int last_x = static_cast<int>(std::floor(centre.x() + extent));
-  for (int y = static_cast<int>(std::ceil(centre.y() - extent)); y <= last_y; ++y) {
-    for (int x = static_cast<int>(std::ceil(centre.x() - extent)); x <= last_x; ++x) {
-      const RimPoint point = fit.outline.rim_point(Eigen::Vector2d(x, y));
-      const double covered = edge_coverage(point).fraction;
-      total += covered;
-      if (x < 0 || y < 0 || x >= image.cols || y >= image.rows) {
-        outside += covered;
-      } else if (point.distance_px < -rim_width) {
-        const std::uint8_t* bgr = image.ptr<std::uint8_t>(y) + 3 * x;
-        hidden += is_shade_of(Eigen::Vector3d(bgr[0], bgr[1], bgr[2]), unmix.ball_bgr, unmix.noise_sd_levels)
-                      ? 0.0
-                      : 1.0;
-      }
+  const double extent = fit.outline.semi_major_px();
+  const int first_y = std::max(0, static_cast<int>(std::ceil(fit.outline.centre_px().y() - extent)));
+  const int last_y =
+      std::min(image.rows - 1, static_cast<int>(std::floor(fit.outline.centre_px().y() + extent)));
+  for (int y = first_y; y <= last_y; ++y) {
+    const ColumnSpan columns = fit.outline.columns_within(inside, y);
+    const auto* row = image.ptr<std::uint8_t>(y);
+    for (int x = std::max(0, columns.first); x <= std::min(image.cols - 1, columns.last); ++x) {
+      const std::uint8_t* bgr = row + 3 * x;
+      if (!shades.contain(Eigen::Vector3d(bgr[0], bgr[1], bgr[2]))) hidden += 1.0;
     }
   }
-  result.hidden_fraction = hidden / total;
-  result.outside_fraction = outside / total;
+  return hidden;
+}
+
+// Area of the outline, px, beyond the image's border.
+double outside_area(const cv::Mat& image, const OutlineModel& outline) {
+  const double extent = outline.semi_major_px() + 1.0;
+  const int first_x = static_cast<int>(std::floor(outline.centre_px().x() - extent));
+  const int last_x = static_cast<int>(std::ceil(outline.centre_px().x() + extent));
+  const int first_y = static_cast<int>(std::floor(outline.centre_px().y() - extent));
+  const int last_y = static_cast<int>(std::ceil(outline.centre_px().y() + extent));
+  if (first_x >= 0 && first_y >= 0 && last_x < image.cols && last_y < image.rows) return 0.0;
+  double outside = 0.0;
+  for (int y = first_y; y <= last_y; ++y) {
+    for (int x = first_x; x <= last_x; ++x) {
+      if (x >= 0 && y >= 0 && x < image.cols && y < image.rows) continue;
+      outside += edge_coverage(outline.rim_point(Eigen::Vector2d(x, y))).fraction;
+    }
+  }
+  return outside;
 }
 
 }  // namespace
@@ -139,16 +151,20 @@ void measure_visibility(const cv::Mat& image, const Fit& fit, const UnmixSetting
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
                                            const FitSettings& settings) {
   if (!may_be_ball(blob)) return std::nullopt;
-  const std::optional<Fit> fit = converge(image, blob, settings);
+  const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels, kGap_px};
+  const std::optional<Fit> fit = converge(image, blob, settings, unmix);
   if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
+  const double radius = fit->outline.radius_px();
   MeasuredOutline result;
   result.colour = blob.colour;
   result.centre_px = fit->outline.centre_px();
   result.covariance_px2 = fit->covariance_px2.topLeftCorner<2, 2>();
-  result.radius_px = fit->outline.radius_px();
+  result.radius_px = radius;
   result.radius_sd_px = std::sqrt(fit->covariance_px2(2, 2));
+  const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
+  result.hidden_fraction = hidden_area(image, *fit, shades) / (kPi * radius * radius);
+  result.outside_fraction = outside_area(image, fit->outline) / (kPi * radius * radius);
   result.seen_px = blob.area_px;
-  measure_visibility(image, *fit, {palette_bgr(blob.colour), settings.noise_sd_levels, kGap_px}, result);
   return result;
 }
 

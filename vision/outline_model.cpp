@@ -22,6 +22,17 @@ OutlineModel::OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& cent
   form_ = across * Eigen::Matrix2d::Identity() + (along - across) * major * major.transpose();
 }
 
+ColumnSpan OutlineModel::columns_within(double level, int row) const {
+  // form_xx dx^2 + 2 form_xy dx dy + form_yy dy^2 <= level^2, solved for dx
+  const double dy = row - centre_px_.y();
+  const double half_slope = form_(0, 1) * dy;
+  const double discriminant = half_slope * half_slope - form_(0, 0) * (form_(1, 1) * dy * dy - level * level);
+  if (level <= 0.0 || !(discriminant >= 0.0)) return {};
+  const double middle = centre_px_.x() - half_slope / form_(0, 0);
+  const double reach = std::sqrt(discriminant) / form_(0, 0);
+  return {static_cast<int>(std::ceil(middle - reach)), static_cast<int>(std::floor(middle + reach))};
+}
+
 Coverage edge_coverage(const RimPoint& rim) {
   const double nx = std::abs(rim.normal.x());
   const double ny = std::abs(rim.normal.y());

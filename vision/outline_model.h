@@ -15,6 +15,12 @@ struct RimPoint {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit, outwards
 };
 
+/// Pixel columns of one row, both inclusive; none when last < first.
+struct ColumnSpan {
+  int first = 0;
+  int last = -1;
+};
+
 /// The outline of a ball as an ellipse with three parameters: centre and radius of the circle of equal area.
 /// The eccentricity and the direction of the major axis follow from them, since only spheres are looked at.
 class OutlineModel {
@@ -33,9 +39,19 @@ class OutlineModel {
     return {(level - 1.0) * level / slope, gradient / slope};
   }
 
+  /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.
+  double level(const Eigen::Vector2d& pixel_px) const {
+    const Eigen::Vector2d offset = pixel_px - centre_px_;
+    return std::sqrt(offset.dot(form_ * offset));
+  }
+
+  /// The columns of a row whose pixel centres lie within the similar ellipse of relative size `level`.
+  ColumnSpan columns_within(double level, int row) const;
+
   const Eigen::Vector2d& centre_px() const { return centre_px_; }
   double radius_px() const { return radius_px_; }
   double semi_major_px() const { return semi_major_px_; }
+  double semi_minor_px() const { return radius_px_ * radius_px_ / semi_major_px_; }
 
  private:
   Eigen::Vector2d centre_px_;

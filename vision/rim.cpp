@@ -9,9 +9,11 @@ namespace {
 
 constexpr double kArcLength_px = 3.0;
 constexpr double kRingWidth_px = 2.0;
-constexpr double kShadeUncertainty = 0.12;  // of the ball's brightness at the rim, relative
-constexpr double kShadeTolerance = 0.10;    // colour off the ball's line, relative to its brightness
-constexpr double kMinShade_levels = 35.0;   // a ball in the deepest shade and its own noise has more
+constexpr double kBackgroundDepth_px = 0.25;  // outside of the outline: where the background in rim pixels is
+constexpr std::size_t kSlopeArcs = 2;         // to either side
+constexpr double kShadeUncertainty = 0.12;    // of the ball's brightness at the rim, relative
+constexpr double kShadeTolerance = 0.10;      // colour off the ball's line, relative to its brightness
+constexpr double kMinShade_levels = 35.0;     // a ball in the deepest shade and its own noise has more
 constexpr double kMinContrast_levels = 14.0;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -28,42 +30,66 @@ double turns(const Eigen::Vector2d& direction) {
   return angle >= 1.0 ? 0.0 : angle;
 }
 
-struct ColourSum {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+// Sums over the pixels on one side of an arc.
+struct SideSums {
   double count = 0.0;
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  double distance = 0.0;
+  double distance_squared = 0.0;
+  Eigen::Vector3d distance_colour = Eigen::Vector3d::Zero();
 
-  void add(const Eigen::Vector3d& bgr) {
-    sum += bgr;
-    squares.noalias() += bgr * bgr.transpose();
-    count += 1.0;
-  }
-  Eigen::Vector3d mean() const { return sum / count; }
+  Eigen::Vector3d mean() const { return colour / count; }
   Eigen::Matrix3d covariance() const { return squares / count - mean() * mean().transpose(); }
 };
 
 struct ArcSamples {
-  ColourSum inside;
-  ColourSum outside;
+  SideSums inside;  // colour and count only
+  SideSums outside;
 };
 
-std::vector<ArcSamples> sample_arcs(const Rim& rim, const OutlineModel& outline, double gap_px) {
+std::vector<ArcSamples> sample_arcs(const Rim& rim, double gap_px) {
   std::vector<ArcSamples> arcs(rim.sectors);
   for (const RimPixel& pixel : rim.pixels) {
-    const double distance = outline.rim_point(pixel.position_px).distance_px;
-    const double beyond_gap = std::abs(distance) - gap_px;
+    const double beyond_gap = std::abs(pixel.distance_px) - gap_px;
     if (beyond_gap < 0.0 || beyond_gap > kRingWidth_px) continue;
     ArcSamples& arc = arcs[pixel.sector];
-    (distance < 0.0 ? arc.inside : arc.outside).add(pixel.bgr);
+    SideSums& side = pixel.distance_px < 0.0 ? arc.inside : arc.outside;
+    side.count += 1.0;
+    side.colour += pixel.bgr;
+    if (pixel.distance_px < 0.0) continue;
+    side.squares.noalias() += pixel.bgr * pixel.bgr.transpose();
+    side.distance += pixel.distance_px;
+    side.distance_squared += pixel.distance_px * pixel.distance_px;
+    side.distance_colour += pixel.distance_px * pixel.bgr;
   }
   return arcs;
 }
 
+// The background's change per pixel outwards, pooled over the arcs beside this one, as far as noise allows to
+// tell.
+Eigen::Vector3d background_slope(const std::vector<ArcSamples>& arcs, std::size_t arc,
+                                 double noise_variance) {
+  double spread = 0.0;
+  Eigen::Vector3d product = Eigen::Vector3d::Zero();
+  for (std::size_t step = 0; step < 2 * kSlopeArcs + 1; ++step) {
+    const SideSums& side = arcs[(arc + arcs.size() + step - kSlopeArcs) % arcs.size()].outside;
+    if (side.count < 2.0) continue;
+    spread += side.distance_squared - side.distance * side.distance / side.count;
+    product += side.distance_colour - side.colour * (side.distance / side.count);
+  }
+  if (!(spread > 1.0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d slope = product / spread;
+  const double expected_of_noise = 3.0 * noise_variance / spread;
+  return slope * std::max(0.0, 1.0 - expected_of_noise / (slope.squaredNorm() + 1e-9));
+}
+
 // Weighted least squares of I - background = alpha (ball - background), with noise sigma^2 in each channel
 // and the shade's uncertainty along the ball's own colour.
-ArcColours unmixing(const ArcSamples& arc, double noise_variance) {
+ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, double noise_variance) {
   ArcColours result;
-  result.background = arc.outside.mean();
+  const double outwards_px = arc.outside.distance / arc.outside.count - kBackgroundDepth_px;
+  result.background = arc.outside.mean() - outwards_px * slope;
   const Eigen::Vector3d ball = arc.inside.mean();
   const Eigen::Vector3d contrast = ball - result.background;
   const double shade_variance = 0.4 * kShadeUncertainty * kShadeUncertainty * ball.squaredNorm();
@@ -74,19 +100,19 @@ ArcColours unmixing(const ArcSamples& arc, double noise_variance) {
   if (!(strength > kMinContrast_levels * kMinContrast_levels)) return result;
   result.unmix = weighted / strength;
   const double texture = result.unmix.dot(arc.outside.covariance() * result.unmix);
-  result.alpha_variance = noise_variance / strength + 0.5 * texture;
+  result.noise_variance = noise_variance / strength;
+  result.texture_variance = std::max(0.0, texture - noise_variance * result.unmix.squaredNorm());
   result.usable = true;
   return result;
 }
 
 }  // namespace
 
-bool is_shade_of(const Eigen::Vector3d& bgr, const Eigen::Vector3d& ball_bgr, double noise_levels) {
-  const Eigen::Vector3d line = ball_bgr.normalized();
-  const double brightness = line.dot(bgr);
-  if (brightness < kMinShade_levels) return false;
-  const double tolerance = kShadeTolerance * brightness + 3.0 * noise_levels;
-  return (bgr - brightness * line).squaredNorm() <= tolerance * tolerance;
+bool Shades::contain(const Eigen::Vector3d& bgr) const {
+  const double brightness = line_.dot(bgr);
+  const double tolerance = kShadeTolerance * brightness + noise_tolerance_;
+  return brightness >= kMinShade_levels &&
+         bgr.squaredNorm() - brightness * brightness <= tolerance * tolerance;
 }
 
 Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_px) {
@@ -94,37 +120,39 @@ Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_
   rim.sectors =
       static_cast<std::size_t>(std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, 12.0, 96.0));
   const Eigen::Vector2d centre = outline.centre_px();
-  const double extent = outline.semi_major_px() + reach_px;
+  const double relative_reach = reach_px / outline.semi_minor_px();
+  const double extent = outline.semi_major_px() * (1.0 + relative_reach);
   const int first_y = std::max(0, static_cast<int>(std::ceil(centre.y() - extent)));
   const int last_y = std::min(image.rows - 1, static_cast<int>(std::floor(centre.y() + extent)));
-  const int first_x = std::max(0, static_cast<int>(std::ceil(centre.x() - extent)));
-  const int last_x = std::min(image.cols - 1, static_cast<int>(std::floor(centre.x() + extent)));
   for (int y = first_y; y <= last_y; ++y) {
     const auto* row = image.ptr<std::uint8_t>(y);
-    for (int x = first_x; x <= last_x; ++x) {
+    const ColumnSpan outer = outline.columns_within(1.0 + relative_reach, y);
+    const ColumnSpan inner = outline.columns_within(1.0 - relative_reach, y);
+    const int last_x = std::min(image.cols - 1, outer.last);
+    for (int x = std::max(0, outer.first); x <= last_x; ++x) {
+      if (x == inner.first && inner.last > x) x = inner.last;  // the middle of the ball is not the rim
       const Eigen::Vector2d position(x, y);
       const double distance = outline.rim_point(position).distance_px;
-      if (!(std::abs(distance) <= reach_px)) continue;
+      if (x < 0 || x > last_x || !(std::abs(distance) <= reach_px)) continue;
       const std::uint8_t* bgr = row + 3 * x;
       const auto sector =
           static_cast<std::size_t>(turns(position - centre) * static_cast<double>(rim.sectors));
-      rim.pixels.push_back({position, Eigen::Vector3d(bgr[0], bgr[1], bgr[2]), sector});
+      rim.pixels.push_back({position, Eigen::Vector3d(bgr[0], bgr[1], bgr[2]), distance, sector});
     }
   }
   return rim;
 }
 
-std::vector<ArcColours> arc_colours(const Rim& rim, const OutlineModel& outline,
-                                    const UnmixSettings& settings) {
-  const std::vector<ArcSamples> samples = sample_arcs(rim, outline, settings.gap_px);
+std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
+  const std::vector<ArcSamples> samples = sample_arcs(rim, settings.gap_px);
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
   std::vector<ArcColours> arcs(rim.sectors);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const ArcSamples& arc = samples[i];
     if (arc.inside.count < 2.0 || arc.outside.count < 2.0) continue;
-    const double mean_noise = std::sqrt(noise_variance / arc.inside.count);
-    if (!is_shade_of(arc.inside.mean(), settings.ball_bgr, mean_noise)) continue;
-    arcs[i] = unmixing(arc, noise_variance);
+    const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / arc.inside.count));
+    if (!shades.contain(arc.inside.mean())) continue;
+    arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), noise_variance);
   }
   return arcs;
 }

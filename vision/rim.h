@@ -14,7 +14,8 @@ namespace stereobench::vision {
 struct RimPixel {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
   Eigen::Vector3d bgr = Eigen::Vector3d::Zero();
-  std::size_t sector = 0;  ///< which arc of the outline it belongs to
+  double distance_px = 0.0;  ///< from the outline that it was collected for, positive outside
+  std::size_t sector = 0;    ///< which arc of the outline it belongs to
 };
 
 /// The pixels of the image that are near an outline, sorted into short arcs.
@@ -31,8 +32,10 @@ Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_
 struct ArcColours {
   Eigen::Vector3d background = Eigen::Vector3d::Zero();  ///< BGR, just outside
   Eigen::Vector3d unmix = Eigen::Vector3d::Zero();       ///< per level; zero where the arc shows nothing
-  double alpha_variance = 0.0;  ///< of a pixel's alpha from noise and from the background's texture
-  bool usable = false;          ///< the ball's colour inside, another one outside, enough contrast
+  double noise_variance = 0.0;                           ///< of a pixel's alpha, from image noise
+  double texture_variance =
+      0.0;              ///< of the arc's alpha, since texture is not the same at the rim as beside it
+  bool usable = false;  ///< the ball's colour inside, another one outside, enough contrast
 };
 
 /// What arc colours are judged by.
@@ -43,13 +46,25 @@ struct UnmixSettings {
 };
 
 /// Samples both colours of each arc and prepares the unmixing I = alpha ball + (1 - alpha) background. The
-/// ball's brightness at the very rim is known from further inside only to some 15 % (Lambert shading changes
+/// ball's brightness at the very rim is known from further inside only to some 12 % (Lambert shading changes
 /// fastest there), so differences along the ball's own colour count for little, and chromaticity for much.
-std::vector<ArcColours> arc_colours(const Rim& rim, const OutlineModel& outline,
-                                    const UnmixSettings& settings);
+/// The background is extrapolated to the rim where it changes steadily.
+std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
 
-/// Whether a colour is a shade of the ball's: close to the line from black to the ball's colour.
-/// @param noise_levels standard deviation of the colour's channels
-bool is_shade_of(const Eigen::Vector3d& bgr, const Eigen::Vector3d& ball_bgr, double noise_levels);
+/// The shades of a ball's colour: what lies near the line from black through it.
+class Shades {
+ public:
+  /// @param ball_bgr any brightness
+  /// @param noise_levels standard deviation of the channels of the colours to be tested
+  Shades(const Eigen::Vector3d& ball_bgr, double noise_levels)
+      : line_(ball_bgr.normalized()), noise_tolerance_(3.0 * noise_levels) {}
+
+  /// Whether a colour is a shade of the ball's.
+  bool contain(const Eigen::Vector3d& bgr) const;
+
+ private:
+  Eigen::Vector3d line_;
+  double noise_tolerance_;
+};
 
 }  // namespace stereobench::vision
