@@ -1,0 +1,70 @@
+#include "renderer/backend.h"
+
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "renderer/gl.h"
+#include "renderer/renderer.h"
+#include "vision/palette.h"
+#include "vision/sphere.h"
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr double kBallAhead_m = 1.5;
+
+worlds::World test_world() {
+  worlds::World world;
+  world.floor = worlds::Material::kPlain;
+  world.balls.push_back({.centre_m = {kBallAhead_m, 0.0, 0.3}, .radius_m = 0.1, .colour = 0});
+  world.walls.push_back({.from_m = {3.0, 5.0}, .to_m = {3.0, -5.0}, .material = worlds::Material::kPlain});
+  world.light = {.towards_light = {-1.0, 0.0, 0.0}, .ambient = 0.5, .diffuse = 0.5};
+  return world;
+}
+
+vision::StereoRig test_rig() {
+  return {.camera = {.width_px = 160, .height_px = 120, .focal_px = 150.0, .cx_px = 79.5, .cy_px = 59.5},
+          .baseline_m = 0.12,
+          .height_m = 0.3};
+}
+
+std::string eye_complaint(const EyeFrame& frame, const vision::StereoRig& rig, vision::Eye eye) {
+  const worlds::Ball ball = test_world().balls.front();
+  const double side_m = (eye == vision::Eye::kLeft ? 0.5 : -0.5) * rig.baseline_m;
+  const auto outline = vision::sphere_outline(rig.camera, {side_m, 0.0, kBallAhead_m}, ball.radius_m);
+  const cv::Point centre(static_cast<int>(std::lround(outline->centre_px.x())),
+                         static_cast<int>(std::lround(outline->centre_px.y())));
+  if (frame.ball_id.at<std::uint8_t>(centre) != 1) return "the ball is not where it should be";
+  const double expected_px2 = M_PI * outline->semi_major_px * outline->semi_minor_px;
+  const int seen_px = cv::countNonZero(frame.ball_id);
+  if (!(std::abs(seen_px - expected_px2) < 0.02 * expected_px2)) {
+    return fmt::format("the ball covers {} pixels, not {:.0f}", seen_px, expected_px2);
+  }
+  const double depth_m = double{frame.depth_m.at<float>(centre)};
+  if (!(std::abs(depth_m - (kBallAhead_m - ball.radius_m)) < 1e-3)) {
+    return fmt::format("the ball is {:.4f} m away, not {:.4f}", depth_m, kBallAhead_m - ball.radius_m);
+  }
+  const int red = frame.colour.at<cv::Vec3b>(centre)[2];
+  if (std::abs(red - vision::kPalette[0].r) > 2) return fmt::format("the ball's red is {}, not 229", red);
+  return {};
+}
+
+}  // namespace
+
+BackendInfo backend_info() {
+  const Context context;
+  const Gl gl(context);
+  return {"osmesa", gl_string(gl, GL_VERSION), gl_string(gl, GL_RENDERER), gl_string(gl, GL_VENDOR)};
+}
+
+std::string test_frame_complaint() {
+  const vision::StereoRig rig = test_rig();
+  const StereoFrame frame = Renderer(test_world(), rig).render({});
+  const std::string left = eye_complaint(frame.left, rig, vision::Eye::kLeft);
+  if (!left.empty()) return "left eye: " + left;
+  const std::string right = eye_complaint(frame.right, rig, vision::Eye::kRight);
+  return right.empty() ? std::string() : "right eye: " + right;
+}
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,24 @@
+/// What a camera makes of a perfect picture.
+#pragma once
+
+#include <cstdint>
+
+#include "renderer/types.h"
+#include "vision/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::renderer {
+
+/// Adds the camera's noise: Gaussian, independent for each pixel, channel, eye and frame, then rounded to
+/// whole levels (which adds a variance of 1/12 of its own) and clamped to 0..255.
+///
+/// Noise is a function of (seed, frame, eye, position) alone, the numbers of
+/// slam::RandomStream(seed, kImageNoise, 2 * frame + eye): frame 17 alone gets what frame 17 of a run gets.
+/// @param frame both eyes' colour, CV_8UC3
+/// @param frame_index >= 0, counts the instants of a run
+/// @return pictures of the same size; without noise they share the frame's pixels
+/// @throws std::invalid_argument when the noise is negative or not finite, or a picture is not CV_8UC3
+vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                          std::uint64_t frame_index);
+
+}  // namespace stereobench::renderer
