@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "slam/association.h"
 #include "slam/belief.h"
 #include "slam/filter_config.h"
 #include "slam/linearised.h"
+#include "slam/particle.h"
+#include "slam/pose_correction.h"
 #include "slam/random.h"
 #include "slam/unscented.h"
 
@@ -24,13 +25,11 @@ namespace stereobench::slam {
 /// particles are given the same controls. Motion in the plane does not depend on where it happens, so the motion
 /// since the last update, its mean and covariance in the robot's frame, is predicted once for all particles and
 /// put behind each particle's pose when something is seen. A prediction costs the same for 1 particle and 1000. A
-/// frame in which nothing is seen leaves that motion to grow.
+/// frame in which nothing is seen, or nothing believed, leaves that motion to grow.
 ///
-/// An update, for each particle: sightings of known landmarks are used one after the other, each with moments of
-/// the belief that the one before left; the weight is multiplied by N(innovation; 0, S) with S from before the
-/// landmark is used (by the chain rule this is the likelihood of the whole frame). Then particles are resampled if
-/// need be - the weights depend on nothing that is drawn later, so that copies can still draw poses of their own -
-/// and then each draws its pose, refines the landmarks it saw and adds new ones.
+/// An update corrects each particle's pose by the landmarks it knows (PoseCorrection), resamples if need be, draws
+/// the poses, and then refines the landmarks that were seen and adds new ones, given the pose drawn. The weights
+/// depend on nothing that is drawn in the update, so resampling can go first: copies then draw poses of their own.
 template <class Model>
 class FastSlam {
  public:
@@ -42,49 +41,30 @@ class FastSlam {
   Estimate estimate_without_map() const;
 
  private:
-  struct Sighting {
-    Observation observation;
-    int slot = kUnknown;  ///< index of a known landmark; kUnknown when only its colour is known
-    int colour_class = kUnknown;
-  };
-  struct Particle {
-    Pose pose;                           ///< as drawn at the last update
-    std::vector<LandmarkBelief> known;   ///< by slot, the same in all particles
-    std::vector<ClassedLandmark> classed;  ///< in order of discovery, each particle has its own
-  };
-  /// A particle's pose after what it saw, before it is drawn.
-  struct Posterior {
-    PoseBelief pose;
-    double log_likelihood = 0.0;
-    bool used_something = false;
-  };
-
   std::vector<Sighting> read(std::span<const RangeBearing> sightings);
   int slot_for(const RangeBearing& sighting);
-  Posterior correct(const Particle& particle, std::span<const Sighting> frame, int* targets);
-  void associate(const Particle& particle, const PoseBelief& belief, std::span<const Sighting> frame, int* targets);
-  bool use(const LandmarkBelief& landmark, const Observation& observation, bool surely, Posterior& posterior);
+  std::span<Target> targets_of(std::size_t particle);
+  bool correct(std::span<const Sighting> frame);
   void reweigh();
   void resample();
-  void redraw_map(std::size_t particle, std::span<const Sighting> frame);
-  void add_classed(Particle& particle, const Sighting& sighting);
-  std::size_t heaviest() const;
-  LandmarkEstimate mixed_known(std::size_t slot) const;
-  LandmarkEstimate mixed_classed(std::size_t landmark) const;
+  void draw_poses();
+  void update_map(std::size_t particle, std::span<const Sighting> frame);
+  void learn(Particle& particle, const Sighting& sighting, const Target& target);
+  void add(Particle& particle, const Sighting& sighting);
 
   FilterConfig config_;
   Model model_;
+  PoseCorrection<Model> correction_;
   RandomStream random_;
-  double gate_;
   std::vector<Particle> particles_;
-  std::vector<double> log_weights_;
-  std::vector<Posterior> posteriors_;
-  std::vector<int> targets_;  ///< particle by particle, one per sighting of the frame
-  std::map<int, int> slot_of_id_;
+  std::vector<double> log_weights_;            ///< normalised
+  std::vector<Posterior> posteriors_;          ///< of the update in progress, by particle
+  std::vector<Target> targets_;                ///< of the update in progress, particle by particle
+  std::map<int, int> slot_of_id_;              ///< where a known landmark is kept in every particle
   std::vector<RangeBearing> first_sightings_;  ///< by slot: identity and colour of known landmarks
   PoseBelief motion_;                          ///< since the last update, in the robot's frame of that time
   PoseBelief belief_;                          ///< at the last update, over all particles
-  double effective_ = 1.0;
+  double effective_;
   FilterCounters counters_;
 };
 

@@ -39,19 +39,19 @@ inline constexpr int kUnknown = -1;  ///< an identity or a colour class that is 
 
 /// One sighting of a landmark: horizontal range and bearing from the robot frame's origin.
 struct RangeBearing {
-  double range_m = 0.0;      ///< >= 0, horizontal
-  double bearing_rad = 0.0;  ///< in (-pi, pi], left-positive
+  double range_m = 0.0;                                  ///< >= 0, horizontal
+  double bearing_rad = 0.0;                              ///< in (-pi, pi], left-positive
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (range, bearing): m^2, m rad, rad^2
-  int landmark_id = kUnknown;   ///< identity when it is known, >= 0
+  int landmark_id = kUnknown;                            ///< identity when it is known, >= 0
   int colour_class = kUnknown;  ///< colour when colours repeat and identity must be resolved, >= 0
 };
 
 /// A landmark of the map as a filter believes it to be.
 struct LandmarkEstimate {
-  int landmark_id = kUnknown;   ///< the identity it was observed with, or kUnknown
-  int colour_class = kUnknown;  ///< the colour it was observed with, or kUnknown
-  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();    ///< in the world frame
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();    ///< m^2, symmetric, semidefinite
+  int landmark_id = kUnknown;                            ///< the identity it was observed with, or kUnknown
+  int colour_class = kUnknown;                           ///< the colour it was observed with, or kUnknown
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< in the world frame
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2, symmetric, semidefinite
 };
 
 /// What a filter had to mend or refuse, so that nothing happens in silence.

@@ -1,0 +1,72 @@
+#include "slam/mixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stereobench::slam {
+namespace {
+
+/// Sums up weighted Gaussians as offsets from a reference, which keeps digits and wraps angles once.
+template <int kSize>
+struct Moments {
+  Eigen::Matrix<double, kSize, 1> first = Eigen::Matrix<double, kSize, 1>::Zero();
+  Eigen::Matrix<double, kSize, kSize> second = Eigen::Matrix<double, kSize, kSize>::Zero();
+  double total = 0.0;
+
+  void add(double weight, const Eigen::Matrix<double, kSize, 1>& offset,
+           const Eigen::Matrix<double, kSize, kSize>& covariance) {
+    total += weight;
+    first += weight * offset;
+    second += weight * (covariance + offset * offset.transpose());
+  }
+  Eigen::Matrix<double, kSize, 1> mean() const { return first / total; }
+  Eigen::Matrix<double, kSize, kSize> covariance() const { return second / total - mean() * mean().transpose(); }
+};
+
+const Landmark* nearest(const std::vector<Landmark>& landmarks, const Landmark& own, double within_m) {
+  const Landmark* best = nullptr;
+  for (const Landmark& landmark : landmarks) {
+    const double distance = (landmark.belief.mean - own.belief.mean).norm();
+    if (landmark.colour_class != own.colour_class || distance > within_m) continue;
+    best = &landmark;
+    within_m = distance;
+  }
+  return best;
+}
+
+}  // namespace
+
+PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vector<double>& log_weights) {
+  const auto heaviest = std::max_element(log_weights.begin(), log_weights.end()) - log_weights.begin();
+  const Pose reference = posteriors[static_cast<std::size_t>(heaviest)].pose.mean;
+  Moments<3> moments;
+  for (std::size_t i = 0; i < posteriors.size(); ++i) {
+    const PoseBelief& belief = posteriors[i].pose;
+    moments.add(std::exp(log_weights[i]), displacement(belief.mean, reference), belief.covariance);
+  }
+  return {displace(reference, moments.mean()), moments.covariance()};
+}
+
+LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
+                              std::size_t slot) {
+  const Eigen::Vector2d reference = particles.front().known[slot].belief.mean;
+  Moments<2> moments;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const LandmarkBelief& belief = particles[i].known[slot].belief;
+    moments.add(std::exp(log_weights[i]), belief.mean - reference, belief.covariance);
+  }
+  return {reference + moments.mean(), moments.covariance()};
+}
+
+LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
+                                   const Landmark& own, double within_m) {
+  Moments<2> moments;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Landmark* same = nearest(particles[i].classed, own, within_m);
+    if (same == nullptr) continue;
+    moments.add(std::exp(log_weights[i]), same->belief.mean - own.belief.mean, same->belief.covariance);
+  }
+  return {own.belief.mean + moments.mean(), moments.covariance()};
+}
+
+}  // namespace stereobench::slam

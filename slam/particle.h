@@ -1,0 +1,62 @@
+/// A particle, what it sees, and what becomes of it: the values that one update passes along.
+#pragma once
+
+#include <vector>
+
+#include "slam/belief.h"
+
+namespace stereobench::slam {
+
+/// A landmark in one particle's map.
+struct Landmark {
+  LandmarkBelief belief;
+  int colour_class = kUnknown;
+  int uses = 1;      ///< sightings that agreed with it, the first included
+  int refusals = 0;  ///< sightings since the last agreement that contradicted it
+};
+
+/// A path's end and the map that belongs to the path. Copies share nothing.
+struct Particle {
+  Pose pose;                      ///< as drawn at the last update
+  std::vector<Landmark> known;    ///< landmarks with an identity, by slot: the same slots in all particles
+  std::vector<Landmark> classed;  ///< landmarks with no more than a colour, in order of discovery
+};
+
+/// A sighting that passed the checks. Its slot is the identity's index, or kUnknown when only a colour was seen.
+struct Sighting {
+  Observation observation;
+  int slot = kUnknown;
+  int colour_class = kUnknown;
+};
+
+/// What becomes of a sighting.
+enum class Fate {
+  kAdd,     ///< something that is not in the map yet
+  kUse,     ///< corrects the pose, then the landmark
+  kMove,    ///< the landmark turned out to be wrong and is found anew
+  kRefuse,  ///< contradicts its landmark and is not believed
+  kIgnore,  ///< a double of another sighting
+};
+
+/// A sighting's fate, and the index of its landmark in the particle's map; -1 where it has none.
+struct Target {
+  Fate fate = Fate::kAdd;
+  int landmark = -1;
+};
+
+/// A particle's pose after what it saw, before it is drawn.
+struct Posterior {
+  PoseBelief pose;
+  double log_likelihood = 0.0;  ///< of the whole frame, given the particle's path and map
+  bool vouched = false;         ///< some landmark has corrected it in this frame
+};
+
+/// The landmark in a particle's map that a target points at.
+inline Landmark& landmark_of(Particle& particle, const Sighting& sighting, const Target& target) {
+  return (sighting.slot == kUnknown ? particle.classed : particle.known)[static_cast<std::size_t>(target.landmark)];
+}
+inline const Landmark& landmark_of(const Particle& particle, const Sighting& sighting, const Target& target) {
+  return (sighting.slot == kUnknown ? particle.classed : particle.known)[static_cast<std::size_t>(target.landmark)];
+}
+
+}  // namespace stereobench::slam

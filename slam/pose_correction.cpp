@@ -1,0 +1,160 @@
+#include "slam/pose_correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/gaussian.h"
+#include "slam/measurement.h"
+
+namespace stereobench::slam {
+namespace {
+
+constexpr int kPatience = 3;   ///< contradictions in a row before they are taken seriously
+constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
+
+bool is_finite(const Posterior& posterior) {
+  const Pose& pose = posterior.pose.mean;
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad) &&
+         posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
+}
+
+/// The covariance of a drift that explains why a landmark was seen this far from where it should have been.
+Eigen::Matrix3d drift_covariance(const PoseBelief& belief, const LandmarkBelief& landmark,
+                                 const Observation& observation) {
+  constexpr double kHeadingPerMetre_rad = 0.1;
+  const double off_m2 = (locate(belief.mean, observation.range_bearing) - landmark.mean).squaredNorm();
+  return Eigen::Vector3d(off_m2, off_m2, kHeadingPerMetre_rad * kHeadingPerMetre_rad * off_m2).asDiagonal();
+}
+
+/// A sighting's surprise, measured by what was expected.
+struct Surprise {
+  Surprise(const Innovation& innovation, const Observation& observation, long& repairs)
+      : expected(innovation),
+        factor(innovation.covariance, repairs),
+        residual(sighting_residual(observation.range_bearing, innovation.expected)),
+        squared_length(factor.squared_length(residual)) {}
+
+  double log_likelihood() const { return -0.5 * (squared_length + factor.log_det_2_pi()); }
+
+  Innovation expected;
+  Factor2 factor;
+  Eigen::Vector2d residual;
+  double squared_length;
+};
+
+/// The Kalman update in gain form, K = P_xz S^-1: a singular P is nothing special, and P^-1 is never needed.
+void apply(const Surprise& surprise, Posterior& posterior) {
+  const Eigen::Matrix<double, 3, 2> gain = surprise.factor.template divide<3>(surprise.expected.cross);
+  const Eigen::Matrix3d covariance = posterior.pose.covariance - gain * surprise.expected.cross.transpose();
+  posterior.pose.mean = displace(posterior.pose.mean, gain * surprise.residual);
+  posterior.pose.covariance = 0.5 * (covariance + covariance.transpose());
+  posterior.log_likelihood += surprise.log_likelihood();
+  posterior.vouched = true;
+}
+
+}  // namespace
+
+template <class Model>
+PoseCorrection<Model>::PoseCorrection(const FilterConfig& config)
+    : model_(config.unscented),
+      gate_(chi_square_2_quantile(config.gate_probability)),
+      near_m_(0.5 * config.colour_spacing_m) {}
+
+template <class Model>
+Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
+                                         std::span<const Sighting> frame, std::span<Target> targets,
+                                         FilterCounters& counters) {
+  associate(particle, predicted, frame, targets, counters);
+  order_by_age(targets);
+  Posterior posterior{predicted};
+  for (const std::size_t k : order_) {
+    const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
+    targets[k].fate = use(landmark, frame[k], posterior, counters);
+  }
+  if (is_finite(posterior)) return posterior;
+  ++counters.covariance_repairs;
+  return {predicted, -std::numeric_limits<double>::infinity(), false};
+}
+
+template <class Model>
+void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief& predicted,
+                                      std::span<const Sighting> frame, std::span<Target> targets,
+                                      FilterCounters& counters) {
+  candidates_.clear();
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    targets[k] = {};
+    if (frame[k].slot == kUnknown) {
+      find_candidates(particle, predicted, frame[k], static_cast<int>(k), counters);
+    } else if (static_cast<std::size_t>(frame[k].slot) < particle.known.size()) {
+      targets[k] = {Fate::kUse, frame[k].slot};
+    }
+  }
+  if (!candidates_.empty()) assign(candidates_, near_m_ > 0.0, targets);
+}
+
+template <class Model>
+void PoseCorrection<Model>::find_candidates(const Particle& particle, const PoseBelief& predicted,
+                                            const Sighting& sighting, int index, FilterCounters& counters) {
+  const Observation& observation = sighting.observation;
+  const Eigen::Vector2d place = locate(predicted.mean, observation.range_bearing);
+  for (std::size_t j = 0; j < particle.classed.size(); ++j) {
+    const Landmark& landmark = particle.classed[j];
+    if (landmark.colour_class != sighting.colour_class) continue;
+    long& repairs = counters.covariance_repairs;
+    const Surprise surprise(model_.expect(predicted, landmark.belief, observation.noise, repairs), observation,
+                            repairs);
+    const bool gated = !(surprise.squared_length <= gate_);
+    if (gated && !((place - landmark.belief.mean).norm() < near_m_)) continue;
+    candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
+  }
+}
+
+template <class Model>
+void PoseCorrection<Model>::order_by_age(std::span<const Target> targets) {
+  order_.clear();
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (targets[k].fate == Fate::kUse) order_.push_back(k);
+  }
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(targets[a].landmark, a) < std::pair(targets[b].landmark, b);
+  });
+}
+
+template <class Model>
+Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
+                                FilterCounters& counters) const {
+  long& repairs = counters.covariance_repairs;
+  const Observation& observation = sighting.observation;
+  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation,
+                          repairs);
+  if (surprise.squared_length <= gate_) {
+    apply(surprise, posterior);
+    return Fate::kUse;
+  }
+  ++counters.gated_measurements;
+  const Fate fate = judge(landmark, sighting, posterior);
+  if (fate == Fate::kUse) {
+    posterior.pose.covariance += drift_covariance(posterior.pose, landmark.belief, observation);
+    apply(Surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation, repairs),
+          posterior);
+  } else {
+    posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());
+  }
+  return fate;
+}
+
+template <class Model>
+Fate PoseCorrection<Model>::judge(const Landmark& landmark, const Sighting& sighting,
+                                  const Posterior& posterior) const {
+  const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
+  const bool persistent = landmark.refusals + 1 >= kPatience;
+  const bool pose_is_wrong = !posterior.vouched && (certain || landmark.uses >= kConfirmed);
+  if (pose_is_wrong && (certain || persistent)) return Fate::kUse;
+  return persistent ? Fate::kMove : Fate::kRefuse;
+}
+
+template class PoseCorrection<Linearised>;
+template class PoseCorrection<Unscented>;
+
+}  // namespace stereobench::slam
