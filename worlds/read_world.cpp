@@ -90,8 +90,7 @@ Light read_light(const YamlValue& value) {
 
 }  // namespace
 
-World read_world(const YamlValue& value, const std::filesystem::path& folder) {
-  const YamlMap map(value, {"ball_radius_m", "balls", "walls", "meshes", "floor", "light", "sky_rgb"});
+World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   World world;
   world.balls = read_balls(map);
   if (const auto walls = map.find("walls")) {

@@ -78,7 +78,7 @@ void read_odometry(const YamlMap& map, Scenario& scenario) {
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const YamlDocument document = load_yaml(file, overrides);
-  const YamlMap map(YamlValue(document, "", document.root),
+  const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
                     {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
                      "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise",
                      "believed_odometry_noise", "path", "placement_jitter_m", "world"});
@@ -90,8 +90,9 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   read_odometry(map, scenario);
   scenario.path = read_path(map.at("path"));
   scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
-  scenario.world = read_world(map.at("world"), file.parent_path());
-  check_balls(scenario, YamlValue(document, "world.balls", document.root["world"]["balls"]));
+  const YamlMap world(map.at("world"), kWorldKeys);
+  scenario.world = read_world(world, file.parent_path());
+  check_balls(scenario, world.at("balls"));
   return scenario;
 }
 

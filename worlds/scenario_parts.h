@@ -1,13 +1,20 @@
 /// The parts of a scenario file, each read from its group of keys.
 #pragma once
 
+#include <array>
+#include <filesystem>
+#include <string_view>
+
 #include "worlds/types.h"
 #include "worlds/yaml_value.h"
 
 namespace stereobench::worlds {
 
-/// `world:` balls, walls, meshes, floor, light and sky. Mesh files must exist.
-World read_world(const YamlValue& value, const std::filesystem::path& folder);
+inline constexpr std::array<std::string_view, 7> kWorldKeys = {"ball_radius_m", "balls", "walls",  "meshes",
+                                                               "floor",         "light", "sky_rgb"};
+
+/// `world:` balls, walls, meshes, floor, light and sky. Mesh files, relative to the folder, must exist.
+World read_world(const YamlMap& map, const std::filesystem::path& folder);
 
 /// `path:` a circle or a polyline, driven.
 GroundTruth read_path(const YamlValue& value);

@@ -7,11 +7,11 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr std::size_t kMostSeeds = 100000;
+constexpr std::size_t kMostSeeds = 10000;
 
 [[noreturn]] void refuse() {
   throw std::invalid_argument(
-      "expected seeds such as 0..9, 3 or 0,4,7: whole numbers, each once, at most 100000");
+      "expected seeds such as 0..9, 3 or 0,4,7: whole numbers, each once, at most 10000");
 }
 
 std::uint64_t parse_seed(std::string_view text) {
@@ -32,15 +32,14 @@ std::vector<std::uint64_t> parse_seeds(std::string_view text) {
     for (std::uint64_t seed = first; seeds.size() <= last - first; ++seed) seeds.push_back(seed);
     return seeds;
   }
-  for (std::size_t begin = 0; begin != std::string_view::npos + 1;) {
-    const std::size_t comma = text.find(',', begin);
-    const std::uint64_t seed = parse_seed(text.substr(begin, comma - begin));
+  while (true) {
+    const std::size_t comma = text.find(',');
+    const std::uint64_t seed = parse_seed(text.substr(0, comma));
     if (seeds.size() == kMostSeeds || std::ranges::find(seeds, seed) != seeds.end()) refuse();
     seeds.push_back(seed);
-    if (comma == std::string_view::npos) break;
-    begin = comma + 1;
+    if (comma == std::string_view::npos) return seeds;
+    text.remove_prefix(comma + 1);
   }
-  return seeds;
 }
 
 }  // namespace stereobench::worlds

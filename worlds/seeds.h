@@ -11,7 +11,7 @@ namespace stereobench::worlds {
 ///
 /// @return the seeds in the order written, at least one, each once
 /// @throws std::invalid_argument with what was expected when it is none of these, repeats a seed, or has more
-///         than 100000 of them
+///         than 10000 of them
 std::vector<std::uint64_t> parse_seeds(std::string_view text);
 
 }  // namespace stereobench::worlds

@@ -19,9 +19,9 @@ std::string read_text(const std::filesystem::path& file) {
   }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (!stream || stream.bad()) {
-    throw std::runtime_error(fmt::format("{}: cannot be read, or is empty", file.string()));
+  text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad()) {
+    throw std::runtime_error(fmt::format("{}: expected a file that can be read", file.string()));
   }
   return text.str();
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
-#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,11 +27,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// "did you mean x?" when a known key is near, else all that are known.
 std::string advice(std::string_view key, std::span<const std::string_view> known) {
-  const auto nearer = [&](std::string_view a, std::string_view b) {
-    return edit_distance(key, a) < edit_distance(key, b);
+  const auto change = [&](std::string_view other) {
+    return static_cast<double>(edit_distance(key, other)) / static_cast<double>(other.size());
   };
-  const std::string_view nearest = *std::ranges::min_element(known, nearer);
-  if (edit_distance(key, nearest) * 2 <= nearest.size()) return fmt::format("did you mean {}?", nearest);
+  const std::string_view nearest = *std::ranges::min_element(known, {}, change);
+  if (change(nearest) <= 0.5) return fmt::format("did you mean {}?", nearest);
   return fmt::format("expected one of {}", fmt::join(known, ", "));
 }
 
@@ -47,21 +47,23 @@ YamlMap::YamlMap(const YamlValue& value, std::span<const std::string_view> known
   for (const auto& entry : value.node_) {
     if (!entry.first.IsScalar()) value.refuse("expected keys that are plain text");
     const std::string& key = entry.first.Scalar();
-    const YamlValue here(*value.document_, joined(value.key_, key), entry.first);
+    const YamlValue here(*value.document_, joined(value.key_, key), entry.second, entry.first.Mark());
     if (std::ranges::find(known, key) == known.end()) here.refuse("unknown key, " + advice(key, known));
     if (!seen.insert(key).second) here.refuse("expected each key once (this one is repeated)");
   }
 }
 
 std::optional<YamlValue> YamlMap::find(std::string_view key) const {
-  const YAML::Node node = value_.node_[std::string(key)];
-  if (!node.IsDefined()) return std::nullopt;
-  return YamlValue(*value_.document_, joined(value_.key_, key), node);
+  for (const auto& entry : value_.node_) {
+    if (entry.first.Scalar() != key) continue;
+    return YamlValue(*value_.document_, joined(value_.key_, key), entry.second, entry.first.Mark());
+  }
+  return std::nullopt;
 }
 
 YamlValue YamlMap::at(std::string_view key) const {
   if (const auto found = find(key)) return *found;
-  const YamlValue missing(*value_.document_, joined(value_.key_, key), value_.node_);
+  const YamlValue missing(*value_.document_, joined(value_.key_, key), value_.node_, value_.mark_);
   missing.refuse("this key is missing and has no default");
 }
 

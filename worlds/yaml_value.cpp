@@ -40,8 +40,8 @@ std::optional<Number> parse(const YAML::Node& node) {
 
 }  // namespace
 
-YamlValue::YamlValue(const YamlDocument& document, std::string key, YAML::Node node)
-    : document_(&document), key_(std::move(key)), node_(std::move(node)) {}
+YamlValue::YamlValue(const YamlDocument& document, std::string key, YAML::Node node, YAML::Mark mark)
+    : document_(&document), key_(std::move(key)), node_(std::move(node)), mark_(mark) {}
 
 double YamlValue::number(const Interval& within) const {
   const std::optional<double> number = parse<double>(node_);
@@ -85,7 +85,7 @@ std::vector<YamlValue> YamlValue::list(std::size_t least, std::size_t most) cons
   }
   std::vector<YamlValue> entries;
   for (std::size_t i = 0; i < node_.size(); ++i) {
-    entries.emplace_back(*document_, fmt::format("{}[{}]", key_, i), node_[i]);
+    entries.emplace_back(*document_, fmt::format("{}[{}]", key_, i), node_[i], node_[i].Mark());
   }
   return entries;
 }
@@ -95,7 +95,7 @@ void YamlValue::fail(std::string_view expected) const {
 }
 
 void YamlValue::refuse(std::string_view reason) const {
-  throw std::runtime_error(fmt::format("{}: {}", blame(*document_, key_, node_.Mark()), reason));
+  throw std::runtime_error(fmt::format("{}: {}", blame(*document_, key_, mark_), reason));
 }
 
 }  // namespace stereobench::worlds

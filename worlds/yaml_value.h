@@ -22,7 +22,8 @@ struct Interval {
 class YamlValue {
  public:
   /// @param key the full path of the value, e.g. "world.balls[3].colour"
-  YamlValue(const YamlDocument& document, std::string key, YAML::Node node);
+  /// @param mark where complaints about it point to: its key, or itself in a list
+  YamlValue(const YamlDocument& document, std::string key, YAML::Node node, YAML::Mark mark);
 
   /// A finite number within bounds; quoted text is no number.
   double number(const Interval& within) const;
@@ -47,6 +48,7 @@ class YamlValue {
   const YamlDocument* document_;
   std::string key_;
   YAML::Node node_;
+  YAML::Mark mark_;
 };
 
 /// A group of keys. Making one checks that each key is known and written once.

@@ -1,0 +1,152 @@
+// A scenario says what its file says; seeds move its balls and nothing else.
+#include "worlds/scenario.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/worlds/scenario_text.h"
+#include "worlds/path.h"
+#include "worlds/seeds.h"
+
+namespace stereobench::worlds {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Scenario read_small(const std::vector<std::string>& overrides = {}) {
+  const ScenarioFolder folder;
+  return read_scenario(folder.write("good.yaml", kSmallScenario), overrides);
+}
+
+TEST(Scenario, SaysWhoLooksHow) {
+  const Scenario scenario = read_small();
+  EXPECT_EQ(scenario.name, "small");
+  EXPECT_THAT(scenario.seeds, ElementsAre(0, 1, 2));
+  EXPECT_THAT(scenario.filters, ElementsAre("dead_reckoning", "ufastslam"));
+  EXPECT_EQ(scenario.particles, 20);
+  EXPECT_EQ(scenario.sensor, SensorKind::kStereo);
+  EXPECT_EQ(scenario.identity, Identity::kKnown);
+  EXPECT_EQ(scenario.camera.noise_sd_levels, 1.0);
+  EXPECT_EQ(scenario.gates.at(0).metric, "vision.recall");
+  EXPECT_EQ(scenario.gates.at(0).relation, Gate::Relation::kAtLeast);
+  EXPECT_EQ(scenario.gates.at(0).limit, 0.9);
+}
+
+// Catches: degrees taken for radians, a principal point at width / 2.
+TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
+  const Scenario scenario = read_small({"rig.pitch_down_deg=10"});
+  EXPECT_DOUBLE_EQ(scenario.rig.camera.cx_px, 319.5);
+  EXPECT_DOUBLE_EQ(scenario.rig.camera.cy_px, 239.5);
+  EXPECT_DOUBLE_EQ(scenario.rig.pitch_down_rad, 10 * kDegree);
+  EXPECT_DOUBLE_EQ(scenario.odometry_noise.w_constant_radps, 2 * kDegree);
+  EXPECT_DOUBLE_EQ(scenario.oracle.bearing_sd_rad, kDegree);
+  EXPECT_DOUBLE_EQ(scenario.oracle.field_of_view_rad, 90 * kDegree);
+  EXPECT_DOUBLE_EQ(scenario.world.meshes.at(0).heading_rad, 90 * kDegree);
+}
+
+// Catches: a closed line of corners that lacks its last wall, a mesh path that stays relative.
+TEST(Scenario, BuildsTheWorld) {
+  const Scenario scenario = read_small();
+  const World& world = scenario.world;
+  ASSERT_EQ(world.walls.size(), 3U);
+  EXPECT_EQ(world.walls[2].from_m, Eigen::Vector2d(4, 4));
+  EXPECT_EQ(world.walls[2].to_m, Eigen::Vector2d(-4, -4));
+  EXPECT_EQ(world.walls[1].material, Material::kWood);
+  EXPECT_EQ(world.floor, Material::kBricks);
+  ASSERT_EQ(world.balls.size(), 3U);
+  EXPECT_EQ(world.balls[1].centre_m, Eigen::Vector3d(0, 3, 0.1));
+  EXPECT_EQ(world.balls[1].colour, 1);
+  EXPECT_EQ(world.balls[1].radius_m, 0.05);
+  EXPECT_TRUE(std::filesystem::path(world.meshes.at(0).file).is_absolute());
+  EXPECT_EQ(world.sky_rgb, Eigen::Vector3d(0, 0.5, 1));
+}
+
+TEST(Scenario, OverridesReplaceWhatTheFileSaysAndAddWhatItLeavesOut) {
+  const Scenario scenario =
+      read_small({"path.laps=2", "camera.noise_sd_levels=4", "particles=7", "seeds=3,5",
+                  "filters=[fastslam2]", "believed_odometry_noise.v_per_v=0.5", "particles=8"});
+  EXPECT_NEAR(length_m(scenario.path), 4 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(scenario.camera.noise_sd_levels, 4.0);
+  EXPECT_EQ(scenario.particles, 8) << "the last one counts";
+  EXPECT_THAT(scenario.seeds, ElementsAre(3, 5));
+  EXPECT_THAT(scenario.filters, ElementsAre("fastslam2"));
+  EXPECT_EQ(scenario.odometry_noise.v_per_v, 0.1);
+  EXPECT_EQ(scenario.believed_odometry_noise.v_per_v, 0.5);
+}
+
+// Catches: a belief that stays at the file's noise when the true noise is overridden.
+TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
+  const Scenario scenario = read_small({"odometry_noise.v_per_v=0.02"});
+  EXPECT_EQ(scenario.believed_odometry_noise.v_per_v, 0.02);
+  EXPECT_EQ(scenario.believed_odometry_noise.w_constant_radps, scenario.odometry_noise.w_constant_radps);
+}
+
+// Catches: numbers that are read by the rules of the user's language.
+TEST(Scenario, ReadsNumbersWithoutTheLocale) {
+  const Scenario scenario = read_small({"rig.baseline_m=1.5e-1"});
+  EXPECT_EQ(scenario.rig.baseline_m, 0.15);
+}
+
+TEST(WorldForSeed, WithoutJitterIsTheScenariosWorld) {
+  const Scenario scenario = read_small({"placement_jitter_m=0"});
+  const World world = world_for_seed(scenario, 5);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(world.balls[i].centre_m, scenario.world.balls[i].centre_m);
+}
+
+// Catches: jitter of one sign, of half the width, of both axes by one draw, of the height.
+// 4000 draws of a uniform in +-j: the mean's sd is j / sqrt(3 x 4000), the correlation's 1 / sqrt(4000).
+TEST(WorldForSeed, MovesEachBallUniformlyInTheFloorsPlane) {
+  const Scenario scenario = read_small();
+  const double jitter_m = scenario.placement_jitter_m;
+  constexpr int kSeeds = 4000;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Eigen::Vector3d moved =
+        world_for_seed(scenario, seed).balls[1].centre_m - scenario.world.balls[1].centre_m;
+    ASSERT_TRUE(moved.head<2>().cwiseAbs().maxCoeff() <= jitter_m * (1 + 1e-9));
+    ASSERT_EQ(moved.z(), 0.0);
+    const Eigen::Vector2d unit = moved.head<2>() / jitter_m;
+    sum += unit;
+    squares += unit * unit.transpose();
+  }
+  EXPECT_TRUE((sum / kSeeds).norm() < 4 * std::sqrt(2.0 / 3.0 / kSeeds));
+  EXPECT_NEAR(squares(0, 0) / kSeeds, 1.0 / 3.0, 4 * std::sqrt(4.0 / 45.0 / kSeeds));
+  EXPECT_NEAR(squares(1, 1) / kSeeds, 1.0 / 3.0, 4 * std::sqrt(4.0 / 45.0 / kSeeds));
+  EXPECT_NEAR(squares(0, 1) * 3 / kSeeds, 0.0, 4 / std::sqrt(kSeeds));
+}
+
+// Catches: one stream for all balls, so that a new ball would move the others.
+TEST(WorldForSeed, IsTheSameAgainAndEachBallIsOnItsOwn) {
+  Scenario scenario = read_small();
+  const World world = world_for_seed(scenario, 9);
+  scenario.world.balls.push_back({{1, 1, 1}, 0.05, 4});
+  const World with_one_more = world_for_seed(scenario, 9);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(world.balls[i].centre_m, with_one_more.balls[i].centre_m);
+  EXPECT_NE(world.balls[0].centre_m, world_for_seed(scenario, 10).balls[0].centre_m);
+}
+
+TEST(Seeds, AreReadAsPeopleWriteThem) {
+  EXPECT_THAT(parse_seeds("0..3"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(parse_seeds("7"), ElementsAre(7));
+  EXPECT_THAT(parse_seeds("4,0,18446744073709551615"), ElementsAre(4, 0, 18446744073709551615ULL));
+  EXPECT_THAT(parse_seeds("18446744073709551615..18446744073709551615"),
+              ElementsAre(18446744073709551615ULL));
+}
+
+TEST(Seeds, ThatAreNoneAreRefused) {
+  for (const char* text : {"", ",", "1,", "..", "1..", "..2", "3..1", "a", "-1", "1.5", "1,1", "0..10000",
+                           " 1", "18446744073709551616", "0..1..2"}) {
+    EXPECT_THROW(parse_seeds(text), std::invalid_argument) << text;
+  }
+}
+
+}  // namespace
+}  // namespace stereobench::worlds

@@ -1,0 +1,82 @@
+/// Scenario files made up by tests: a small one that is right, and files that vanish with the test.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace stereobench::worlds {
+
+/// A scenario with every group of keys. Line 1 is `name`.
+inline const std::string kSmallScenario = R"(name: small
+description: three balls
+seeds: 0..2
+particles: 20
+filters: [dead_reckoning, ufastslam]
+sensor: stereo
+identity: known
+rig: {width_px: 640, height_px: 480, focal_px: 500, baseline_m: 0.1, height_m: 0.3}
+camera: {noise_sd_levels: 1}
+oracle: {range_sd_m: 0.1, bearing_sd_deg: 1, max_range_m: 20, field_of_view_deg: 90}
+odometry_noise: {v_per_v: 0.1, w_constant_degps: 2}
+path:
+  kind: circle
+  radius_m: 1
+  speed_mps: 0.5
+  laps: 1
+  step_s: 0.5
+placement_jitter_m: 0.01
+world:
+  floor: bricks
+  light: {towards_light: [0, 0, 1], ambient: 0.4}
+  sky_rgb: [0, 0.5, 1]
+  walls:
+    - {corners_m: [[-4, -4], [4, -4], [4, 4]], closed: true, material: wood}
+  meshes:
+    - {file: thing.obj, at_m: [1, 2, 0], heading_deg: 90}
+  ball_radius_m: 0.05
+  balls:
+    - {colour: 0, at_m: [2, 0, 0.1]}
+    - {colour: 1, at_m: [0, 3, 0.1]}
+    - {colour: 2, at_m: [-2, 0, 0.1]}
+gates:
+  - {metric: vision.recall, at_least: 0.9}
+)";
+
+/// A folder of this test's own, with a mesh in it, removed at the end.
+class ScenarioFolder {
+ public:
+  ScenarioFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + "_" + test->name();
+    for (char& c : name) c = c == '/' ? '_' : c;
+    folder_ = std::filesystem::path(testing::TempDir()) / ("stereobench_" + name);
+    std::filesystem::create_directories(folder_);
+    write("thing.obj", "v 0 0 0\n");
+  }
+  ~ScenarioFolder() { std::filesystem::remove_all(folder_); }
+  ScenarioFolder(const ScenarioFolder&) = delete;
+  ScenarioFolder& operator=(const ScenarioFolder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// The small scenario with one piece of its text put in place of another, which must be there.
+inline std::string small_scenario_with(const std::string& piece, const std::string& instead) {
+  std::string text = kSmallScenario;
+  const std::size_t at = text.find(piece);
+  if (at == std::string::npos) throw std::logic_error("the small scenario has no " + piece);
+  return text.replace(at, piece.size(), instead);
+}
+
+}  // namespace stereobench::worlds
