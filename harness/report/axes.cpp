@@ -56,13 +56,22 @@ std::vector<double> linear_ticks(const Range& range, int count) {
   return result;
 }
 
+double decades_in(const Range& range) {
+  return std::log10(range.high / range.low);
+}
+
+/// Below a decade 1, 2 and 5 are too far apart; there a log scale is nearly straight and is ticked like one.
+bool ticked_by_decades(const Range& range, Scale scale) {
+  return scale == Scale::kLog && decades_in(range) >= 1.0;
+}
+
 std::vector<double> log_ticks(const Range& range, int count) {
-  const double decades = std::log10(range.high / range.low);
+  const double decades = decades_in(range);
   const double stride = std::max(1.0, std::ceil(decades / count));
   const bool few = decades < 2.5;
+  const double first = stride * std::floor(std::log10(range.low) / stride);
   std::vector<double> result;
-  for (double k = stride * std::floor(std::log10(range.low) / stride); k <= std::log10(range.high);
-       k += stride) {
+  for (double k = first; k <= std::log10(range.high) + 1e-9; k += stride) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double tick = factor * std::pow(10.0, k);
       const bool inside = tick >= range.low * (1.0 - 1e-9) && tick <= range.high * (1.0 + 1e-9);
@@ -86,7 +95,7 @@ std::vector<LabelledTick> labelled_ticks(const Axis& axis, int count) {
   const std::vector<double> values = ticks(axis.range, axis.scale, count);
   const double step = values.size() > 1 ? values[1] - values[0] : axis.range.high - axis.range.low;
   for (const double value : values) {
-    result.push_back({value, tick_label(value, axis.scale == Scale::kLog ? value : step)});
+    result.push_back({value, tick_label(value, ticked_by_decades(axis.range, axis.scale) ? value : step)});
   }
   return result;
 }
@@ -118,8 +127,8 @@ Range range_of(std::span<const double> numbers, Scale scale, double margin) {
 
 std::vector<double> ticks(const Range& range, Scale scale, int count) {
   check(range, scale);
-  return scale == Scale::kLog ? log_ticks(range, std::max(count, 1))
-                              : linear_ticks(range, std::max(count, 1));
+  count = std::max(count, 1);
+  return ticked_by_decades(range, scale) ? log_ticks(range, count) : linear_ticks(range, count);
 }
 
 std::string tick_label(double tick, double step) {
@@ -128,7 +137,7 @@ std::string tick_label(double tick, double step) {
   return fmt::format("{:.{}f}", tick, static_cast<int>(std::max(decimals, 0.0)));
 }
 
-Scale scale_for(std::span<const double> sizes) {
+Scale scale_for(std::span<const double> sizes, double factor) {
   double least = std::numeric_limits<double>::infinity();
   double greatest = 0.0;
   for (const double size : sizes) {
@@ -136,7 +145,7 @@ Scale scale_for(std::span<const double> sizes) {
     least = std::min(least, size);
     greatest = std::max(greatest, size);
   }
-  return greatest > 12.0 * least ? Scale::kLog : Scale::kLinear;
+  return greatest > factor * least ? Scale::kLog : Scale::kLinear;
 }
 
 Axes::Axes(const Axis& horizontal, const Axis& vertical, const Box& plot)
@@ -194,7 +203,7 @@ void Axes::draw_horizontal(Canvas& canvas) const {
 void Axes::draw_vertical(Canvas& canvas) const {
   const TextStyle tick_style = {.size_px = 12.0, .align_x = 1.0};
   double widest = 0.0;
-  for (const auto& [value, label] : labelled_ticks(vertical_, static_cast<int>(plot_.height_px / 55.0))) {
+  for (const auto& [value, label] : labelled_ticks(vertical_, static_cast<int>(plot_.height_px / 38.0))) {
     const double y = plot_.top_px + (1.0 - fraction_along(vertical_, value)) * plot_.height_px;
     const std::array<Point, 2> line = {{{plot_.left_px, y}, {plot_.left_px + plot_.width_px, y}}};
     canvas.draw_line(line, {kGrid, 1.0});

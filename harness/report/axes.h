@@ -35,9 +35,9 @@ std::vector<double> ticks(const Range& range, Scale scale = Scale::kLinear, int 
 /// @return the tick's number, with as many decimals as the step between ticks needs
 std::string tick_label(double tick, double step);
 
-/// @return logarithmic when the sizes > 0 differ by more than a factor of 12, so that the small ones would
-/// lie flat on the axis; linear otherwise
-Scale scale_for(std::span<const double> sizes);
+/// @return logarithmic when the sizes > 0 differ by more than a factor, so that the small ones would lie flat
+/// on the axis; linear otherwise
+Scale scale_for(std::span<const double> sizes, double factor = 12.0);
 
 /// Where the data lie on the sheet.
 class Axes {

@@ -88,6 +88,7 @@ Canvas::Canvas(const cv::Mat& bgr) : Canvas(bgr.cols, bgr.rows) {
 
 void Canvas::draw_line(std::span<const Point> points, const Stroke& stroke) {
   cairo_t* context = context_.get();
+  cairo_new_path(context);
   bool interrupted = true;
   for (const Point& point : points) {
     if (is_finite(point)) {
@@ -103,6 +104,7 @@ void Canvas::draw_line(std::span<const Point> points, const Stroke& stroke) {
 void Canvas::fill(std::span<const Point> corners, const Colour& colour) {
   if (!std::all_of(corners.begin(), corners.end(), is_finite)) return;
   cairo_t* context = context_.get();
+  cairo_new_path(context);  // text leaves a current point behind
   for (const Point& corner : corners) {
     cairo_line_to(context, within_reach(corner.x_px), within_reach(corner.y_px));
   }

@@ -22,7 +22,7 @@ struct Summary {
   std::vector<double> mean_m;
   std::vector<double> least_m;
   std::vector<double> greatest_m;
-  double rms_m = 0.0;  ///< mean over runs of the rms over time
+  double rms_m = 0.0;
 };
 
 double rms_of(const std::vector<double>& errors_m) {
@@ -65,9 +65,7 @@ Summary summarise(const ErrorCurves& curves, std::size_t instants) {
     summary.least_m.push_back(errors_m.empty() ? kNone : *least);
     summary.greatest_m.push_back(errors_m.empty() ? kNone : *greatest);
   }
-  std::vector<double> rms_m;
-  for (const std::vector<double>& run : curves.error_m_by_run) rms_m.push_back(rms_of(run));
-  summary.rms_m = mean_of(rms_m);
+  summary.rms_m = mean_rms_m(curves);
   return summary;
 }
 
@@ -145,6 +143,12 @@ std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vecto
 }
 
 }  // namespace
+
+double mean_rms_m(const ErrorCurves& curves) {
+  std::vector<double> rms_m;
+  for (const std::vector<double>& run : curves.error_m_by_run) rms_m.push_back(rms_of(run));
+  return mean_of(rms_m);
+}
 
 std::string draw_error_picture(const ErrorPicture& picture) {
   std::vector<Summary> summaries;

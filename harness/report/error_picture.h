@@ -18,8 +18,11 @@ struct ErrorPicture {
   std::vector<ErrorCurves> filters;
 };
 
+/// @return the mean over runs of each run's rms error over time; NaN when no error is finite
+double mean_rms_m(const ErrorCurves& curves);
+
 /// Draws each filter's mean error over its runs, a band from the least to the greatest, and in the legend
-/// the mean over runs of the rms over time. The error axis is logarithmic when those
+/// their mean rms. The error axis is logarithmic when those
 /// are more than a factor of 12 apart.
 /// @return the bytes of a PNG file; errors that are not finite are left out
 std::string draw_error_picture(const ErrorPicture& picture);

@@ -23,6 +23,7 @@ constexpr double kPlotWidth_px = 730.0;
 constexpr double kPanelHeight_px = 190.0;
 constexpr double kAtePanelHeight_px = 300.0;
 constexpr double kPanelGap_px = 58.0;
+constexpr Stroke kDetectionStroke = {{0.0, 0.620, 0.451, 1.0}, 1.8};
 
 std::optional<double> parse_number(const std::string& text) {
   double number = 0.0;
@@ -55,7 +56,8 @@ Parameter parameter_of(const SweepPicture& picture) {
   return parameter;
 }
 
-Axis value_axis(const std::string& label, const std::vector<SweepCurve>& curves) {
+/// @param log_ratio means farther apart than this factor get a logarithmic axis
+Axis value_axis(const std::string& label, const std::vector<SweepCurve>& curves, double log_ratio) {
   std::vector<double> means;
   std::vector<double> all;
   for (const SweepCurve& curve : curves) {
@@ -64,14 +66,15 @@ Axis value_axis(const std::string& label, const std::vector<SweepCurve>& curves)
       all.insert(all.end(), {value.mean, value.low, value.high});
     }
   }
-  Axis axis = {label, {}, scale_for(means)};
+  Axis axis = {label, {}, scale_for(means, log_ratio)};
   if (axis.scale == Scale::kLog) {
     // An interval that reaches down to zero leaves the axis; the means decide where that begins.
     const double least_mean = range_of(means, Scale::kLog, 0.0).low;
     for (double& number : all) number = std::max(number, 0.3 * least_mean);
   }
   axis.range = range_of(all, axis.scale, 0.08);
-  if (axis.scale == Scale::kLinear) axis.range.low = std::min(axis.range.low, 0.0);
+  const bool none_below_zero = range_of(all, Scale::kLinear, 0.0).low >= 0.0;
+  if (axis.scale == Scale::kLinear && none_below_zero) axis.range.low = 0.0;
   return axis;
 }
 
@@ -91,12 +94,13 @@ struct Panel {
   Axis horizontal;
   Axis vertical;
   Box plot;
+  std::optional<Stroke> stroke = {};  ///< of all curves; each curve's filter has its own when there is none
 };
 
 /// Draws means with their intervals. @param shift_px moved to the right by so much
 void draw_curve(Canvas& canvas, const Panel& panel, const std::vector<double>& places,
                 const SweepCurve& curve, double shift_px) {
-  const Stroke stroke = filter_stroke(curve.name);
+  const Stroke stroke = panel.stroke.value_or(filter_stroke(curve.name));
   const Axes axes(panel.horizontal, panel.vertical, panel.plot);
   const double floor = panel.vertical.scale == Scale::kLog ? panel.vertical.range.low : -HUGE_VAL;
   const auto at = [&](std::size_t i, double value) {
@@ -151,11 +155,12 @@ std::string draw_sweep_picture(const SweepPicture& picture) {
   double top_px = kTop_px;
   for (const SweepCurve& curve : picture.detection) {
     const Box plot = {kLeft_px, top_px, kPlotWidth_px, kPanelHeight_px};
-    draw_panel(canvas, {parameter.axis, value_axis(curve.name, {curve}), plot}, parameter.places, {curve});
+    draw_panel(canvas, {parameter.axis, value_axis(curve.name, {curve}, 100.0), plot, kDetectionStroke},
+               parameter.places, {curve});
     top_px += kPanelHeight_px + kPanelGap_px;
   }
   const Box plot = {kLeft_px, top_px, kPlotWidth_px, kAtePanelHeight_px};
-  const Panel panel = {parameter.axis, value_axis("ATE [m], mean and 95 %", picture.ate_m), plot};
+  const Panel panel = {parameter.axis, value_axis("ATE [m], mean and 95 %", picture.ate_m, 12.0), plot};
   draw_panel(canvas, panel, parameter.places, picture.ate_m);
   draw_legend(canvas, {kLeft_px + kPlotWidth_px + 18.0, top_px}, legend_of(picture.ate_m));
   canvas.write({kLeft_px, 0.5 * kTop_px}, picture.title, {.size_px = 15.0, .bold = true});

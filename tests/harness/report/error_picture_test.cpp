@@ -1,0 +1,83 @@
+#include "harness/report/error_picture.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "harness/report/legend.h"
+#include "tests/harness/report/pixels.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const std::vector<double> kTime_s = {0.0, 1.0, 2.0, 3.0, 4.0};
+
+ErrorCurves constant(const std::string& filter, double error_m) {
+  return {filter, {std::vector<double>(kTime_s.size(), error_m)}};
+}
+
+/// The row on which a filter's level curve is drawn, legend left out.
+double row_of(const cv::Mat& image, const std::string& filter) {
+  return mean_of(pixels_of(image(cv::Rect(0, 0, 800, image.rows)), filter_stroke(filter).colour, 70.0)).y_px;
+}
+
+// Catches: a logarithmic axis for errors of one size, an axis that does not begin at zero upside down.
+TEST(ReportErrors, EqualDifferencesAreEqualDistances) {
+  const ErrorPicture picture = {
+      "", kTime_s, {constant("mine", 1.0), constant("fastslam2", 2.0), constant("ufastslam", 3.0)}};
+  const cv::Mat image = decoded(draw_error_picture(picture));
+  EXPECT_GT(row_of(image, "mine"), row_of(image, "ufastslam") + 50.0);
+  EXPECT_NEAR(row_of(image, "mine") - row_of(image, "fastslam2"),
+              row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
+}
+
+TEST(ReportErrors, EqualRatiosAreEqualDistancesWhenSizesDiffer) {
+  const ErrorPicture picture = {
+      "", kTime_s, {constant("mine", 0.01), constant("fastslam2", 0.1), constant("ufastslam", 1.0)}};
+  const cv::Mat image = decoded(draw_error_picture(picture));
+  EXPECT_GT(row_of(image, "mine"), row_of(image, "ufastslam") + 50.0);
+  EXPECT_NEAR(row_of(image, "mine") - row_of(image, "fastslam2"),
+              row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
+}
+
+// The mean of 1 and 3 is drawn at 2, the band reaches from 1 to 3.
+// Catches: the median or the last run for the mean; a band of one run.
+TEST(ReportErrors, MeanAndBandAreThoseOfTheRuns) {
+  ErrorCurves runs = constant("ufastslam", 1.0);
+  runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), 3.0));
+  runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), kNaN));
+  const ErrorPicture picture = {"", kTime_s, {runs, constant("fastslam2", 2.0), constant("mine", 3.0)}};
+  const cv::Mat image = decoded(draw_error_picture(picture));
+  const double row_of_2 = row_of(image, "fastslam2");
+  const double row_of_3 = row_of(image, "mine");
+  const auto is_white = [&](double row) { return image.at<cv::Vec3b>(static_cast<int>(row), 330)[2] > 250; };
+  EXPECT_FALSE(is_white(row_of_3 + 6.0));
+  EXPECT_TRUE(is_white(row_of_3 - 6.0));
+  EXPECT_FALSE(is_white(2.0 * row_of_2 - row_of_3 - 6.0));
+  EXPECT_TRUE(is_white(2.0 * row_of_2 - row_of_3 + 6.0));
+}
+
+// Catches: the rms of the mean curve, or over all runs at once, in place of the mean of the runs' rms.
+TEST(ReportErrors, RmsIsTheMeanOfTheRunsRms) {
+  const ErrorCurves curves = {"ufastslam", {{3.0, 4.0, kNaN}, {1.0, 1.0}, {kNaN}}};
+  EXPECT_NEAR(mean_rms_m(curves), 0.5 * (std::sqrt(12.5) + 1.0), 1e-12);
+  EXPECT_TRUE(std::isnan(mean_rms_m({"ufastslam", {}})));
+}
+
+TEST(ReportErrors, NothingAndNonsenseAreCharts) {
+  EXPECT_FALSE(decoded(draw_error_picture({})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {constant("ufastslam", kNaN)}})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {constant("ufastslam", 0.0)}})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", {0.0}, {constant("ufastslam", 1.0)}})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {{"fastslam2", {{0.1}}}}})).empty());
+}
+
+TEST(ReportErrors, TheSameErrorsAreTheSameBytes) {
+  const ErrorPicture picture = {"t", kTime_s, {constant("ufastslam", 1.0), constant("fastslam2", 2.0)}};
+  EXPECT_EQ(draw_error_picture(picture), draw_error_picture(picture));
+}
+
+}  // namespace
+}  // namespace stereobench::harness
