@@ -11,9 +11,9 @@ namespace {
 // Measured on rendered balls (see tests/vision/noise_law_test.cpp): errors of alpha that the noise does not
 // explain, and how much larger than by the noise of single pixels the error of an arc is, since its pixels
 // share their colours.
-constexpr double kQuantisation = 0.01;
-constexpr double kNoiseFactor = 1.0;
-constexpr double kTextureFactor = 0.5;
+constexpr double kQuantisation = 0.005;
+constexpr double kNoiseFactor = 1.1;
+constexpr double kTextureFactor = 0.9;
 
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;

@@ -84,6 +84,15 @@ Eigen::Vector3d background_slope(const std::vector<ArcSamples>& arcs, std::size_
   return slope * std::max(0.0, 1.0 - expected_of_noise / (slope.squaredNorm() + 1e-9));
 }
 
+// Small balls have few pixels inside: the arcs on both sides help out.
+void borrow_inside(const std::vector<ArcSamples>& arcs, std::size_t arc, ArcSamples& into) {
+  for (const std::size_t step : {std::size_t{1}, arcs.size() - 1}) {
+    const SideSums& side = arcs[(arc + step) % arcs.size()].inside;
+    into.inside.count += side.count;
+    into.inside.colour += side.colour;
+  }
+}
+
 // Weighted least squares of I - background = alpha (ball - background), with noise sigma^2 in each channel
 // and the shade's uncertainty along the ball's own colour.
 ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, double noise_variance) {
@@ -106,6 +115,18 @@ ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, double 
   return result;
 }
 
+// An edge in the background may lie under the rim, unseen beside it: what one arc's texture says goes for all.
+void share_texture(std::vector<ArcColours>& arcs) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const ArcColours& arc : arcs) {
+    sum += arc.texture_variance;
+    count += arc.usable ? 1.0 : 0.0;
+  }
+  if (count <= 0.0) return;
+  for (ArcColours& arc : arcs) arc.texture_variance = 0.5 * (arc.texture_variance + sum / count);
+}
+
 }  // namespace
 
 bool Shades::contain(const Eigen::Vector3d& bgr) const {
@@ -118,7 +139,7 @@ bool Shades::contain(const Eigen::Vector3d& bgr) const {
 Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_px) {
   Rim rim;
   rim.sectors =
-      static_cast<std::size_t>(std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, 12.0, 96.0));
+      static_cast<std::size_t>(std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, 9.0, 96.0));
   const Eigen::Vector2d centre = outline.centre_px();
   const double relative_reach = reach_px / outline.semi_minor_px();
   const double extent = outline.semi_major_px() * (1.0 + relative_reach);
@@ -148,12 +169,14 @@ std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setting
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
   std::vector<ArcColours> arcs(rim.sectors);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const ArcSamples& arc = samples[i];
+    ArcSamples arc = samples[i];
+    if (arc.inside.count < 3.0) borrow_inside(samples, i, arc);
     if (arc.inside.count < 2.0 || arc.outside.count < 2.0) continue;
     const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / arc.inside.count));
     if (!shades.contain(arc.inside.mean())) continue;
     arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), noise_variance);
   }
+  share_texture(arcs);
   return arcs;
 }
 
