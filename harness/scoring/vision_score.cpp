@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include <Eigen/LU>
+
 #include "slam/motion.h"
 
 namespace stereobench::harness {

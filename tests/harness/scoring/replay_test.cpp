@@ -1,0 +1,118 @@
+#include "harness/scoring/replay.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "harness/dataset/measurement_log_reader.h"
+#include "harness/scoring/score.h"
+#include "slam/motion.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A lap of exact odometry around exactly measured landmarks.
+MeasurementLog exact_log() {
+  MeasurementLog log;
+  for (int i = 0; i < 4; ++i) {
+    log.landmarks.push_back({i, i, {3.0 * std::cos(1.5 * i), 2.0 + 3.0 * std::sin(1.5 * i)}});
+  }
+  slam::Pose pose{0.5, 0.0, 0.2};
+  log.start = pose;
+  for (int i = 0; i < 60; ++i) {
+    LogStep step;
+    step.stamp_ns = i * 1'000'000'000LL;
+    if (i > 0) step.odometry = {{0.2, 0.1, 0.5}, {0.25, 0.11, 0.5}};
+    for (const slam::Control& control : step.odometry) pose = slam::advance(pose, control);
+    for (const LandmarkTruth& landmark : log.landmarks) {
+      const Eigen::Vector2d offset = landmark.position_m - Eigen::Vector2d(pose.x_m, pose.y_m);
+      slam::RangeBearing z;
+      z.range_m = offset.norm();
+      z.bearing_rad = slam::wrap_angle(std::atan2(offset.y(), offset.x()) - pose.heading_rad);
+      z.covariance = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+      z.landmark_id = landmark.landmark_id;
+      step.measurements.push_back(z);
+    }
+    step.truth = pose;
+    log.steps.push_back(step);
+  }
+  return log;
+}
+
+class EveryFilter : public testing::TestWithParam<std::string> {};
+
+// Without noise there is no error. Mutations: updating before predicting, leaving out a control, starting at
+// the origin instead of the log's start, recording the estimate of the step before.
+TEST_P(EveryFilter, IsExactWithoutNoise) {
+  const MeasurementLog log = exact_log();
+  slam::FilterConfig config;
+  config.particles = 5;
+  const FilterRun run = replay(log, GetParam(), config, 3);
+  ASSERT_FALSE(run.failed) << run.failure;
+  EXPECT_EQ(run.filter, GetParam());
+  EXPECT_EQ(run.seed, 3U);
+  const FilterScore result = score(run, log);
+  EXPECT_LT(result.trajectory.ate_max_m, 1e-9);
+  EXPECT_LT(result.trajectory.heading_rms_rad, 1e-9);
+  if (GetParam() == "dead_reckoning") return;
+  // Sigma points of a first sighting see the range's curvature: r (1 - sigma^2 / 2), some 0.1 mm here.
+  EXPECT_LT(result.map.rms_m, GetParam() == "ufastslam" ? 2e-4 : 1e-9);
+  EXPECT_EQ(result.map.found_once, 4);
+}
+
+TEST_P(EveryFilter, TheSameSeedIsTheSameRun) {
+  const MeasurementLog log = exact_log();
+  slam::FilterConfig config;
+  config.particles = 5;
+  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const FilterRun once = replay(log, GetParam(), config, 3);
+  const FilterRun again = replay(log, GetParam(), config, 3);
+  ASSERT_EQ(once.poses.size(), log.steps.size());
+  ASSERT_EQ(once.covariances.size(), log.steps.size());
+  for (std::size_t i = 0; i < once.poses.size(); ++i) {
+    EXPECT_EQ(once.poses[i].x_m, again.poses[i].x_m);
+    EXPECT_EQ(once.covariances[i], again.covariances[i]);
+  }
+  EXPECT_EQ(once.last.landmarks.size(), again.last.landmarks.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, EveryFilter, testing::ValuesIn(slam::filter_names()));
+
+TEST(Replay, RefusesWhatIsNoFilter) {
+  EXPECT_THROW(replay(exact_log(), "kalman", {}, 0), std::invalid_argument);
+}
+
+// Velocities that are finite, and a place that is not. Mutation: keeping the pose that is not finite.
+TEST(Replay, AnEstimateThatIsNotFiniteIsAFailureThatIsExplained) {
+  MeasurementLog log = exact_log();
+  log.steps[10].odometry[0].v_mps = std::numeric_limits<double>::max();
+  log.steps[10].odometry[0].duration_s = 1e300;
+  const FilterRun run = replay(log, "dead_reckoning", {}, 0);
+  EXPECT_TRUE(run.failed);
+  EXPECT_EQ(run.poses.size(), 10U);
+  EXPECT_EQ(run.failure, "step 10: the estimate is not finite");
+  EXPECT_TRUE(score(run, log).failed);
+}
+
+// The real thing: MRCLAM set 7. A noise per reading at 67 Hz, so large enough to cover slip that lasts.
+TEST(Replay, MapsARealRobotsRun) {
+  const fs::path data = fs::path(STEREOBENCH_SOURCE_DIR) / ".." / "shared" / "data" / "mrclam";
+  if (!fs::exists(data)) GTEST_SKIP() << "no MRCLAM data beside this checkout";
+  const MeasurementLog log = read_log(data / "ds7/robot2", {0.15, 0.02}).log;
+  slam::FilterConfig config;
+  config.particles = 20;
+  config.odometry_noise = {0.05, 0.2, 0.0, 0.1, 0.0, 0.3};
+  const FilterScore dead = score(replay(log, "dead_reckoning", config, 0), log);
+  const FilterScore slam = score(replay(log, "fastslam2", config, 0), log);
+  EXPECT_GT(dead.trajectory.ate_aligned_rms_m, 1.0);
+  EXPECT_LT(slam.trajectory.ate_aligned_rms_m, 0.30);
+  EXPECT_LT(slam.map_aligned.rms_m, 0.15);
+  EXPECT_EQ(slam.map.found_once, 15);
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,114 @@
+#include "harness/scoring/score.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace stereobench::harness {
+namespace {
+
+/// Four steps along x, landmark 7 seen at the last two.
+MeasurementLog straight_log() {
+  MeasurementLog log;
+  log.landmarks = {{7, slam::kUnknown, {3.0, 1.0}}};
+  for (int i = 0; i < 4; ++i) {
+    LogStep step;
+    step.truth = slam::Pose{static_cast<double>(i), 0.0, 0.0};
+    if (i >= 2) step.measurements.push_back({});
+    log.steps.push_back(step);
+  }
+  return log;
+}
+
+FilterRun run_with_errors(const MeasurementLog& log, const std::vector<double>& errors_m) {
+  FilterRun run;
+  for (std::size_t i = 0; i < errors_m.size(); ++i) {
+    run.poses.push_back({log.steps[i].truth->x_m, errors_m[i], 0.0});
+    run.covariances.push_back(Eigen::Matrix3d::Identity());
+  }
+  run.last.landmarks = {{7, slam::kUnknown, {3.0, 1.5}, Eigen::Matrix2d::Identity()}};
+  return run;
+}
+
+TEST(Score, PutsPathMapAndConsistencyTogether) {
+  const MeasurementLog log = straight_log();
+  const FilterScore result = score(run_with_errors(log, {0.0, 3.0, 3.0, 0.0}), log);
+  EXPECT_FALSE(result.failed);
+  EXPECT_DOUBLE_EQ(result.trajectory.ate_rms_m, std::sqrt(4.5));
+  EXPECT_DOUBLE_EQ(result.map.rms_m, 0.5);
+  EXPECT_NEAR(result.map_aligned.rms_m, 1.0, 1e-12);  // the path is 1.5 m too far left, the map with it
+  EXPECT_DOUBLE_EQ(result.normalised_errors[1].value(), 3.0);
+  EXPECT_FALSE(result.normalised_errors[0].has_value());
+}
+
+// Mutation: scoring all steps. An offset at the two sightings aligns away, the one before does not count.
+TEST(Score, AtSightingsCountsOnlyStepsThatSawSomething) {
+  const MeasurementLog log = straight_log();
+  const FilterScore result = score(run_with_errors(log, {0.0, 9.0, 1.0, 1.0}), log);
+  EXPECT_NEAR(result.ate_aligned_at_sightings_rms_m, 0.0, 1e-12);
+  EXPECT_GT(result.trajectory.ate_aligned_rms_m, 1.0);
+}
+
+TEST(Score, WithoutTruthIsNotZero) {
+  MeasurementLog log = straight_log();
+  FilterRun run = run_with_errors(log, {0.0, 0.0, 0.0, 0.0});
+  for (LogStep& step : log.steps) step.truth.reset();
+  log.landmarks.clear();
+  const FilterScore result = score(run, log);
+  EXPECT_TRUE(std::isnan(result.trajectory.ate_rms_m));
+  EXPECT_TRUE(std::isnan(result.map.rms_m));
+}
+
+TEST(Score, RefusesARunThatDoesNotFitItsLog) {
+  const MeasurementLog log = straight_log();
+  EXPECT_THROW(score(run_with_errors(log, {0.0, 0.0, 0.0}), log), std::invalid_argument);
+}
+
+// Mutations: a failed run that enters the mean as 0; one that is dropped without being counted.
+TEST(SummariseScores, CountsFailuresAndLeavesThemOutOfMeans) {
+  const MeasurementLog log = straight_log();
+  FilterRun failed = run_with_errors(log, {0.0});
+  failed.failed = true;
+  const std::vector<FilterScore> scores = {score(run_with_errors(log, {1.0, 1.0, 1.0, 1.0}), log),
+                                           score(failed, log),
+                                           score(run_with_errors(log, {3.0, 3.0, 3.0, 3.0}), log)};
+  const FilterSummary summary = summarise(scores, 100);
+  EXPECT_EQ(summary.failures, 1);
+  EXPECT_EQ(summary.particles, 100);
+  EXPECT_EQ(summary.ate_rms_m.count, 2);
+  EXPECT_DOUBLE_EQ(summary.ate_rms_m.mean, 2.0);
+  EXPECT_DOUBLE_EQ(summary.ate_rms_m.max, 3.0);
+  EXPECT_DOUBLE_EQ(summary.ate_rms_m.sd, std::sqrt(2.0));
+  EXPECT_NEAR(summary.ate_aligned_rms_m.max, 0.0, 1e-12);
+  EXPECT_DOUBLE_EQ(summary.landmark_rms_m.mean, 0.5);
+  EXPECT_EQ(summary.landmarks_found_once, 2);
+  EXPECT_EQ(summary.landmarks_missed, 0);
+  ASSERT_EQ(summary.anees_by_step.size(), 4U);
+  EXPECT_DOUBLE_EQ(summary.anees_by_step[2].value(), (1.0 / 3.0 + 3.0) / 2.0);
+  EXPECT_DOUBLE_EQ(summary.anees.mean, (1.0 / 3.0 + 3.0) / 2.0);
+  EXPECT_EQ(summary.anees.count, 3);
+}
+
+TEST(SummariseScores, OfNothingButFailuresIsNotZero) {
+  FilterRun failed;
+  failed.failed = true;
+  const std::vector<FilterScore> scores = {score(failed, straight_log())};
+  const FilterSummary summary = summarise(scores, 1);
+  EXPECT_EQ(summary.failures, 1);
+  EXPECT_TRUE(std::isnan(summary.ate_rms_m.mean));
+  EXPECT_TRUE(std::isnan(summary.ate_aligned_median_m));
+  EXPECT_TRUE(summary.anees_by_step.empty());
+}
+
+TEST(SummariseScores, MedianOfEvenAndOddNumbers) {
+  std::vector<FilterScore> scores(3);
+  scores[0].trajectory.ate_aligned_rms_m = 5.0;
+  scores[1].trajectory.ate_aligned_rms_m = 1.0;
+  scores[2].trajectory.ate_aligned_rms_m = 2.0;
+  EXPECT_DOUBLE_EQ(summarise(scores, 1).ate_aligned_median_m, 2.0);
+  scores.pop_back();
+  EXPECT_DOUBLE_EQ(summarise(scores, 1).ate_aligned_median_m, 3.0);
+}
+
+}  // namespace
+}  // namespace stereobench::harness
