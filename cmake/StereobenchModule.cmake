@@ -6,6 +6,7 @@ target_compile_features(stereobench_options INTERFACE cxx_std_20)
 target_include_directories(stereobench_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(stereobench_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wdouble-promotion -Werror
+  -Wno-missing-field-initializers  # fields of our aggregates have defaults
   -ffp-contract=off)  # results do not depend on whether the machine has fused multiply-add
 target_compile_definitions(stereobench_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 
@@ -20,6 +21,9 @@ function(stereobench_module name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(NOT sources)
+    return()
+  endif()
   add_library(stereobench_${name} STATIC ${sources})
   target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
 endfunction()
@@ -28,6 +32,9 @@ endfunction()
 function(stereobench_tests module)
   cmake_parse_arguments(ARG "" "LABEL" "LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
   add_executable(${module}_tests ${sources})
   target_link_libraries(${module}_tests PRIVATE stereobench_${module} ${ARG_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${module}_tests PRIVATE STEREOBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"

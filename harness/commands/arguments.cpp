@@ -1,0 +1,76 @@
+#include "harness/commands/arguments.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "slam/filter.h"
+#include "worlds/seeds.h"
+
+namespace stereobench::harness {
+namespace {
+
+std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+  try {
+    return worlds::parse_seeds(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
+  }
+}
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  if (text.empty() || text.back() == ',') parts.emplace_back();
+  return parts;
+}
+
+}  // namespace
+
+std::vector<std::string> parse_filters(const std::string& text) {
+  const std::vector<std::string> known = slam::filter_names();
+  std::vector<std::string> filters = {kBaselineFilter};
+  for (const std::string& name : split_at_commas(text)) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw std::runtime_error(
+          fmt::format("--filters: no filter is called '{}'; there are {}", name, fmt::join(known, ", ")));
+    if (std::find(filters.begin(), filters.end(), name) == filters.end()) filters.push_back(name);
+  }
+  return filters;
+}
+
+void add_run_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option_function<std::string>(
+      "--filters", [&arguments](const std::string& text) { arguments.filters = parse_filters(text); },
+      fmt::format("comma-separated, of: {} (dead reckoning is always run beside them)",
+                  fmt::join(slam::filter_names(), ", ")));
+  command.add_option("--particles", arguments.particles, "particles of each particle filter")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_option_function<std::string>(
+      "--seeds", [&arguments](const std::string& text) { arguments.seeds = parse_seeds(text); },
+      "which seeds to run: 0..9, or 0,2,5");
+  arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command.add_option("--jobs,-j", arguments.jobs, "processes at a time; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_option("--out,-o", arguments.out, "folder for the results (default: out/<name>)");
+}
+
+void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "change a line of the scenario, e.g. --set camera.noise_sd_levels=4; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name) {
+  return arguments.out.empty() ? std::filesystem::path("out") / name : arguments.out;
+}
+
+}  // namespace stereobench::harness

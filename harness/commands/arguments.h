@@ -1,0 +1,38 @@
+/// What the subcommands share on their command lines.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace stereobench::harness {
+
+/// Options that every command which runs filters takes; empty means "as the scenario says".
+struct RunArguments {
+  std::vector<std::string> filters;
+  int particles = 0;  ///< 0: as the scenario says
+  std::vector<std::uint64_t> seeds;
+  int jobs = 1;
+  std::filesystem::path out;  ///< empty: out/<name>
+};
+
+/// The filter that is always run, as the yardstick of the others.
+inline constexpr const char* kBaselineFilter = "dead_reckoning";
+
+/// Reads "ufastslam,fastslam2"; dead reckoning is put first when it is missing.
+/// @throws std::runtime_error that names the unknown filter and the ones there are
+std::vector<std::string> parse_filters(const std::string& text);
+
+/// Adds --filters, --particles, --seeds, --jobs and --out to a command.
+void add_run_options(CLI::App& command, RunArguments& arguments);
+
+/// Adds --set KEY=VALUE, a change of the scenario.
+void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// Where results go: --out, or out/<name>.
+std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name);
+
+}  // namespace stereobench::harness

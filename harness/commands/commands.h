@@ -1,0 +1,29 @@
+/// The subcommands. Each adds itself to the program; its options' text is in its own file.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace stereobench::harness {
+
+/// Exit codes, as scripts and CI see them.
+enum ExitCode : int {
+  kPassed = 0,
+  kGateBroken = 1,  ///< a gate of the scenario is broken
+  kBadInput = 2,    ///< usage, files, or the machine
+  kRunCrashed = 4,  ///< a worker process died
+};
+
+/// What a parsed command line does when it is called; gives the exit code.
+using Action = std::function<int()>;
+
+/// Each adds a subcommand that, when it is chosen, puts what is to be done into `action`.
+void add_run_command(CLI::App& program, Action& action);
+void add_render_command(CLI::App& program, Action& action);
+void add_slam_command(CLI::App& program, Action& action);
+void add_sweep_command(CLI::App& program, Action& action);
+void add_doctor_command(CLI::App& program, Action& action);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,56 @@
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/scenario_arguments.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/regression/gates.h"
+#include "harness/run/run_output.h"
+#include "harness/run/run_result.h"
+#include "harness/run/seed_drive.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr std::size_t kSnapshots = 4;
+
+int run(const ScenarioArguments& arguments) {
+  const worlds::Scenario scenario = read_scenario(arguments);
+  const std::filesystem::path out = output_folder(arguments.run, scenario.name);
+  const auto gates = gates_of(scenario);
+  check_metrics(gates, scenario);
+  prepare_output_folder(out);
+  std::vector<DriveTask> tasks;
+  for (const std::uint64_t seed : scenario.seeds)
+    tasks.push_back({&scenario, seed, seed == scenario.seeds.front() ? kSnapshots : 0});
+  const auto drives = drive_seeds(tasks, arguments.run.jobs, "run " + scenario.name);
+  const RunResult result = assemble(scenario.name, backend_of(scenario), drives);
+  write_run(out, result, drives, scenario.world.walls);
+  fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
+             scenario.path.size(), result_table(result));
+  const auto broken = broken_gates(run_json(result), gates);
+  for (const BrokenGate& gate : broken) fmt::print("gate broken: {}\n", gate.message);
+  if (!gates.empty() && broken.empty()) fmt::print("all {} gates hold\n", gates.size());
+  fmt::print("results: {}\n", (out / "").string());
+  return broken.empty() ? kPassed : kGateBroken;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("run", "render a scenario, observe it, run the filters, score them");
+  auto arguments = std::make_shared<ScenarioArguments>();
+  add_scenario_options(*command, *arguments);
+  command->footer(
+      "Each seed is rendered once and replayed for each filter. Writes run.json (metrics), steps.csv (every\n"
+      "step), map.png, error.png, frames/ (detections drawn on the pictures) and timing.json.\n"
+      "Exits with 1 when a gate of the scenario is broken.\n\n"
+      "Example: stereobench run assets/scenarios/ball_circle.yaml --seeds 0..9 --set "
+      "camera.noise_sd_levels=4");
+  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

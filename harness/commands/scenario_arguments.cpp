@@ -1,0 +1,34 @@
+#include "harness/commands/scenario_arguments.h"
+
+#include <algorithm>
+
+#include "renderer/backend.h"
+#include "worlds/scenario.h"
+
+namespace stereobench::harness {
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+  command.add_option("scenario", arguments.scenario, "scenario file (YAML)")->required();
+  add_set_option(command, arguments.overrides);
+  add_run_options(command, arguments.run);
+}
+
+worlds::Scenario read_scenario(const ScenarioArguments& arguments,
+                               const std::vector<std::string>& more_overrides) {
+  std::vector<std::string> overrides = arguments.overrides;
+  overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
+  worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, overrides);
+  const RunArguments& run = arguments.run;
+  if (!run.filters.empty()) scenario.filters = run.filters;
+  if (std::find(scenario.filters.begin(), scenario.filters.end(), kBaselineFilter) == scenario.filters.end())
+    scenario.filters.insert(scenario.filters.begin(), kBaselineFilter);
+  if (run.particles > 0) scenario.particles = run.particles;
+  if (!run.seeds.empty()) scenario.seeds = run.seeds;
+  return scenario;
+}
+
+std::string backend_of(const worlds::Scenario& scenario) {
+  return scenario.sensor == worlds::SensorKind::kStereo ? renderer::backend_info().backend : "none";
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,30 @@
+/// Command lines that begin with a scenario.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/commands/arguments.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// A scenario file and what the command line changes of it.
+struct ScenarioArguments {
+  std::filesystem::path scenario;
+  std::vector<std::string> overrides;  ///< "key.path=value"
+  RunArguments run;
+};
+
+/// Adds SCENARIO, --set and the options of a run.
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
+
+/// Reads the scenario and lets the command line have the last word on filters, particles and seeds.
+/// @throws std::runtime_error as worlds::read_scenario does
+worlds::Scenario read_scenario(const ScenarioArguments& arguments,
+                               const std::vector<std::string>& more_overrides = {});
+
+/// What renders a scenario's pictures: "osmesa", or "none" for a sensor without pixels.
+std::string backend_of(const worlds::Scenario& scenario);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/measurement_log_reader.h"
+#include "harness/run/process_pool.h"
+#include "harness/run/progress.h"
+#include "harness/run/run_output.h"
+#include "harness/run/run_result.h"
+#include "harness/run/seed_drive.h"
+#include "harness/run/serialise.h"
+
+namespace stereobench::harness {
+namespace {
+
+struct SlamArguments {
+  std::filesystem::path log;
+  RunArguments run;
+  SensorNoise sensor;
+  slam::FilterConfig config;
+};
+
+/// The name of the results: the log's folder, e.g. "robot2".
+std::string name_of(const std::filesystem::path& log) {
+  const std::filesystem::path absolute = std::filesystem::absolute(log).lexically_normal();
+  return absolute.has_filename() ? absolute.stem().string() : absolute.parent_path().filename().string();
+}
+
+/// Replays the log with each filter, once a seed, in several processes.
+std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArguments& arguments) {
+  const RunArguments& run = arguments.run;
+  const auto replay_seed = [&](std::size_t index, const std::function<void(double)>& report) {
+    SeedDrive drive{.seed = run.seeds[index]};
+    drive.runs = replay_filters(log, run.filters, arguments.config, run.seeds[index], drive.recording.timing);
+    report(1.0);
+    return to_bytes(drive);
+  };
+  Progress progress("slam", static_cast<double>(run.seeds.size()));
+  std::vector<SeedDrive> drives;
+  for (const std::string& answer :
+       run_in_processes(run.seeds.size(), run.jobs, replay_seed, [&](double done) { progress.show(done); })) {
+    drives.push_back(seed_drive_from_bytes(answer));
+    drives.back().recording.log = log;
+  }
+  return drives;
+}
+
+int run_slam(SlamArguments arguments) {
+  RunArguments& run = arguments.run;
+  if (run.filters.empty()) run.filters = slam::filter_names();
+  if (run.seeds.empty()) run.seeds = {0};
+  if (run.particles > 0) arguments.config.particles = run.particles;
+  const RecordedLog recorded = read_log(arguments.log, arguments.sensor);
+  const std::string name = name_of(arguments.log);
+  const std::filesystem::path out = output_folder(run, name);
+  prepare_output_folder(out);
+  const auto drives = replay_seeds(recorded.log, arguments);
+  const RunResult result = assemble(name, "none", drives);
+  write_run(out, result, drives, {});
+  fmt::print("{}: {} seed{}, {} steps", name, drives.size(), drives.size() == 1 ? "" : "s",
+             recorded.log.steps.size());
+  if (recorded.robot_sightings > 0)
+    fmt::print(", {} sightings of other robots left out", recorded.robot_sightings);
+  fmt::print("\n\n{}\nresults: {}\n", result_table(result), (out / "").string());
+  return kPassed;
+}
+
+void add_noise_options(CLI::App& command, SlamArguments& arguments) {
+  slam::OdometryNoise& noise = arguments.config.odometry_noise;
+  const auto add = [&](const char* name, double& value, const char* text) {
+    command.add_option(name, value, text)
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str()
+        ->group("Noise (standard deviations)");
+  };
+  add("--range-sd-m", arguments.sensor.range_sd_m, "of a range, for logs without covariances");
+  add("--bearing-sd-rad", arguments.sensor.bearing_sd_rad, "of a bearing, for logs without covariances");
+  add("--v-constant-mps", noise.v_constant_mps, "of the forward speed, constant part");
+  add("--v-per-v", noise.v_per_v, "of the forward speed, per m/s");
+  add("--v-per-w", noise.v_per_w, "of the forward speed, per rad/s");
+  add("--w-constant-radps", noise.w_constant_radps, "of the turn rate, constant part");
+  add("--w-per-v", noise.w_per_v, "of the turn rate, per m/s");
+  add("--w-per-w", noise.w_per_w, "of the turn rate, per rad/s");
+}
+
+}  // namespace
+
+void add_slam_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("slam", "run the filters on a recorded log, score them against its truth");
+  auto arguments = std::make_shared<SlamArguments>();
+  command
+      ->add_option("log", arguments->log,
+                   "folder of a measurement log (odometry.csv, observations.csv, ...) or of UTIAS MRCLAM "
+                   ".dat files; plain or .gz")
+      ->required();
+  add_run_options(*command, arguments->run);
+  add_noise_options(*command, *arguments);
+  command->footer("Example: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4");
+  command->callback([arguments, &action] { action = [arguments] { return run_slam(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

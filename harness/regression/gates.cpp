@@ -1,0 +1,91 @@
+#include "harness/regression/gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/report/text_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The number (or null) at a dotted path such as "filters.ufastslam.ate_rms_m.mean"; nothing when there is
+/// none.
+const Json* find_metric(const Json& json, const std::string& path) {
+  const Json* node = &json;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const auto child = node->is_object() ? node->find(path.substr(begin, end - begin)) : node->end();
+    if (!node->is_object() || child == node->end()) return nullptr;
+    node = &*child;
+    begin = end + 1;
+  }
+  return node->is_number() || node->is_null() ? node : nullptr;
+}
+
+/// "ufastslam" of "filters.ufastslam.ate_rms_m.mean"; empty for other metrics.
+std::string filter_of(const std::string& metric) {
+  const std::string prefix = "filters.";
+  if (!metric.starts_with(prefix)) return "";
+  return metric.substr(prefix.size(), metric.find('.', prefix.size()) - prefix.size());
+}
+
+std::string broken_message(const worlds::Gate& gate, const Json& metric) {
+  const bool at_most = gate.relation == worlds::Gate::Relation::kAtMost;
+  const std::string limit = fmt::format("{} {}", at_most ? "at most" : "at least", gate.limit);
+  if (metric.is_null()) return fmt::format("{} has no value, expected {}", gate.metric, limit);
+  const double value = metric.get<double>();
+  return fmt::format("{} is {}, expected {}: off by {}", gate.metric, value, limit,
+                     format_number(std::abs(value - gate.limit)));
+}
+
+bool holds(const worlds::Gate& gate, const Json& metric) {
+  if (metric.is_null()) return false;
+  const double value = metric.get<double>();
+  return gate.relation == worlds::Gate::Relation::kAtMost ? value <= gate.limit : value >= gate.limit;
+}
+
+}  // namespace
+
+std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario) {
+  const std::vector<std::string> known = slam::filter_names();
+  std::vector<worlds::Gate> gates;
+  for (const worlds::Gate& gate : scenario.gates) {
+    const std::string filter = filter_of(gate.metric);
+    const bool left_out =
+        std::ranges::count(known, filter) > 0 && std::ranges::count(scenario.filters, filter) == 0;
+    if (!left_out) gates.push_back(gate);
+  }
+  return gates;
+}
+
+void check_metrics(std::span<const worlds::Gate> gates, const worlds::Scenario& scenario) {
+  RunResult nothing_yet;  // has all the keys that a result has
+  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision.emplace();
+  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
+  const Json json = run_json(nothing_yet);
+  for (const worlds::Gate& gate : gates)
+    if (find_metric(json, gate.metric) == nullptr)
+      throw std::runtime_error(fmt::format(
+          "gate '{}': run.json has no such number; gates name one by its keys, e.g. vision.recall",
+          gate.metric));
+}
+
+std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json,
+                                     std::span<const worlds::Gate> gates) {
+  std::vector<BrokenGate> broken;
+  for (const worlds::Gate& gate : gates) {
+    const Json* metric = find_metric(json, gate.metric);
+    if (metric == nullptr) throw std::invalid_argument("broken_gates: no metric " + gate.metric);
+    if (holds(gate, *metric)) continue;
+    const auto value = metric->is_null() ? std::nullopt : std::optional<double>(metric->get<double>());
+    broken.push_back({gate, value, broken_message(gate, *metric)});
+  }
+  return broken;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,37 @@
+/// Work spread over processes: OpenGL in software has one rasteriser lock per process, and a task that
+/// crashes must not take the others with it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace stereobench::harness {
+
+/// A task ended without an answer: its process crashed or was killed.
+class WorkerCrash : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Computes the answer of one task, as bytes.
+/// @param index of the task
+/// @param report tells the parent how far the task is, in [0, 1]
+using Task = std::function<std::string(std::size_t index, const std::function<void(double)>& report)>;
+
+/// Told by the parent as tasks move on: the sum of all tasks' fractions, in [0, tasks].
+using OnProgress = std::function<void(double tasks_done)>;
+
+/// Runs `task` for each index in forked processes and gives their answers in order of index, so that the
+/// outcome depends neither on the number of jobs nor on which task ends first.
+/// @param tasks how many there are
+/// @param jobs processes at a time, >= 1
+/// @return one answer a task
+/// @throws std::runtime_error with the message of the first task that fails, at once; WorkerCrash when a
+///   process dies. The other processes are ended either way.
+std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
+                                          const OnProgress& on_progress);
+
+}  // namespace stereobench::harness

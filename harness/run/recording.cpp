@@ -1,0 +1,130 @@
+#include "harness/run/recording.h"
+
+#include <algorithm>
+
+#include "harness/run/stopwatch.h"
+#include "renderer/expose.h"
+#include "renderer/renderer.h"
+#include "slam/motion.h"
+#include "slam/random.h"
+#include "vision/observe.h"
+#include "worlds/oracle.h"
+#include "worlds/scenario.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// What a robot senses at a step of its path.
+using Sense = std::function<std::vector<slam::RangeBearing>(std::size_t index, const slam::Pose& pose)>;
+
+/// The measurements a filter is given: whole balls only, and where colours are unique the ball's identity,
+/// which the robot knows by its colour.
+std::vector<slam::RangeBearing> measurements_of(const std::vector<vision::BallObservation>& observations,
+                                                const worlds::World& world, worlds::Identity identity) {
+  std::vector<slam::RangeBearing> measurements;
+  for (const vision::BallObservation& observation : observations) {
+    if (!observation.whole()) continue;
+    slam::RangeBearing measurement = observation.range_bearing;
+    if (identity == worlds::Identity::kKnown) {
+      const auto ball = std::find_if(world.balls.begin(), world.balls.end(),
+                                     [&](const worlds::Ball& b) { return b.colour == observation.colour; });
+      if (ball == world.balls.end()) continue;  // a colour that no landmark has
+      measurement.landmark_id = static_cast<int>(ball - world.balls.begin());
+    }
+    measurements.push_back(measurement);
+  }
+  return measurements;
+}
+
+Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed) {
+  return [&scenario, &world, seed](std::size_t index, const slam::Pose& pose) {
+    slam::RandomStream stream(seed, slam::Stream::kOracle, index);
+    return worlds::sense(world, pose, scenario.oracle, scenario.identity, stream);
+  };
+}
+
+/// Renders, exposes, observes and scores each step's pair; lives as long as the drive.
+class StereoSense {
+ public:
+  StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed)
+      : scenario_(scenario), world_(world), seed_(seed), renderer_(world, scenario.rig) {
+    settings_.ball_radius_m = world.balls.empty() ? settings_.ball_radius_m : world.balls.front().radius_m;
+    settings_.noise_sd_levels = scenario.camera.noise_sd_levels;
+  }
+
+  std::vector<slam::RangeBearing> look(std::size_t index, const slam::Pose& pose,
+                                       const std::function<void(const Look&)>& on_look) {
+    Stopwatch watch(timing_);
+    const renderer::StereoFrame frame = watch.time("render", [&] { return renderer_.render(pose); });
+    const vision::StereoPair pair =
+        watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
+    const auto observations =
+        watch.time("observe", [&] { return vision::observe(pair, scenario_.rig, settings_); });
+    score_ += score_observations({world_, scenario_.rig, pose, frame}, observations);
+    on_look({index, frame, pair, observations});
+    return measurements_of(observations, world_, scenario_.identity);
+  }
+
+  const VisionScore& score() const { return score_; }
+  const Timing& timing() const { return timing_; }
+
+ private:
+  const worlds::Scenario& scenario_;
+  const worlds::World& world_;
+  std::uint64_t seed_;
+  renderer::Renderer renderer_;
+  vision::ObserverSettings settings_;
+  VisionScore score_;
+  Timing timing_;
+};
+
+std::vector<LandmarkTruth> landmarks_of(const worlds::World& world) {
+  std::vector<LandmarkTruth> landmarks;
+  for (std::size_t i = 0; i < world.balls.size(); ++i)
+    landmarks.push_back({static_cast<int>(i), world.balls[i].colour, world.balls[i].centre_m.head<2>()});
+  return landmarks;
+}
+
+std::vector<slam::Control> measured_odometry(const std::vector<slam::Control>& controls,
+                                             const slam::OdometryNoise& noise, slam::RandomStream& stream) {
+  std::vector<slam::Control> measured;
+  for (const slam::Control& control : controls) measured.push_back(slam::perturb(control, noise, stream));
+  return measured;
+}
+
+void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& sense, MeasurementLog& log,
+           const std::function<void(double)>& report) {
+  slam::RandomStream odometry_stream(seed, slam::Stream::kOdometry);
+  for (std::size_t index = 0; index < scenario.path.size(); ++index) {
+    const worlds::PathStep& step = scenario.path[index];
+    log.steps.push_back(
+        {.stamp_ns = step.stamp_ns,
+         .odometry = measured_odometry(step.controls, scenario.odometry_noise, odometry_stream),
+         .measurements = sense(index, step.pose),
+         .truth = step.pose});
+    report(static_cast<double>(index + 1) / static_cast<double>(scenario.path.size()));
+  }
+}
+
+}  // namespace
+
+Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners) {
+  Recording recording;
+  const worlds::World world = worlds::world_for_seed(scenario, seed);
+  recording.log.landmarks = landmarks_of(world);
+  if (!scenario.path.empty()) recording.log.start = scenario.path.front().pose;
+  if (scenario.sensor == worlds::SensorKind::kOracle) {
+    drive(scenario, seed, oracle_sense(scenario, world, seed), recording.log, listeners.on_progress);
+    return recording;
+  }
+  StereoSense stereo(scenario, world, seed);
+  const auto look = [&](std::size_t index, const slam::Pose& pose) {
+    return stereo.look(index, pose, listeners.on_look);
+  };
+  drive(scenario, seed, look, recording.log, listeners.on_progress);
+  recording.vision = stereo.score();
+  recording.timing = stereo.timing();
+  return recording;
+}
+
+}  // namespace stereobench::harness

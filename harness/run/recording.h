@@ -1,0 +1,50 @@
+/// A drive through a scenario, from the world to the log that filters are replayed on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/scoring/vision_score.h"
+#include "harness/types.h"
+#include "renderer/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Wall-clock seconds a stage took; reported beside results, never inside what is compared.
+using Timing = std::map<std::string, double>;
+
+/// A look of the robot at its world: the truth, the exposed pair, and what was detected in it.
+struct Look {
+  std::size_t step;
+  const renderer::StereoFrame& frame;
+  const vision::StereoPair& pair;
+  const std::vector<vision::BallObservation>& observations;
+};
+
+/// Who wants to be told while a drive goes on.
+struct Listeners {
+  std::function<void(const Look&)> on_look = [](const Look&) {};
+  std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
+};
+
+/// What one seed's drive gave.
+struct Recording {
+  MeasurementLog log;
+  std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  Timing timing;
+};
+
+/// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
+/// sensed by the oracle), and the odometry is measured with its noise.
+/// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
+/// @param listeners told of each look (sensors with pixels only) and of the progress
+/// @return the log with truth, and how vision scored
+/// @throws std::runtime_error when there is no GL or a mesh cannot be read
+Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,67 @@
+#include "harness/run/run_output.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "harness/dataset/atomic_file.h"
+#include "harness/report/error_picture.h"
+#include "harness/report/map_picture.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kSecondsPerNanosecond = 1e-9;
+
+std::string map_of(const RunResult& result, const SeedDrive& drive, const std::vector<worlds::Wall>& walls) {
+  MapPicture picture{.title = fmt::format("{}, seed {}", result.name, drive.seed), .walls = walls};
+  picture.landmarks = drive.recording.log.landmarks;
+  for (const LogStep& step : drive.recording.log.steps)
+    if (step.truth) picture.true_path.push_back(*step.truth);
+  for (const FilterRun& run : drive.runs)
+    picture.estimates.push_back({run.filter, run.poses, run.last.landmarks});
+  return draw_map_picture(picture);
+}
+
+std::vector<double> position_errors(const FilterRun& run, const MeasurementLog& log) {
+  std::vector<double> errors(log.steps.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < run.poses.size(); ++k)
+    if (log.steps[k].truth)
+      errors[k] =
+          std::hypot(run.poses[k].x_m - log.steps[k].truth->x_m, run.poses[k].y_m - log.steps[k].truth->y_m);
+  return errors;
+}
+
+std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives) {
+  ErrorPicture picture{.title = fmt::format("{}: position error, {} seed{}", result.name, drives.size(),
+                                            drives.size() == 1 ? "" : "s")};
+  for (const LogStep& step : drives.front().recording.log.steps)
+    picture.time_s.push_back(static_cast<double>(step.stamp_ns) * kSecondsPerNanosecond);
+  for (std::size_t i = 0; i < result.filters.size(); ++i) {
+    ErrorCurves curves{.filter = result.filters[i].filter};
+    for (const SeedDrive& drive : drives)
+      curves.error_m_by_run.push_back(position_errors(drive.runs[i], drive.recording.log));
+    picture.filters.push_back(std::move(curves));
+  }
+  return draw_error_picture(picture);
+}
+
+}  // namespace
+
+void write_run(const std::filesystem::path& out, const RunResult& result, std::span<const SeedDrive> drives,
+               const std::vector<worlds::Wall>& walls) {
+  write_file_atomically(out / "map.png", map_of(result, drives.front(), walls));
+  write_file_atomically(out / "error.png", errors_of(result, drives));
+  for (const SeedDrive& drive : drives) {
+    if (!drive.snapshots.empty()) prepare_output_folder(out / "frames");
+    for (const Snapshot& snapshot : drive.snapshots)
+      write_file_atomically(out / "frames" / fmt::format("seed{}_step{:04}.png", drive.seed, snapshot.step),
+                            snapshot.png);
+  }
+  write_file_atomically(out / "steps.csv", steps_csv(result, drives));
+  write_file_atomically(out / "timing.json", timing_json(drives).dump(2) + "\n");
+  write_file_atomically(out / "run.json", run_json(result).dump(2) + "\n");
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,166 @@
+#include "harness/run/run_result.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/report/text_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json summary_json(const Summary& summary) {
+  return {{"mean", number(summary.mean)},
+          {"sd", number(summary.sd)},
+          {"max", number(summary.max)},
+          {"ci95_half_width", number(summary.half_width)}};
+}
+
+/// How many times better than dead reckoning a filter's mean ATE is; null without dead reckoning.
+Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) {
+  for (const FilterResult& filter : result.filters)
+    if (filter.filter == "dead_reckoning")
+      return number(summary.ate_rms_m.mean / filter.summary.ate_rms_m.mean);
+  return nullptr;
+}
+
+Json filter_json(const RunResult& result, const FilterSummary& summary) {
+  return {{"particles", summary.particles},
+          {"ate_rms_m", summary_json(summary.ate_rms_m)},
+          {"ate_max_m", summary_json(summary.ate_max_m)},
+          {"ate_aligned_rms_m", summary_json(summary.ate_aligned_rms_m)},
+          {"ate_aligned_median_m", number(summary.ate_aligned_median_m)},
+          {"ate_over_dead_reckoning", over_dead_reckoning(result, summary)},
+          {"heading_rms_rad", summary_json(summary.heading_rms_rad)},
+          {"rpe_rms_m", summary_json(summary.rpe_rms_m)},
+          {"final_drift", summary_json(summary.final_drift)},
+          {"landmark_rms_m", summary_json(summary.landmark_rms_m)},
+          {"landmark_aligned_rms_m", summary_json(summary.landmark_aligned_rms_m)},
+          {"landmarks",
+           {{"found_once", summary.landmarks_found_once},
+            {"duplicated", summary.landmarks_duplicated},
+            {"missed", summary.landmarks_missed},
+            {"spurious", summary.landmarks_spurious}}},
+          {"anees", summary_json(summary.anees)},
+          {"failures", summary.failures}};
+}
+
+Json vision_json(const std::optional<VisionScore>& vision) {
+  if (!vision)
+    return {{"recall", nullptr},
+            {"precision", nullptr},
+            {"misidentified", nullptr},
+            {"range_rms_m", nullptr},
+            {"bearing_rms_rad", nullptr}};
+  return {{"recall", number(vision->recall())},
+          {"precision", number(vision->precision())},
+          {"misidentified", vision->misidentified},
+          {"range_rms_m", number(vision->range_rms_m())},
+          {"bearing_rms_rad", number(vision->bearing_rms_rad())},
+          {"disparity_rms_px", number(vision->disparity_rms_px())},
+          {"normalised_error", number(vision->mean_normalised_error())},
+          {"visible", vision->visible},
+          {"found", vision->found},
+          {"observations", vision->observations},
+          {"spurious", vision->spurious},
+          {"repeated", vision->repeated},
+          {"flagged", vision->flagged}};
+}
+
+void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, const FilterScore& score,
+                 const LogStep& step, std::size_t k) {
+  const slam::Pose& pose = run.poses[k];
+  csv += fmt::format("{},{},{},{},{},{},{},{}", seed, run.filter, k, step.stamp_ns, pose.x_m, pose.y_m,
+                     pose.heading_rad, step.measurements.size());
+  if (step.truth)
+    csv += fmt::format(",{},{},{},{}", step.truth->x_m, step.truth->y_m, step.truth->heading_rad,
+                       std::hypot(pose.x_m - step.truth->x_m, pose.y_m - step.truth->y_m));
+  else
+    csv += ",,,,";
+  const auto& nees = score.normalised_errors;
+  csv += k < nees.size() && nees[k] ? fmt::format(",{}\n", *nees[k]) : std::string(",\n");
+}
+
+}  // namespace
+
+RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives) {
+  if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
+  RunResult result{.name = name, .backend = backend};
+  for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
+  for (const SeedDrive& drive : drives) {
+    if (drive.runs.size() != result.filters.size())
+      throw std::invalid_argument("assemble: the drives have different filters");
+    result.seeds.push_back(drive.seed);
+    if (drive.recording.vision && !result.vision) result.vision.emplace();
+    if (drive.recording.vision) *result.vision += *drive.recording.vision;
+    for (std::size_t i = 0; i < drive.runs.size(); ++i)
+      result.filters[i].scores.push_back(score(drive.runs[i], drive.recording.log));
+  }
+  for (std::size_t i = 0; i < result.filters.size(); ++i)
+    result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles);
+  return result;
+}
+
+nlohmann::ordered_json run_json(const RunResult& result) {
+  Json filters = Json::object();
+  for (const FilterResult& filter : result.filters)
+    filters[filter.filter] = filter_json(result, filter.summary);
+  return {{"schema", kSchema},
+          {"scenario", result.name},
+          {"seeds", result.seeds},
+          {"renderer", {{"backend", result.backend}}},
+          {"vision", vision_json(result.vision)},
+          {"filters", std::move(filters)}};
+}
+
+std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives) {
+  std::string csv =
+      "seed,filter,step,stamp_ns,x_m,y_m,heading_rad,measurements,"
+      "true_x_m,true_y_m,true_heading_rad,error_m,normalised_error\n";
+  for (std::size_t d = 0; d < drives.size(); ++d)
+    for (std::size_t i = 0; i < drives[d].runs.size(); ++i)
+      for (std::size_t k = 0; k < drives[d].runs[i].poses.size(); ++k)
+        append_step(csv, drives[d].seed, drives[d].runs[i], result.filters[i].scores[d],
+                    drives[d].recording.log.steps[k], k);
+  return csv;
+}
+
+nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
+  Timing total;
+  for (const SeedDrive& drive : drives)
+    for (const auto& [stage, seconds] : drive.recording.timing) total[stage] += seconds;
+  return {{"schema", kSchema}, {"seeds", drives.size()}, {"seconds", total}};
+}
+
+std::string result_table(const RunResult& result) {
+  TextTable table{.header = {"filter", "particles", "ATE rms [m]", "ATE max [m]", "aligned [m]",
+                             "heading [deg]", "landmarks [m]", "ANEES", "failures"}};
+  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  for (const FilterResult& filter : result.filters) {
+    const FilterSummary& s = filter.summary;
+    table.rows.push_back(
+        {filter.filter, fmt::format("{}", s.particles), format_mean_sd(s.ate_rms_m.mean, s.ate_rms_m.sd),
+         format_number(s.ate_rms_m.max), format_number(s.ate_aligned_rms_m.mean),
+         format_number(kDegrees * s.heading_rms_rad.mean), format_number(s.landmark_rms_m.mean),
+         format_number(s.anees.mean), fmt::format("{}", s.failures)});
+  }
+  std::string text;
+  if (result.vision)
+    text += fmt::format(
+        "vision: recall {:.4f}, precision {:.4f}, {} misidentified, range rms {} mm, bearing rms {} mrad\n\n",
+        result.vision->recall(), result.vision->precision(), result.vision->misidentified,
+        format_number(1e3 * result.vision->range_rms_m()),
+        format_number(1e3 * result.vision->bearing_rms_rad()));
+  return text + plain_text(table);
+}
+
+}  // namespace stereobench::harness

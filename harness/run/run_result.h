@@ -1,0 +1,51 @@
+/// All seeds of a run put together and scored: what run.json says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/run/seed_drive.h"
+#include "harness/scoring/score.h"
+
+namespace stereobench::harness {
+
+/// One filter over all seeds.
+struct FilterResult {
+  std::string filter;
+  std::vector<FilterScore> scores;  ///< one a seed
+  FilterSummary summary;
+};
+
+/// What a run gave.
+struct RunResult {
+  std::string name;  ///< of the scenario or the log
+  std::vector<std::uint64_t> seeds;
+  std::string backend;                ///< what rendered: "osmesa", or "none"
+  std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
+  std::vector<FilterResult> filters;
+};
+
+/// Scores each filter's runs against their logs.
+/// @param drives one a seed, all with the same filters in the same order
+/// @throws std::invalid_argument when there is no drive, or they differ in their filters
+RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives);
+
+/// The content of run.json: no time, path or host in it.
+/// Numbers that do not exist (an error without truth) are null.
+nlohmann::ordered_json run_json(const RunResult& result);
+
+/// The content of steps.csv: one line a seed, filter and step.
+std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives);
+
+/// The content of timing.json: seconds of each stage, summed over the seeds.
+nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives);
+
+/// The table people see at the end of a run.
+std::string result_table(const RunResult& result);
+
+}  // namespace stereobench::harness

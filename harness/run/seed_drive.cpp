@@ -1,0 +1,67 @@
+#include "harness/run/seed_drive.h"
+
+#include <algorithm>
+
+#include "harness/report/detection_picture.h"
+#include "harness/run/process_pool.h"
+#include "harness/run/progress.h"
+#include "harness/run/serialise.h"
+#include "harness/run/stopwatch.h"
+#include "harness/scoring/replay.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// Whether `step` is one of `count` that are spread evenly over a path of `steps`.
+bool is_snapshot_step(std::size_t step, std::size_t count, std::size_t steps) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (step == i * steps / count) return true;
+  return false;
+}
+
+}  // namespace
+
+slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
+  slam::FilterConfig config;
+  config.particles = scenario.particles;
+  config.odometry_noise = scenario.believed_odometry_noise;
+  config.colour_spacing_m = scenario.colour_spacing_m;
+  return config;
+}
+
+std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vector<std::string>& filters,
+                                      const slam::FilterConfig& config, std::uint64_t seed, Timing& timing) {
+  Stopwatch watch(timing);
+  std::vector<FilterRun> runs;
+  for (const std::string& filter : filters)
+    runs.push_back(watch.time("filter." + filter, [&] { return replay(log, filter, config, seed); }));
+  return runs;
+}
+
+SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress) {
+  SeedDrive drive{.seed = task.seed};
+  Listeners listeners;
+  listeners.on_progress = on_progress;
+  listeners.on_look = [&](const Look& look) {
+    if (is_snapshot_step(look.step, task.snapshots, task.scenario->path.size()))
+      drive.snapshots.push_back({look.step, draw_detection_picture(look.pair, look.observations)});
+  };
+  drive.recording = record(*task.scenario, task.seed, listeners);
+  drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),
+                              task.seed, drive.recording.timing);
+  return drive;
+}
+
+std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
+  Progress progress(what, static_cast<double>(tasks.size()));
+  const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
+    return to_bytes(drive_seed(tasks[index], report));
+  };
+  const auto answers =
+      run_in_processes(tasks.size(), jobs, drive_task, [&](double done) { progress.show(done); });
+  std::vector<SeedDrive> drives;
+  for (const std::string& answer : answers) drives.push_back(seed_drive_from_bytes(answer));
+  return drives;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,54 @@
+/// One seed of one scenario, driven and filtered: the unit of work that is spread over processes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/run/recording.h"
+#include "harness/types.h"
+#include "slam/filter.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// A picture of one step, with the detections drawn on it.
+struct Snapshot {
+  std::size_t step = 0;
+  std::string png;
+};
+
+/// What one seed gave: the drive, and each filter's run over it, in the scenario's order of filters.
+struct SeedDrive {
+  std::uint64_t seed = 0;
+  Recording recording;
+  std::vector<FilterRun> runs;
+  std::vector<Snapshot> snapshots;
+};
+
+/// A seed to drive, and how many pictures of it to keep.
+struct DriveTask {
+  const worlds::Scenario* scenario = nullptr;
+  std::uint64_t seed = 0;
+  std::size_t snapshots = 0;  ///< evenly spread over the path
+};
+
+/// The settings that a scenario gives its filters.
+slam::FilterConfig filter_config(const worlds::Scenario& scenario);
+
+/// Runs each filter over a log.
+/// @param seed of the filters' own random streams
+/// @param timing the seconds of each filter are added to "filter.NAME"
+std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vector<std::string>& filters,
+                                      const slam::FilterConfig& config, std::uint64_t seed, Timing& timing);
+
+/// Drives a seed: the world is rendered once and replayed for each filter.
+SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress);
+
+/// Drives many seeds in `jobs` processes at a time, with a progress line for people.
+/// @param what is shown on the progress line
+/// @return in the order of the tasks, whatever the number of jobs
+std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,127 @@
+#include "harness/sweep/sweep_result.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/report/sweep_picture.h"
+#include "harness/report/text_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+MeanInterval scaled(const Summary& summary, double scale) {
+  return {scale * summary.mean, scale * (summary.mean - summary.half_width),
+          scale * (summary.mean + summary.half_width)};
+}
+
+std::string with_interval(const Summary& summary, double scale) {
+  if (summary.count == 0) return "-";
+  if (summary.count == 1) return format_number(scale * summary.mean);
+  return fmt::format("{} +- {}", format_number(scale * summary.mean),
+                     format_number(scale * summary.half_width, 2));
+}
+
+/// The cells that differ in the first variation only, one group for each combination of the others.
+std::vector<std::vector<const SweepCell*>> groups_of(const SweepResult& sweep) {
+  const std::size_t groups = sweep.cells.size() / sweep.variations.front().values.size();
+  std::vector<std::vector<const SweepCell*>> grouped(groups);
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) grouped[i % groups].push_back(&sweep.cells[i]);
+  return grouped;
+}
+
+std::string title_of(const SweepResult& sweep, const SweepCell& cell) {
+  std::string title = fmt::format("{}, {} seeds", sweep.name, cell.result.seeds.size());
+  for (std::size_t i = 1; i < sweep.variations.size(); ++i)
+    title += fmt::format(", {} = {}", sweep.variations[i].key, cell.values[i]);
+  return title;
+}
+
+std::string picture_of(const SweepResult& sweep, const std::vector<const SweepCell*>& cells) {
+  SweepPicture picture{.title = title_of(sweep, *cells.front()), .parameter = sweep.variations.front().key};
+  SweepCurve range{.name = "range rms [mm]", .values = {}};
+  SweepCurve bearing{.name = "bearing rms [mrad]", .values = {}};
+  for (const FilterResult& filter : cells.front()->result.filters)
+    picture.ate_m.push_back({filter.filter, {}});
+  for (const SweepCell* cell : cells) {
+    picture.values.push_back(cell->values.front());
+    range.values.push_back(scaled(cell->range_rms_m, 1e3));
+    bearing.values.push_back(scaled(cell->bearing_rms_rad, 1e3));
+    for (std::size_t i = 0; i < picture.ate_m.size(); ++i)
+      picture.ate_m[i].values.push_back(scaled(cell->result.filters[i].summary.ate_rms_m, 1.0));
+  }
+  if (cells.front()->result.vision) picture.detection = {range, bearing};
+  return draw_sweep_picture(picture);
+}
+
+}  // namespace
+
+SweepCell assemble_cell(const std::string& name, const std::string& backend, const Cell& values,
+                        std::span<const SeedDrive> drives) {
+  std::vector<double> ranges;
+  std::vector<double> bearings;
+  for (const SeedDrive& drive : drives)
+    if (drive.recording.vision) {
+      ranges.push_back(drive.recording.vision->range_rms_m());
+      bearings.push_back(drive.recording.vision->bearing_rms_rad());
+    }
+  return {values, assemble(name, backend, drives), summarise(ranges), summarise(bearings)};
+}
+
+std::string sweep_table(const SweepResult& sweep) {
+  TextTable table;
+  for (const Variation& variation : sweep.variations) table.header.push_back(variation.key);
+  table.header.insert(table.header.end(), {"recall", "range rms [mm]", "bearing rms [mrad]"});
+  for (const FilterResult& filter : sweep.cells.front().result.filters)
+    table.header.push_back(filter.filter + " ATE [m]");
+  for (const SweepCell& cell : sweep.cells) {
+    std::vector<std::string> row = cell.values;
+    row.push_back(cell.result.vision ? format_number(cell.result.vision->recall()) : "-");
+    row.push_back(with_interval(cell.range_rms_m, 1e3));
+    row.push_back(with_interval(cell.bearing_rms_rad, 1e3));
+    for (const FilterResult& filter : cell.result.filters)
+      row.push_back(with_interval(filter.summary.ate_rms_m, 1.0));
+    table.rows.push_back(std::move(row));
+  }
+  return plain_text(table);
+}
+
+std::string sweep_csv(const SweepResult& sweep) {
+  std::string csv;
+  for (const Variation& variation : sweep.variations) csv += variation.key + ",";
+  csv += "filter,seeds,ate_rms_m,ate_ci95_m,landmark_rms_m,failures,recall,range_rms_m,bearing_rms_rad\n";
+  for (const SweepCell& cell : sweep.cells)
+    for (const FilterResult& filter : cell.result.filters) {
+      const FilterSummary& s = filter.summary;
+      csv += fmt::format("{},{},{},{},{},{},{}", fmt::join(cell.values, ","), filter.filter,
+                         cell.result.seeds.size(), s.ate_rms_m.mean, s.ate_rms_m.half_width,
+                         s.landmark_rms_m.mean, s.failures);
+      if (cell.result.vision)
+        csv += fmt::format(",{},{},{}\n", cell.result.vision->recall(), cell.range_rms_m.mean,
+                           cell.bearing_rms_rad.mean);
+      else
+        csv += ",,,\n";
+    }
+  return csv;
+}
+
+nlohmann::ordered_json sweep_json(const SweepResult& sweep) {
+  nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+  for (const SweepCell& cell : sweep.cells) {
+    nlohmann::ordered_json values;
+    for (std::size_t i = 0; i < sweep.variations.size(); ++i)
+      values[sweep.variations[i].key] = cell.values[i];
+    cells.push_back({{"values", std::move(values)}, {"run", run_json(cell.result)}});
+  }
+  return {{"schema", 1}, {"scenario", sweep.name}, {"cells", std::move(cells)}};
+}
+
+std::vector<NamedPicture> sweep_pictures(const SweepResult& sweep) {
+  std::vector<NamedPicture> pictures;
+  const auto groups = groups_of(sweep);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    pictures.push_back({groups.size() == 1 ? "sweep.png" : fmt::format("sweep_{:02}.png", i + 1),
+                        picture_of(sweep, groups[i])});
+  return pictures;
+}
+
+}  // namespace stereobench::harness

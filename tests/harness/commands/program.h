@@ -1,0 +1,40 @@
+/// The built program, run as a user runs it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stereobench::harness {
+
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal when a signal ended it
+  std::string out;
+  std::string err;
+};
+
+/// Runs `stereobench` with arguments and waits for it; its output is not a terminal.
+Outcome run_stereobench(const std::vector<std::string>& arguments);
+
+/// The path of a shipped scenario.
+std::string scenario_path(const std::string& name);
+
+/// An empty folder of a test's own, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in it. @return its path
+  std::string write(const std::string& name, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// All of a file's bytes. Fails the test when it cannot be read.
+std::string bytes_of(const std::filesystem::path& path);
+
+}  // namespace stereobench::harness

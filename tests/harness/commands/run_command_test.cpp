@@ -1,0 +1,170 @@
+/// The whole way through: what `stereobench run` and its sisters promise, on short drives.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/harness/commands/program.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+
+/// Runs and gives the bytes of a result file.
+std::string result_of(std::vector<std::string> arguments, const std::string& file) {
+  const ScratchFolder scratch;
+  arguments.insert(arguments.end(), {"--out", scratch.path().string()});
+  const Outcome outcome = run_stereobench(arguments);
+  EXPECT_LE(outcome.exit_code, 1) << outcome.err;
+  return bytes_of(scratch.path() / file);
+}
+
+const std::vector<std::string> kShortDrive = {
+    "run", scenario_path("ball_circle"), "--set", "path.laps=0.2", "--seeds", "0..2", "--particles", "20"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+// Mutations: a filter seeded by the worker's number, results in order of arrival, a time in run.json.
+TEST(RunCommand, SameBytesForAnyNumberOfJobsAndRunAfterRun) {
+  for (const char* file : {"run.json", "steps.csv", "map.png", "error.png"}) {
+    const std::string one = result_of(with(kShortDrive, {"--jobs", "1"}), file);
+    EXPECT_EQ(one, result_of(with(kShortDrive, {"--jobs", "2"}), file)) << file;
+    EXPECT_EQ(one, result_of(with(kShortDrive, {"--jobs", "2"}), file)) << file;
+  }
+}
+
+TEST(RunCommand, RunJsonHasTheKeysThatStay) {
+  const auto json =
+      nlohmann::json::parse(result_of(with(kShortDrive, {"--set", "camera.noise_sd_levels=1"}), "run.json"));
+  for (const char* key : {"schema", "scenario", "seeds", "renderer", "vision", "filters"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["renderer"]["backend"], "osmesa");
+  for (const char* key : {"recall", "precision", "misidentified", "range_rms_m", "bearing_rms_rad"})
+    EXPECT_TRUE(json["vision"][key].is_number()) << key;
+  for (const char* name : {"dead_reckoning", "fastslam2", "ufastslam"}) {
+    const auto& filter = json["filters"][name];
+    EXPECT_TRUE(filter["particles"].is_number());
+    EXPECT_TRUE(filter["failures"].is_number());
+    for (const char* metric : {"ate_rms_m", "ate_aligned_rms_m"})
+      for (const char* part : {"mean", "sd", "max"})
+        EXPECT_TRUE(filter[metric][part].is_number()) << name << metric << part;
+    EXPECT_TRUE(filter["heading_rms_rad"]["mean"].is_number());
+    EXPECT_TRUE(filter["anees"]["mean"].is_number());
+    EXPECT_TRUE(filter["landmark_rms_m"].contains("mean"));
+  }
+}
+
+TEST(RunCommand, PipedOutputHasNoProgress) {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_stereobench(with(kShortDrive, {"--out", scratch.path().string()}));
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("ufastslam"));
+}
+
+// Mutation: comparing the wrong way round.
+TEST(RunCommand, BrokenGateIsExitOneAndSaysByHowMuch) {
+  const ScratchFolder scratch;
+  const auto run = [&](const std::string& limit) {
+    return run_stereobench(
+        {"run", scenario_path("open_field"), "--seeds", "0", "--particles", "5", "--out",
+         scratch.path().string(), "--set",
+         "gates=[{metric: filters.dead_reckoning.ate_rms_m.mean, at_most: " + limit + "}]"});
+  };
+  const Outcome broken = run("0.000001");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_THAT(broken.out, HasSubstr("gate broken: filters.dead_reckoning.ate_rms_m.mean is"));
+  EXPECT_THAT(broken.out, HasSubstr("off by"));
+  const Outcome kept = run("1000");
+  EXPECT_EQ(kept.exit_code, 0);
+  EXPECT_THAT(kept.out, HasSubstr("all 1 gates hold"));
+}
+
+TEST(RunCommand, DrawsAFewFramesWithDetections) {
+  const ScratchFolder scratch;
+  run_stereobench(with(kShortDrive, {"--out", scratch.path().string()}));
+  std::size_t frames = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "frames"))
+    frames += entry.path().extension() == ".png" ? 1 : 0;
+  EXPECT_GE(frames, 3u);
+}
+
+// Property: a rendered data set, replayed as a recorded log, gives the filters the very same measurements.
+// Mutation: writing the true odometry in place of the measured one.
+TEST(RenderCommand, ReplayedDataSetScoresAsTheRunDid) {
+  const ScratchFolder scratch;
+  const std::string data = (scratch.path() / "data").string();
+  const std::string out = (scratch.path() / "out").string();
+  ASSERT_EQ(run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--seed", "1",
+                             "--out", data})
+                .exit_code,
+            0);
+  const Outcome replayed =
+      run_stereobench({"slam", data, "--filters", "dead_reckoning", "--seeds", "1", "--out", out});
+  ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
+  const auto run =
+      nlohmann::json::parse(result_of({"run", scenario_path("ball_circle"), "--set", "path.laps=0.1",
+                                       "--seeds", "1", "--filters", "dead_reckoning"},
+                                      "run.json"));
+  const auto slam = nlohmann::json::parse(bytes_of(scratch.path() / "out" / "run.json"));
+  const char* const path = "/filters/dead_reckoning/ate_rms_m/mean";
+  EXPECT_NEAR(slam.at(nlohmann::json::json_pointer(path)).get<double>(),
+              run.at(nlohmann::json::json_pointer(path)).get<double>(), 1e-7);
+}
+
+// Mutation: writing frames over again, or taking up a folder of another seed.
+TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
+  const ScratchFolder scratch;
+  const std::string out = (scratch.path() / "data").string();
+  const std::vector<std::string> render = {
+      "render", scenario_path("ball_circle"), "--set", "path.laps=0.06", "--out", out};
+  ASSERT_EQ(run_stereobench(render).exit_code, 0);
+  const std::filesystem::path kept = scratch.path() / "data/left/000000.png";
+  const std::filesystem::path lost = scratch.path() / "data/left_depth/000001.pfm";
+  const std::string lost_bytes = bytes_of(lost);
+  const auto kept_time = std::filesystem::last_write_time(kept);
+  std::filesystem::remove(lost);
+  ASSERT_EQ(run_stereobench(render).exit_code, 0);
+  EXPECT_EQ(bytes_of(lost), lost_bytes);
+  EXPECT_EQ(std::filesystem::last_write_time(kept), kept_time);
+  const Outcome other = run_stereobench(with(render, {"--seed", "7"}));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed or version"));
+}
+
+// Mutation: shared random streams between cells would change the worlds of a cell.
+TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_stereobench({"sweep", scenario_path("ball_circle"), "--set", "path.laps=0.1",
+                                           "--vary", "camera.noise_sd_levels=0,4", "--seeds", "0..1",
+                                           "--particles", "20", "--out", scratch.path().string()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(bytes_of(scratch.path() / "sweep.json"));
+  const auto& quiet = json["cells"][0]["run"];
+  const auto& noisy = json["cells"][1]["run"];
+  EXPECT_EQ(quiet["filters"]["dead_reckoning"], noisy["filters"]["dead_reckoning"]);
+  EXPECT_LT(quiet["vision"]["range_rms_m"].get<double>(), noisy["vision"]["range_rms_m"].get<double>());
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "sweep.png"));
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "sweep.csv"));
+}
+
+TEST(DoctorCommand, SaysWhatItRunsOnAndThatATestFrameIsRight) {
+  const Outcome outcome = run_stereobench({"doctor"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  for (const char* part : {"osmesa", "OpenCV", "CPU", "test frame"})
+    EXPECT_THAT(outcome.out, HasSubstr(part));
+}
+
+TEST(Program, HelpAndVersionEverywhere) {
+  EXPECT_THAT(run_stereobench({"--version"}).out, HasSubstr(STEREOBENCH_VERSION));
+  for (const char* command : {"run", "render", "slam", "sweep", "doctor"}) {
+    const Outcome outcome = run_stereobench({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.out, HasSubstr("Usage:")) << command;
+  }
+}
+
+}  // namespace
+}  // namespace stereobench::harness
