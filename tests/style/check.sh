@@ -1,0 +1,73 @@
+#!/bin/bash
+# Checks one rule of the house on the files that git tracks.
+# usage: check.sh format|layers|sizes|products [ROOT]
+# Prints each breach and exits 1 when there is one; exits 77 (skipped) where there is no git checkout.
+set -euo pipefail
+rule=$1
+cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
+
+# The checkout may belong to somebody else, as in a container.
+git() { command git -c safe.directory='*' "$@"; }
+git ls-files --error-unmatch . >/dev/null 2>&1 || { echo "not a git checkout: skipped"; exit 77; }
+
+tracked() { # those that are there: a file may have been deleted and not yet committed
+  git ls-files -- "$@" | while read -r file; do [ -f "$file" ] && echo "$file"; done
+}
+
+breaches=0
+breach() {
+  echo "$1"
+  breaches=1
+}
+
+# C++ looks as clang-format 14 writes it; that includes the order of includes.
+check_format() {
+  local sources
+  mapfile -t sources < <(tracked '*.cpp' '*.h')
+  [ ${#sources[@]} -eq 0 ] || clang-format-14 --dry-run -Werror "${sources[@]}" || breach "run clang-format-14 -i on them"
+}
+
+# A module includes itself and those to its left; what is above the chain (tests) may include all.
+check_layers() {
+  local file own included
+  local -A rank=([slam]=1 [vision]=2 [worlds]=3 [renderer]=4 [harness]=5)
+  while IFS=: read -r file included; do
+    own=${file%%/*}
+    if [ -z "${rank[$included]:-}" ]; then
+      breach "$file: includes \"$included...\"; paths begin with the name of a module"
+    elif [ "${rank[$included]}" -gt "${rank[$own]}" ]; then
+      breach "$file: $own may not include $included, which is to its right"
+    fi
+  done < <(tracked 'slam/*' 'vision/*' 'worlds/*' 'renderer/*' 'harness/*' |
+    xargs -r grep -H -o -E '^ *# *include *"[^"/]*' | sed -E 's/:[^:]*"/:/')
+  while read -r file; do
+    breach "$file: slam has never heard of an image"
+  done < <(tracked 'slam/*' | xargs -r grep -l -E '# *include *<opencv' || true)
+}
+
+# A file can be read at one sitting.
+check_sizes() {
+  local file lines
+  while read -r file; do
+    lines=$(wc -l <"$file")
+    [ "$lines" -le 350 ] || breach "$file: $lines lines, 350 are allowed"
+  done < <(tracked '*.cpp' '*.h' '*.sh' '*.cmake' '*CMakeLists.txt')
+}
+
+# What is built or measured stays out of the history.
+check_products() {
+  local file
+  while read -r file; do
+    case "$file" in
+      build/* | out/* | *.o | *.a | *.so | *.gcda | *.gcno | *.pyc | *CMakeCache.txt | *.ninja | core)
+        breach "$file: is a product of the build or of a run" ;;
+      *) [ "$(head -c 4 "$file" | tr -d '\0')" != $'\x7fELF' ] || breach "$file: is a program" ;;
+    esac
+  done < <(tracked)
+  for file in build/x out/x; do
+    git check-ignore -q --no-index "$file" || breach ".gitignore: does not ignore ${file%x}"
+  done
+}
+
+"check_$rule"
+exit $breaches

@@ -1,0 +1,62 @@
+#!/bin/bash
+# Breaks each rule once in a small repository of its own and expects the check to turn red, and green before.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+
+clean_repository() {
+  rm -rf "$place/repo" && mkdir -p "$place/repo" && cd "$place/repo"
+  git init -q
+  mkdir slam vision harness scripts
+  cp "$here/../../.clang-format" .
+  printf '/build/\n/out/\n' >.gitignore
+  printf '#include "slam/b.h"\n\nint one();\n' >slam/a.h
+  printf 'int two();\n' >slam/b.h
+  printf '#include "slam/a.h"\n#include "vision/b.h"\n' >harness/c.cpp
+  printf '#!/bin/bash\n' >scripts/demo.sh && chmod +x scripts/demo.sh
+  printf '```sh\nscripts/demo.sh\n$ stereobench run a \\\n    --out out/b  # comment\n```\n```text\nfoo\n```\n' >README.md
+}
+
+failures=0
+expect() { # expect red|green RULE: what was done
+  local wanted=$1 rule=$2 seen=green
+  git add -A -f
+  if [ "$rule" = readme ]; then
+    bash "$here/readme_commands.sh" . "$place/program" >"$place/log" 2>&1 || seen=red
+  else
+    bash "$here/check.sh" "$rule" . >"$place/log" 2>&1 || seen=red
+  fi
+  [ "$seen" = "$wanted" ] && return
+  echo "$rule is $seen, expected $wanted: $3"
+  sed 's/^/    /' "$place/log"
+  failures=1
+}
+
+# A program that works when it is given `run a --out out/b`.
+printf '#!/bin/bash\n[ "$*" = "run a --out out/b" ]\n' >"$place/program" && chmod +x "$place/program"
+
+clean_repository
+for rule in format layers sizes products readme; do expect green "$rule" "a clean repository"; done
+
+clean_repository && printf 'int  one( );\n' >slam/a.h && expect red format "two blanks"
+clean_repository && printf '#include "slam/b.h"\n#include "slam/a.h"\n' >vision/a.cpp && expect red format "unsorted includes"
+
+clean_repository && printf '#include "vision/a.h"\n' >slam/a.cpp && expect red layers "slam includes vision"
+clean_repository && printf '#  include "harness/a.h"\n' >vision/a.h && expect red layers "vision includes harness"
+clean_repository && printf '#include "a.h"\n' >slam/a.cpp && expect red layers "a path that does not begin at the root"
+clean_repository && printf '#include <opencv2/core.hpp>\n' >slam/a.cpp && expect red layers "an image in slam"
+
+clean_repository && seq 351 | sed 's/^/\/\/ /' >slam/a.h && expect red sizes "351 lines"
+clean_repository && seq 350 | sed 's/^/\/\/ /' >slam/a.h && expect green sizes "350 lines"
+
+clean_repository && mkdir build && touch build/a && expect red products "a tracked file in build"
+clean_repository && printf '\x7fELF\x02\x01' >slam/tool && expect red products "a tracked program"
+clean_repository && printf '/build/\n' >.gitignore && expect red products "out is not ignored"
+
+clean_repository && rm scripts/demo.sh && expect red readme "a script that does not exist"
+clean_repository && sed -i 's/run a/run c/' README.md && expect red readme "a command that fails"
+clean_repository && sed -i 's/^scripts\/demo.sh/frobnicate/' README.md && expect red readme "a command nobody checks"
+clean_repository && rm README.md && expect red readme "no README"
+clean_repository && printf 'text\n' >README.md && expect red readme "no commands"
+exit $failures
