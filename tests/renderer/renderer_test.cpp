@@ -1,0 +1,154 @@
+/// What the renderer promises besides exactness: which way is up, the same bytes again, and refusals.
+
+#include "renderer/renderer.h"
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/backend.h"
+#include "tests/renderer/random_scene.h"
+
+namespace stereobench::renderer {
+namespace {
+
+using testing::HasSubstr;
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && a.isContinuous() && b.isContinuous() &&
+         std::equal(a.datastart, a.dataend, b.datastart);
+}
+
+bool same(const EyeFrame& a, const EyeFrame& b) {
+  return same(a.colour, b.colour) && same(a.ball_id, b.ball_id) && same(a.depth_m, b.depth_m);
+}
+
+bool same(const StereoFrame& a, const StereoFrame& b) {
+  return same(a.left, b.left) && same(a.right, b.right);
+}
+
+/// Mean place of a ball's pixels.
+cv::Point2d place(const EyeFrame& frame, int id) {
+  cv::Point2d sum;
+  int count = 0;
+  for (int v = 0; v < frame.ball_id.rows; ++v) {
+    for (int u = 0; u < frame.ball_id.cols; ++u) {
+      if (frame.ball_id.at<std::uint8_t>(v, u) == id) sum += cv::Point2d(u, v), ++count;
+    }
+  }
+  return sum / count;
+}
+
+// Catches: swapped eyes, flipped rows, a mirrored camera.
+TEST(Renderer, LeftIsLeftUpIsUpAndTheLeftEyeSeesNearThingsFartherRight) {
+  worlds::World world;
+  const double eye_m = test::small_rig().height_m;
+  world.balls = {
+      {{2.0, 0.4, eye_m}, 0.1, 0}, {{2.0, -0.4, eye_m}, 0.1, 1}, {{2.0, 0.0, eye_m + 0.3}, 0.1, 2}};
+  const StereoFrame frame = Renderer(world, test::small_rig()).render({});
+  EXPECT_LT(place(frame.left, 1).x, place(frame.left, 2).x - 50.0);
+  EXPECT_LT(place(frame.left, 3).y, place(frame.left, 1).y - 20.0);
+  for (const int id : {1, 2, 3}) {
+    EXPECT_GT(place(frame.left, id).x, place(frame.right, id).x + 15.0);
+    EXPECT_NEAR(place(frame.left, id).y, place(frame.right, id).y, 0.5);
+  }
+}
+
+TEST(Renderer, ColoursComeAsBlueGreenRedAndBackgroundsAreGrey) {
+  worlds::World world = test::random_room(1);
+  const StereoFrame frame = Renderer(world, test::small_rig()).render({});
+  for (int v = 0; v < frame.left.colour.rows; ++v) {
+    for (int u = 0; u < frame.left.colour.cols; ++u) {
+      if (frame.left.depth_m.at<float>(v, u) < 3.5F || frame.left.ball_id.at<std::uint8_t>(v, u) != 0)
+        continue;
+      const cv::Vec3b bgr = frame.left.colour.at<cv::Vec3b>(v, u);
+      // Beige: red above blue, but never by half. At ball rims colours mix; walls beyond 3.5 m may hold some.
+      ASSERT_GE(bgr[0] + bgr[1] + bgr[2], 60);
+    }
+  }
+  worlds::World red = test::flat_sky({{{1.0, 0.0, 0.3}, 0.6, 0}});
+  const cv::Vec3b centre = Renderer(red, test::small_rig()).render({}).left.colour.at<cv::Vec3b>(150, 200);
+  EXPECT_EQ(centre, cv::Vec3b(0, 0, 229));
+}
+
+TEST(Renderer, TheSamePoseGivesTheSameBytesAgainAndInOtherContexts) {
+  const worlds::World world = test::random_room(2);
+  Renderer first(world, test::small_rig());
+  const StereoFrame frame = first.render(test::random_pose(2));
+  Renderer second(world, test::small_rig());
+  const StereoFrame elsewhere = second.render(test::random_pose(3));
+  EXPECT_TRUE(same(frame, second.render(test::random_pose(2))));
+  EXPECT_TRUE(same(frame, first.render(test::random_pose(2)))) << "the other context was used in between";
+  EXPECT_FALSE(same(frame, elsewhere));
+}
+
+TEST(Renderer, CanBeMovedAndMadeManyTimes) {
+  const worlds::World world = test::random_room(4);
+  Renderer kept(world, test::small_rig());
+  const StereoFrame frame = kept.render({});
+  for (int i = 0; i < 5; ++i) {
+    Renderer other(world, test::small_rig());
+    std::swap(kept, other);
+    EXPECT_TRUE(same(frame, other.render({})));
+  }
+  EXPECT_TRUE(same(frame, kept.render({})));
+}
+
+TEST(Renderer, AnEmptyWorldIsFloorAndSky) {
+  const StereoFrame frame = Renderer({}, test::small_rig()).render({});
+  EXPECT_TRUE(std::isinf(frame.left.depth_m.at<float>(0, 200)));
+  EXPECT_LT(frame.left.depth_m.at<float>(299, 200), 1.0F);
+  EXPECT_EQ(frame.left.colour.at<cv::Vec3b>(0, 200), cv::Vec3b(204, 199, 191));  // sky_rgb in levels
+}
+
+TEST(Renderer, ABallThatReachesTheEyeIsLeftOut) {
+  worlds::World world;
+  world.balls = {{{0.0, 0.0, 0.3}, 0.5, 0}, {{0.1, 0.0, 0.3}, 0.2, 1}};
+  const StereoFrame frame = Renderer(world, test::small_rig()).render({});
+  EXPECT_EQ(cv::countNonZero(frame.left.ball_id), 0);
+}
+
+TEST(Renderer, IdentitiesGoUpTo254) {
+  worlds::World world = test::flat_sky(std::vector<worlds::Ball>(254));
+  for (worlds::Ball& ball : world.balls) ball.centre_m = {-2.0, 0.0, 1.0};
+  world.balls.back().centre_m = {1.0, 0.0, 1.2};
+  const StereoFrame frame = Renderer(world, test::rig_looking_up()).render({});
+  double most = 0.0;
+  cv::minMaxLoc(frame.left.ball_id, nullptr, &most);
+  EXPECT_EQ(most, 254.0);
+  world.balls.push_back({});
+  EXPECT_THROW(Renderer(world, test::small_rig()), std::invalid_argument);
+}
+
+TEST(Renderer, RefusesWorldsRigsAndPosesThatMeanNothing) {
+  worlds::World world;
+  world.balls = {{{1.0, 0.0, NAN}, 0.1, 0}};
+  EXPECT_THROW(Renderer(world, test::small_rig()), std::invalid_argument);
+  world.balls = {{{1.0, 0.0, 0.0}, 0.1, 18}};
+  EXPECT_THROW(Renderer(world, test::small_rig()), std::invalid_argument);
+  vision::StereoRig rig = test::small_rig();
+  rig.camera.focal_px = 0.0;
+  EXPECT_THROW(Renderer({}, rig), std::invalid_argument);
+  EXPECT_THROW(Renderer({}, test::small_rig()).render({NAN, 0.0, 0.0}), std::invalid_argument);
+}
+
+TEST(Backend, SaysWhatItIsAndRendersItsTestFrame) {
+  const BackendInfo info = backend_info();
+  EXPECT_EQ(info.backend, "osmesa");
+  EXPECT_THAT(info.gl_version, HasSubstr("Mesa"));
+  EXPECT_THAT(info.gl_renderer, HasSubstr("llvmpipe"));
+  EXPECT_FALSE(info.gl_vendor.empty());
+  EXPECT_EQ(test_frame_complaint(), "");
+}
+
+TEST(Backend, RefusesVectorsThatCrashTheRasteriser) {
+  ::setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
+  EXPECT_THAT([] { backend_info(); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("LP_NATIVE_VECTOR_WIDTH=512")));
+  ::unsetenv("LP_NATIVE_VECTOR_WIDTH");
+  EXPECT_NO_THROW(backend_info());
+}
+
+}  // namespace
+}  // namespace stereobench::renderer
