@@ -7,34 +7,42 @@
 
 namespace stereobench::slam {
 
-/// A square root L of a semidefinite matrix, P = L L', lower triangular.
+/// A square root L of a semidefinite matrix, P = L L'.
 ///
-/// A Cholesky factorisation that takes a vanishing pivot as what it is: a direction without uncertainty. Motion
-/// noise has rank 2 and a sampled pose has P = 0, so such pivots are normal life. A pivot that is negative beyond
-/// rounding is taken as zero and counted.
+/// A Cholesky factorisation that takes the direction with the largest relative uncertainty first and stops where
+/// nothing is left. Motion noise has rank 2 and a drawn pose has P = 0, so this is normal life. Without the choice of
+/// pivots a pivot that is rounding error would be divided by. L is triangular up to the order of its rows.
 ///
 /// @param covariance symmetric
-/// @param repairs incremented when the matrix was not semidefinite
+/// @param repairs incremented when the matrix was not semidefinite beyond rounding: what is negative becomes zero
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
                                                       long& repairs) {
   constexpr double kVanishing = 1e-14;
   constexpr double kIndefinite = -1e-7;
   Eigen::Matrix<double, kSize, kSize> root = Eigen::Matrix<double, kSize, kSize>::Zero();
-  bool repaired = false;
+  Eigen::Matrix<double, kSize, kSize> rest = covariance;
+  for (int column = 0; column < kSize; ++column) {
+    int pivot = -1;
+    double largest = kVanishing;
+    for (int j = 0; j < kSize; ++j) {
+      if (rest(j, j) > largest * covariance(j, j) && rest(j, j) > 0.0) {
+        pivot = j;
+        largest = rest(j, j) / covariance(j, j);
+      }
+    }
+    if (pivot < 0) break;
+    root.col(column) = rest.col(pivot) / std::sqrt(rest(pivot, pivot));
+    rest -= root.col(column) * root.col(column).transpose();
+    rest.row(pivot).setZero();  // exactly, so that the row is not chosen again
+    rest.col(pivot).setZero();
+  }
   for (int j = 0; j < kSize; ++j) {
-    double pivot = covariance(j, j);
-    for (int k = 0; k < j; ++k) pivot -= root(j, k) * root(j, k);
-    repaired |= !(pivot >= kIndefinite * std::abs(covariance(j, j)));
-    if (!(pivot > kVanishing * covariance(j, j)) || !(pivot > 0.0)) continue;
-    root(j, j) = std::sqrt(pivot);
-    for (int i = j + 1; i < kSize; ++i) {
-      double sum = covariance(i, j);
-      for (int k = 0; k < j; ++k) sum -= root(i, k) * root(j, k);
-      root(i, j) = sum / root(j, j);
+    if (rest(j, j) < kIndefinite * std::abs(covariance(j, j))) {
+      ++repairs;
+      break;
     }
   }
-  if (repaired) ++repairs;
   return root;
 }
 

@@ -10,7 +10,7 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kPatience = 3;   ///< contradictions in a row before they are taken seriously
+constexpr int kPatience = 5;   ///< contradictions in a row before they are taken seriously
 constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
 
 bool is_finite(const Posterior& posterior) {
