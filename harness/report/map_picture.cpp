@@ -16,8 +16,22 @@ constexpr double kLeft_px = 68.0;
 constexpr double kTop_px = 42.0;
 constexpr double kBottom_px = 52.0;
 constexpr double kGap_px = 18.0;
-constexpr Stroke kTruthStroke = {kBlack, 2.0};
+constexpr Stroke kTruthStroke = {kBlack, 4.8};
 constexpr Stroke kWallStroke = {{0.62, 0.62, 0.62, 1.0}, 1.2};
+
+/// Paths that lie on each other are all seen: the truth is the widest, each filter's narrower than the one
+/// below.
+std::vector<Stroke> path_strokes(const std::vector<MapEstimate>& estimates) {
+  std::vector<Stroke> strokes;
+  double width_px = 3.2;
+  for (const MapEstimate& estimate : estimates) {
+    strokes.push_back(filter_stroke(estimate.filter));
+    if (strokes.back().dash != Dash::kSolid) continue;
+    strokes.back().width_px = width_px;
+    width_px = std::max(1.2, width_px - 1.6);
+  }
+  return strokes;
+}
 
 /// Everything's coordinates, to find out how large the map is.
 struct Extent {
@@ -60,8 +74,9 @@ bool has_ball_colour(const LandmarkTruth& landmark) {
 std::vector<LegendEntry> legend_of(const MapPicture& picture) {
   std::vector<LegendEntry> entries;
   if (!picture.true_path.empty()) entries.push_back({"truth", "", Mark::kLine, kTruthStroke});
-  for (const MapEstimate& estimate : picture.estimates) {
-    entries.push_back({filter_title(estimate.filter), "", Mark::kLine, filter_stroke(estimate.filter)});
+  const std::vector<Stroke> strokes = path_strokes(picture.estimates);
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    entries.push_back({filter_title(picture.estimates[i].filter), "", Mark::kLine, strokes[i]});
   }
   if (!picture.true_path.empty()) entries.push_back({"start", "", Mark::kStart, {kBlack}});
   if (!picture.landmarks.empty()) {
@@ -107,11 +122,11 @@ void draw_estimated_landmark(Canvas& canvas, const Axes& axes, const slam::Landm
 }
 
 void draw_estimates(Canvas& canvas, const Axes& axes, const std::vector<MapEstimate>& estimates) {
-  for (const MapEstimate& estimate : estimates) {
-    const Stroke stroke = filter_stroke(estimate.filter);
-    draw_path(canvas, axes, estimate.path, stroke);
-    for (const slam::LandmarkEstimate& landmark : estimate.landmarks) {
-      draw_estimated_landmark(canvas, axes, landmark, stroke);
+  const std::vector<Stroke> strokes = path_strokes(estimates);
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    draw_path(canvas, axes, estimates[i].path, strokes[i]);
+    for (const slam::LandmarkEstimate& landmark : estimates[i].landmarks) {
+      draw_estimated_landmark(canvas, axes, landmark, strokes[i]);
     }
   }
 }
