@@ -3,12 +3,14 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "slam/measurement.h"
 #include "slam/motion.h"
+#include "worlds/oracle.h"
 #include "worlds/path.h"
 #include "worlds/scenario.h"
 
@@ -272,6 +274,20 @@ TEST(OpenField, IsThePapersSimulation) {
   EXPECT_GT(clearance_m(scenario, scenario.world), 1.0);
   for (const Ball& ball : scenario.world.balls)
     EXPECT_LE(ball.centre_m.head<2>().cwiseAbs().maxCoeff(), 50.0);
+}
+
+TEST(OpenField, ShowsThirtySevenLandmarksAndSomeAtEachStep) {
+  const Scenario scenario = shipped("open_field");
+  OracleSensor exact = scenario.oracle;
+  exact.range_sd_m = exact.bearing_sd_rad = 0.0;
+  slam::RandomStream noise(0, slam::Stream::kOracle);
+  std::set<int> seen;
+  for (const PathStep& step : scenario.path) {
+    const auto sightings = sense(scenario.world, step.pose, exact, scenario.identity, noise);
+    EXPECT_GE(sightings.size(), 1U);
+    for (const auto& sighting : sightings) seen.insert(sighting.landmark_id);
+  }
+  EXPECT_EQ(seen.size(), 37U);
 }
 
 }  // namespace
