@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -98,20 +99,32 @@ TEST(Replay, AnEstimateThatIsNotFiniteIsAFailureThatIsExplained) {
   EXPECT_TRUE(score(run, log).failed);
 }
 
-// The real thing: MRCLAM set 7. A noise per reading at 67 Hz, so large enough to cover slip that lasts.
+/// Noise that suits this data: the readings come at 67 Hz and share slip that lasts for seconds, which noise
+/// that is drawn anew for each reading covers only when it is large.
+slam::FilterConfig config_for_mrclam() {
+  slam::FilterConfig config;
+  config.particles = 50;
+  config.odometry_noise = {.v_constant_mps = 0.05, .v_per_v = 1.0, .w_constant_radps = 0.3, .w_per_w = 1.0};
+  return config;
+}
+
+// The real thing: MRCLAM set 7. The limits are the project's own, for the median of several seeds.
 TEST(Replay, MapsARealRobotsRun) {
   const fs::path data = fs::path(STEREOBENCH_SOURCE_DIR) / ".." / "shared" / "data" / "mrclam";
   if (!fs::exists(data)) GTEST_SKIP() << "no MRCLAM data beside this checkout";
-  const MeasurementLog log = read_log(data / "ds7/robot2", {0.15, 0.02}).log;
-  slam::FilterConfig config;
-  config.particles = 20;
-  config.odometry_noise = {0.05, 0.2, 0.0, 0.1, 0.0, 0.3};
+  const MeasurementLog log = read_log(data / "ds7/robot2", {0.2, 0.03}).log;
+  const slam::FilterConfig config = config_for_mrclam();
   const FilterScore dead = score(replay(log, "dead_reckoning", config, 0), log);
-  const FilterScore slam = score(replay(log, "fastslam2", config, 0), log);
   EXPECT_GT(dead.trajectory.ate_aligned_rms_m, 1.0);
-  EXPECT_LT(slam.trajectory.ate_aligned_rms_m, 0.30);
-  EXPECT_LT(slam.map_aligned.rms_m, 0.15);
-  EXPECT_EQ(slam.map.found_once, 15);
+  std::vector<FilterScore> scores;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    scores.push_back(score(replay(log, "fastslam2", config, seed), log));
+  }
+  const FilterSummary summary = summarise(scores, config.particles);
+  EXPECT_LT(summary.ate_aligned_median_m, 0.30);
+  EXPECT_LT(summary.landmark_aligned_rms_m.mean, 0.15);
+  EXPECT_EQ(summary.landmarks_found_once, 45);
+  EXPECT_EQ(summary.failures, 0);
 }
 
 }  // namespace
