@@ -115,7 +115,8 @@ ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, double 
   return result;
 }
 
-// An edge in the background may lie under the rim, unseen beside it: what one arc's texture says goes for all.
+// An edge in the background may lie under the rim, unseen beside it: what one arc's texture says goes for
+// all.
 void share_texture(std::vector<ArcColours>& arcs) {
   double sum = 0.0;
   double count = 0.0;

@@ -1,0 +1,237 @@
+#include "vision/observe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "painter.h"
+#include "vision/rig.h"
+#include "vision/sphere.h"
+
+namespace stereobench::vision {
+namespace {
+
+using painter::Backdrop;
+using painter::PaintedBall;
+using painter::Scene;
+
+// A narrow camera: as sharp as the real one, with fewer pixels to paint.
+StereoRig small_rig() {
+  StereoRig rig;
+  rig.camera.width_px = 560;
+  rig.camera.height_px = 420;
+  rig.camera.cx_px = 279.5;
+  rig.camera.cy_px = 209.5;
+  return rig;
+}
+
+std::vector<BallObservation> observed(const Scene& scene, const StereoRig& rig) {
+  ObserverSettings settings;
+  settings.noise_sd_levels = scene.noise_sd_levels;
+  return observe(painter::paint(scene, rig), rig, settings);
+}
+
+std::optional<BallObservation> of_colour(const std::vector<BallObservation>& balls, int colour) {
+  const auto found =
+      std::find_if(balls.begin(), balls.end(), [&](const auto& b) { return b.colour == colour; });
+  return found == balls.end() ? std::nullopt : std::optional(*found);
+}
+
+Eigen::Vector2d outline_centre(const StereoRig& rig, const PaintedBall& ball, Eye eye) {
+  return sphere_outline(rig.camera, point_in_eye(rig, ball.in_camera, eye), ball.radius_m)->centre_px;
+}
+
+double centre_error(const StereoRig& rig, const PaintedBall& ball, const BallObservation& observation) {
+  return std::max((observation.left_px - outline_centre(rig, ball, Eye::kLeft)).norm(),
+                  (observation.right_px - outline_centre(rig, ball, Eye::kRight)).norm());
+}
+
+class EveryNoise : public testing::TestWithParam<double> {};
+
+// Catches: half a pixel anywhere, a third colour at the rims, speckle taken for balls, a wrong identity.
+TEST_P(EveryNoise, EveryBallIsFoundWholeWhereItIsAndNothingElse) {
+  const double noise = GetParam();
+  const StereoRig rig = small_rig();
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Scene scene;
+    scene.balls = painter::scattered_balls(rig, 0.9, 7.0, seed);
+    scene.noise_sd_levels = noise;
+    scene.backdrop = seed % 2 == 0 ? Backdrop::kPlain : Backdrop::kTextured;
+    const double allowed_px = (seed % 2 == 0 ? 0.02 : 0.09) + 0.02 * noise;
+    const auto balls = observed(scene, rig);
+    ASSERT_EQ(balls.size(), scene.balls.size()) << "seed " << seed;
+    for (const PaintedBall& ball : scene.balls) {
+      const auto found = of_colour(balls, ball.colour);
+      ASSERT_TRUE(found.has_value()) << "colour " << ball.colour;
+      EXPECT_TRUE(found->whole()) << "colour " << ball.colour;
+      ASSERT_LT(centre_error(rig, ball, *found), allowed_px) << "seed " << seed << " colour " << ball.colour;
+      ASSERT_EQ(found->range_bearing.colour_class, ball.colour);
+      ASSERT_EQ(found->range_bearing.landmark_id, slam::kUnknown);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Levels, EveryNoise, testing::Values(0.0, 1.0, 2.0, 4.0, 8.0));
+
+// Catches: front-surface depth (-50 mm), Z - R^2/Z (-3 mm at 0.8 m), the projected centre in place of the
+// ellipse's.
+TEST(Observe, PutsNearBallsWhereTheyAre) {
+  const StereoRig rig = small_rig();
+  for (const double x : {-0.04, 0.05, 0.18}) {
+    const Scene scene{{{{x, 0.1, 0.8}, 3}}, {}, Backdrop::kPlain};
+    const auto balls = observed(scene, rig);
+    ASSERT_EQ(balls.size(), 1U);
+    EXPECT_LT((balls[0].ball_in_camera - scene.balls[0].in_camera).norm(), 0.0003);
+    const Eigen::Vector3d in_robot = robot_from_camera(rig) * scene.balls[0].in_camera;
+    EXPECT_NEAR(balls[0].range_bearing.range_m, std::hypot(in_robot.x(), in_robot.y()), 0.0003);
+    EXPECT_NEAR(balls[0].range_bearing.bearing_rad, std::atan2(in_robot.y(), in_robot.x()), 2e-5);
+  }
+}
+
+TEST(Observe, SeesNoBallsWhereThereAreNone) {
+  const StereoRig rig = small_rig();
+  for (const double level : {0.0, 45.0, 110.0, 200.0, 255.0}) {
+    Scene scene;
+    scene.backdrop = Backdrop::kPlain;
+    scene.plain_bgr = {level, level, level};
+    scene.noise_sd_levels = 8.0;
+    EXPECT_TRUE(observed(scene, rig).empty()) << "level " << level;
+  }
+}
+
+// Catches: swapped eyes, a disparity's absolute value.
+TEST(Observe, SeesNothingWithSwappedEyes) {
+  const StereoRig rig = small_rig();
+  Scene scene;
+  scene.balls = painter::scattered_balls(rig, 1.0, 4.0, 5);
+  const StereoPair pair = painter::paint(scene, rig);
+  EXPECT_FALSE(observe(pair, rig, {}).empty());
+  EXPECT_TRUE(observe({pair.right, pair.left}, rig, {}).empty());
+}
+
+// A panel before the ball moves in from its right; what is hidden differs between the eyes, the worse one
+// counts.
+TEST(Observe, FlagsBallsThatAreHiddenByMoreThanAFourteenth) {
+  const StereoRig rig = small_rig();
+  for (const double noise : {0.0, 8.0}) {
+    for (int step = 0; step < 14; ++step) {
+      Scene scene{{{{0.05, 0.02, 2.0}, 2 + step}}, {{1.9, 0.0, 1.0, -1.0, 1.0}}, Backdrop::kPlain};
+      scene.panels[0].min_x_m = 0.105 - 0.005 * step;
+      scene.panels[0].bgr = {90.0, 100.0, 105.0};
+      scene.noise_sd_levels = noise;
+      const StereoPair pair = painter::paint(scene, rig);
+      ObserverSettings settings;
+      settings.noise_sd_levels = noise;
+      const auto balls = observe(pair, rig, settings);
+      const double visible = painter::visible_share(scene, rig, 0);
+      const bool whole = balls.size() == 1 && balls[0].whole();
+      if (visible >= 0.95) {
+        EXPECT_TRUE(whole) << "visible " << visible << " noise " << noise;
+      }
+      if (visible <= 0.93) {
+        EXPECT_FALSE(whole) << "visible " << visible << " noise " << noise;
+      }
+      if (whole) {
+        EXPECT_LT(centre_error(rig, scene.balls[0], balls[0]), 0.05 + 0.02 * noise) << visible;
+      }
+    }
+  }
+}
+
+TEST(Observe, FlagsBallsBehindOtherBalls) {
+  const StereoRig rig = small_rig();
+  int flagged = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Scene scene;
+    scene.balls = painter::scattered_balls(rig, 0.7, 2.5, 100 + seed, false);
+    const StereoPair pair = painter::paint(scene, rig);
+    const auto balls = observe(pair, rig, {});
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+      const auto found = of_colour(balls, scene.balls[i].colour);
+      const double visible = painter::visible_share(scene, rig, i);
+      if (visible >= 0.95) {
+        ASSERT_TRUE(found && found->whole()) << "seed " << seed << " ball " << i;
+        ASSERT_LT(centre_error(rig, scene.balls[i], *found), 0.12) << "seed " << seed << " ball " << i;
+      }
+      if (visible <= 0.93 && found) {
+        ASSERT_FALSE(found->whole()) << "seed " << seed << " ball " << i << " visible " << visible;
+        ++flagged;
+      }
+    }
+  }
+  EXPECT_GT(flagged, 10);
+}
+
+// Catches: balls at the border taken for whole ones.
+TEST(Observe, FlagsBallsThatTheBorderCuts) {
+  const StereoRig rig = small_rig();
+  bool truncated_seen = false;
+  for (int step = 0; step < 20; ++step) {
+    const Scene scene{{{{0.56 + 0.005 * step, 0.1, 2.0}, 5}}, {}, Backdrop::kPlain};
+    const StereoPair pair = painter::paint(scene, rig);
+    const auto balls = observe(pair, rig, {});
+    const bool whole = balls.size() == 1 && balls[0].whole();
+    const double visible = painter::visible_share(scene, rig, 0);
+    if (visible >= 0.95) {
+      ASSERT_TRUE(whole) << "visible " << visible;
+      ASSERT_LT(centre_error(rig, scene.balls[0], balls[0]), 0.03) << "visible " << visible;
+    }
+    if (visible <= 0.93) {
+      ASSERT_FALSE(whole) << "visible " << visible;
+    }
+    truncated_seen = truncated_seen || (!balls.empty() && balls[0].truncated);
+  }
+  EXPECT_TRUE(truncated_seen);
+}
+
+TEST(Observe, TellsBallsOfOneColourApart) {
+  const StereoRig rig = small_rig();
+  const Scene scene{
+      {{{-0.3, 0.0, 2.0}, 4}, {{0.3, 0.01, 2.5}, 4}, {{0.1, 0.0, 4.0}, 4}}, {}, Backdrop::kPlain};
+  const auto balls = observed(scene, rig);
+  ASSERT_EQ(balls.size(), 3U);
+  EXPECT_LT((balls[0].ball_in_camera - scene.balls[0].in_camera).norm(), 0.01);
+  EXPECT_LT((balls[1].ball_in_camera - scene.balls[2].in_camera).norm(), 0.01);
+  EXPECT_LT((balls[2].ball_in_camera - scene.balls[1].in_camera).norm(), 0.01);
+}
+
+TEST(Observe, GivesTheSameForImagesWithRowPadding) {
+  const StereoRig rig = small_rig();
+  Scene scene;
+  scene.balls = painter::scattered_balls(rig, 1.0, 4.0, 9);
+  const StereoPair pair = painter::paint(scene, rig);
+  cv::Mat wide(pair.left.rows + 4, pair.left.cols + 7, CV_8UC3, cv::Scalar(0, 0, 229));
+  cv::Mat padded = wide(cv::Rect(3, 2, pair.left.cols, pair.left.rows));
+  pair.left.copyTo(padded);
+  const auto expected = observe(pair, rig, {});
+  const auto balls = observe({padded, pair.right}, rig, {});
+  ASSERT_EQ(balls.size(), expected.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) EXPECT_EQ(balls[i].left_px, expected[i].left_px);
+}
+
+TEST(Observe, RefusesImagesThatAreNotTheRigs) {
+  const StereoRig rig = small_rig();
+  const cv::Mat good(rig.camera.height_px, rig.camera.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
+  const cv::Mat grey(rig.camera.height_px, rig.camera.width_px, CV_8UC1);
+  const cv::Mat deep(rig.camera.height_px, rig.camera.width_px, CV_16UC3);
+  const cv::Mat small(1, 1, CV_8UC3);
+  EXPECT_NO_THROW(observe({good, good}, rig, {}));
+  for (const cv::Mat& bad : {cv::Mat(), grey, deep, small}) {
+    EXPECT_THROW(observe({bad, good}, rig, {}), std::invalid_argument);
+    EXPECT_THROW(observe({good, bad}, rig, {}), std::invalid_argument);
+  }
+}
+
+TEST(Observe, RefusesRigsAndSettingsThatAreNoNumbers) {
+  StereoRig rig = small_rig();
+  const cv::Mat image(rig.camera.height_px, rig.camera.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
+  EXPECT_THROW(observe({image, image}, rig, {-0.05}), std::invalid_argument);
+  EXPECT_THROW(observe({image, image}, rig, {0.05, std::nan("")}), std::invalid_argument);
+  rig.baseline_m = 0.0;
+  EXPECT_THROW(observe({image, image}, rig, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stereobench::vision

@@ -1,0 +1,87 @@
+#include "vision/outline_model.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "painter.h"
+#include "vision/sphere.h"
+
+namespace stereobench::vision {
+namespace {
+
+// A half plane's share of the unit square around a pixel, counted on a fine grid.
+double counted_share(const RimPoint& rim) {
+  constexpr int kGrid = 200;
+  int inside = 0;
+  for (int j = 0; j < kGrid; ++j) {
+    for (int i = 0; i < kGrid; ++i) {
+      const Eigen::Vector2d p((i + 0.5) / kGrid - 0.5, (j + 0.5) / kGrid - 0.5);
+      if (p.dot(rim.normal) + rim.distance_px < 0.0) ++inside;
+    }
+  }
+  return static_cast<double>(inside) / (kGrid * kGrid);
+}
+
+TEST(EdgeCoverage, IsTheShareOfThePixelInsideTheEdge) {
+  painter::Dice dice(1);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = dice.uniform(0.0, 6.2832);
+    const RimPoint rim{dice.uniform(-0.9, 0.9), {std::cos(angle), std::sin(angle)}};
+    ASSERT_NEAR(edge_coverage(rim).fraction, counted_share(rim), 0.006) << rim.distance_px << " at " << angle;
+  }
+}
+
+template <typename CoverageAt>
+void expect_derivative(CoverageAt coverage, const RimPoint& rim) {
+  const double step = 1e-6;
+  const double inner = coverage({rim.distance_px - step, rim.normal}).fraction;
+  const double outer = coverage({rim.distance_px + step, rim.normal}).fraction;
+  ASSERT_NEAR(coverage(rim).per_px, (inner - outer) / (2.0 * step), 1e-4);
+}
+
+TEST(EdgeCoverage, DerivativesAreThoseOfTheCoverage) {
+  painter::Dice dice(2);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = dice.uniform(0.0, 6.2832);
+    const RimPoint rim{dice.uniform(-2.4, 2.4), {std::cos(angle), std::sin(angle)}};
+    expect_derivative([](const RimPoint& r) { return edge_coverage(r); }, rim);
+    expect_derivative([](const RimPoint& r) { return ramp_coverage(r, 2.0); }, rim);
+  }
+}
+
+// Catches: a dropped eccentricity correction in the fit's model, a transposed axis.
+TEST(OutlineModel, IsTheOutlineOfTheBallThatItBelongsTo) {
+  painter::Dice dice(3);
+  const Intrinsics camera;
+  for (int i = 0; i < 500; ++i) {
+    const double z = dice.uniform(0.3, 9.0);
+    const Eigen::Vector3d ball(dice.uniform(-0.6, 0.6) * z, dice.uniform(-0.5, 0.5) * z, z);
+    const auto ellipse = sphere_outline(camera, ball, 0.05);
+    ASSERT_TRUE(ellipse.has_value());
+    const OutlineModel model(camera, ellipse->centre_px, ellipse->radius_px());
+    const Eigen::Vector2d major(std::cos(ellipse->angle_rad), std::sin(ellipse->angle_rad));
+    const Eigen::Vector2d minor(-major.y(), major.x());
+    ASSERT_NEAR(model.semi_major_px(), ellipse->semi_major_px, 1e-4);
+    ASSERT_NEAR(model.rim_point(ellipse->centre_px + ellipse->semi_minor_px * minor).distance_px, 0.0, 1e-4);
+    const RimPoint beyond = model.rim_point(ellipse->centre_px + (ellipse->semi_major_px + 1.5) * major);
+    ASSERT_NEAR(beyond.distance_px, 1.5, 1e-4);
+    ASSERT_NEAR(beyond.normal.dot(major), 1.0, 1e-9);
+  }
+}
+
+TEST(OutlineModel, ColumnsOfARowAreThoseWithinTheLevel) {
+  const OutlineModel model({}, {830.3, 611.7}, 21.4);
+  for (int row = 580; row < 645; ++row) {
+    for (const double level : {0.5, 1.0, 1.2}) {
+      const ColumnSpan columns = model.columns_within(level, row);
+      for (int x = 795; x < 870; ++x) {
+        const bool inside = model.level(Eigen::Vector2d(x, row)) <= level;
+        ASSERT_EQ(inside, x >= columns.first && x <= columns.last) << x << ", " << row;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stereobench::vision
