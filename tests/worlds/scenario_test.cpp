@@ -2,6 +2,7 @@
 #include "worlds/scenario.h"
 
 #include <cmath>
+#include <locale>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -88,10 +89,18 @@ TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
   EXPECT_EQ(scenario.believed_odometry_noise.w_constant_radps, scenario.odometry_noise.w_constant_radps);
 }
 
-// Catches: numbers that are read by the rules of the user's language.
+/// A language that writes a comma where C++ writes a point.
+struct DecimalComma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
+// Catches: numbers that are read or written by the rules of the user's language, as yaml-cpp's own are.
 TEST(Scenario, ReadsNumbersWithoutTheLocale) {
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
   const Scenario scenario = read_small({"rig.baseline_m=1.5e-1"});
+  std::locale::global(before);
   EXPECT_EQ(scenario.rig.baseline_m, 0.15);
+  EXPECT_EQ(scenario.rig.height_m, 0.3);
 }
 
 TEST(WorldForSeed, WithoutJitterIsTheScenariosWorld) {
