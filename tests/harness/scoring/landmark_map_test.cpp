@@ -53,11 +53,11 @@ TEST(LandmarkMap, TheLimitItselfStillBelongs) {
   EXPECT_EQ(score_map(map, kTruth, {}, 2.0).found_once, 1);
 }
 
-// Mutation: applying the inverse of the alignment.
+// Mutations: applying the inverse of the alignment, a wrong sign in its rotation.
 TEST(LandmarkMap, IsMovedByThePathsAlignmentFirst) {
-  const slam::Pose truth_from_estimate{10.0, -2.0, M_PI / 2.0};
-  // Turned by a quarter to the left and shifted, (3, 0) comes to (10, 1), landmark 2.
-  const std::vector<slam::LandmarkEstimate> map = {estimate(slam::kUnknown, 6, 3.0, 0.0)};
+  const slam::Pose truth_from_estimate{11.0, -2.0, M_PI / 2.0};
+  // Turned by a quarter to the left and shifted, (3, 1) comes to (10, 1), landmark 2.
+  const std::vector<slam::LandmarkEstimate> map = {estimate(slam::kUnknown, 6, 3.0, 1.0)};
   EXPECT_EQ(score_map(map, kTruth).spurious, 1);
   EXPECT_NEAR(score_map(map, kTruth, truth_from_estimate).rms_m, 0.0, 1e-15);
 }
