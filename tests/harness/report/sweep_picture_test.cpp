@@ -1,10 +1,12 @@
 #include "harness/report/sweep_picture.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "harness/report/axes.h"
 #include "harness/report/legend.h"
 #include "tests/harness/report/pixels.h"
 
@@ -58,22 +60,27 @@ TEST(ReportSweep, NamesStandEvenly) {
   EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 1.0);
 }
 
-// Catches: bars of half the interval, or none. The mean is 1 and the axis begins at 0.
-TEST(ReportSweep, BarsReachTheEndsOfTheInterval) {
-  const auto ink_rows = [](double half_interval) {
-    const SweepPicture picture = {
-        "", "n", {"1", "2"}, false, {}, {level("ufastslam", 2, half_interval), level("fastslam2", 2, 0.8)}};
-    const cv::Mat image = decoded(draw_sweep_picture(picture));
-    double top = image.rows;
-    double bottom = 0.0;
-    for (const Point& p :
-         pixels_of(image(cv::Rect(0, 0, 815, image.rows)), filter_stroke("ufastslam").colour, 120.0)) {
-      top = std::min(top, p.y_px);
-      bottom = std::max(bottom, p.y_px);
-    }
-    return bottom - top;
-  };
-  EXPECT_NEAR(ink_rows(0.4) / ink_rows(0.8), 0.5, 0.02);
+/// The rows between which a filter's curve with intervals about 1 has ink; the other filter keeps the axis.
+Range rows_with_ink(double half_interval) {
+  const SweepPicture picture = {
+      "", "n", {"1", "2"}, false, {}, {level("ufastslam", 2, half_interval), level("fastslam2", 2, 0.8)}};
+  const cv::Mat image = decoded(draw_sweep_picture(picture));
+  Range rows = {1e9, 0.0};
+  for (const Point& p :
+       pixels_of(image(cv::Rect(0, 0, 815, image.rows)), filter_stroke("ufastslam").colour, 120.0)) {
+    rows = {std::min(rows.low, p.y_px), std::max(rows.high, p.y_px)};
+  }
+  return rows;
+}
+
+// Catches: bars of half the interval, from the mean to the high end only, or none.
+TEST(ReportSweep, BarsReachFromTheLowToTheHighEnd) {
+  const Range mean = rows_with_ink(kNaN);
+  const Range small = rows_with_ink(0.4);
+  const Range large = rows_with_ink(0.8);
+  EXPECT_NEAR(small.high + small.low, mean.high + mean.low, 3.0);
+  EXPECT_NEAR(large.high + large.low, mean.high + mean.low, 3.0);
+  EXPECT_NEAR((small.high - small.low) / (large.high - large.low), 0.5, 0.02);
 }
 
 TEST(ReportSweep, EachDetectionErrorHasAPanel) {
