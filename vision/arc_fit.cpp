@@ -8,11 +8,12 @@
 namespace stereobench::vision {
 namespace {
 
-// Measured on rendered balls (see tests/vision/noise_law_test.cpp): errors of alpha that the noise does not
-// explain, and how much larger than by the noise of single pixels the error of an arc is, since its pixels
-// share their colours.
-constexpr double kQuantisation = 0.005;
-constexpr double kNoiseFactor = 1.1;
+// The noise law, its constants measured on painted balls so that NIS/2 is 1
+// (tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over a whole
+// outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). Texture in the background is an
+// error that an arc's pixels share.
+constexpr double kQuantisation = 0.005;  // c
+constexpr double kNoiseFactor = 1.1;     // k
 constexpr double kTextureFactor = 0.9;
 
 constexpr int kReweightings = 4;

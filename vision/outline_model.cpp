@@ -11,10 +11,9 @@ OutlineModel::OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& cent
   // coordinates
   const Eigen::Vector2d off_axis_px = centre_px - Eigen::Vector2d(camera.cx_px, camera.cy_px);
   const Eigen::Vector2d m = off_axis_px / camera.focal_px;
-  const double r = radius_px / camera.focal_px;
-  const double b2 =
-      r * r / std::sqrt(1.0 + m.squaredNorm());  // b^2 = r^2 b / a, with a / b at its limit b = 0
-  const double stretch = std::sqrt(1.0 + m.squaredNorm() / (1.0 + b2));
+  const double r = radius_px / camera.focal_px;  // b^2 = r^2 b / a: a fixed point, reached in few steps
+  double stretch = 1.0;
+  for (int i = 0; i < 4; ++i) stretch = std::sqrt(1.0 + m.squaredNorm() / (1.0 + r * r / stretch));
   semi_major_px_ = radius_px * std::sqrt(stretch);
   const double semi_minor_px = radius_px / std::sqrt(stretch);
   const double m_norm = m.norm();

@@ -62,10 +62,10 @@ TEST(OutlineModel, IsTheOutlineOfTheBallThatItBelongsTo) {
     const OutlineModel model(camera, ellipse->centre_px, ellipse->radius_px());
     const Eigen::Vector2d major(std::cos(ellipse->angle_rad), std::sin(ellipse->angle_rad));
     const Eigen::Vector2d minor(-major.y(), major.x());
-    ASSERT_NEAR(model.semi_major_px(), ellipse->semi_major_px, 1e-4);
-    ASSERT_NEAR(model.rim_point(ellipse->centre_px + ellipse->semi_minor_px * minor).distance_px, 0.0, 1e-4);
+    ASSERT_NEAR(model.semi_major_px(), ellipse->semi_major_px, 1e-6);
+    ASSERT_NEAR(model.rim_point(ellipse->centre_px + ellipse->semi_minor_px * minor).distance_px, 0.0, 1e-6);
     const RimPoint beyond = model.rim_point(ellipse->centre_px + (ellipse->semi_major_px + 1.5) * major);
-    ASSERT_NEAR(beyond.distance_px, 1.5, 1e-4);
+    ASSERT_NEAR(beyond.distance_px, 1.5, 1e-5);
     ASSERT_NEAR(beyond.normal.dot(major), 1.0, 1e-9);
   }
 }
