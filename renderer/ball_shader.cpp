@@ -29,29 +29,32 @@ uniform vec3 u_towards_light;  // camera frame, unit length
 uniform vec2 u_light;          // ambient, diffuse
 uniform float u_near;
 
-// Area of the unit square around the pixel's centre on the inner side of a line.
-// normal: outward, absolute values; outside: signed distance of the centre beyond the line.
-float covered_area(vec2 normal, float outside) {
-  float a = max(normal.x, normal.y), b = min(normal.x, normal.y);
+// Area of the unit square around the pixel's centre on the inner side of an edge, in closed form.
+// size: the edge's unit normal, absolute values; outside: signed distance of the centre beyond the edge's nearest
+// point, where it has this curvature. Between its ends the edge is replaced by the line that cuts off the same
+// area: it bends away from its tangent by curvature t^2 / 2, t running along the chord within the square.
+float covered_area(vec2 size, float outside, float curvature) {
+  float a = max(size.x, size.y), b = max(min(size.x, size.y), 1e-6);
+  float corner = max(0.5 * (a + b) - abs(outside), 0.0);  // what the line leaves of the way to the far corner
+  bool cuts_corner = corner < b;
+  float chord = cuts_corner ? corner / (a * b) : 1.0 / a;
+  float middle = cuts_corner ? 0.5 * (a - b) * (1.0 - corner * (a + b) / (a * b)) : b * outside / a;
+  outside += 0.5 * curvature * (chord * chord / 12.0 + middle * middle);
   float depth = abs(outside);
-  float corner = max(0.5 * (a + b) - depth, 0.0);
-  float beyond = depth <= 0.5 * (a - b) ? 0.5 - depth / a : corner * corner / max(2.0 * a * b, 1e-6);
+  corner = max(0.5 * (a + b) - depth, 0.0);
+  float beyond = corner < b ? 0.5 * corner * corner / (a * b) : 0.5 - depth / a;
   return outside > 0.0 ? beyond : 1.0 - beyond;
 }
 
 // gradient: S q; level: sqrt(q' S q), 1 on the outline. Distance to first order along the gradient, which is
-// exact for circles; the outline bends away from its tangent by curvature x^2 / 2, on average over the chord in
-// the pixel by curvature chord^2 / 24.
+// exact for circles.
 float coverage(vec2 gradient, float level) {
   float steepness = max(length(gradient), 1e-9);
   vec2 normal = gradient / steepness;
-  float outside = (level - 1.0) * level / steepness;
   vec2 along = vec2(-normal.y, normal.x);
   float curvature = level * (f_shape.x * along.x * along.x + 2.0 * f_shape.y * along.x * along.y
                              + f_shape.z * along.y * along.y) / steepness;
-  vec2 size = abs(normal);
-  float chord = 1.0 / max(size.x, size.y);
-  return covered_area(size, outside + curvature * chord * chord / 24.0);
+  return covered_area(abs(normal), (level - 1.0) * level / steepness, curvature);
 }
 
 void main() {

@@ -95,9 +95,14 @@ vec3 albedo(vec2 place, vec2 footprint) {
 )glsl";
 
 constexpr const char* kPlaster = R"glsl(
+// The octaves are turned against each other, or their grids would show.
 vec3 albedo(vec2 place, vec2 footprint) {
-  float tone = 1.0 + 0.06 * noise(place / 0.45, footprint / 0.45) + 0.09 * noise(place / 0.04, footprint / 0.04);
-  return vec3(0.74, 0.72, 0.68) * tone;
+  vec2 turned = vec2(0.80 * place.x + 0.60 * place.y, 0.80 * place.y - 0.60 * place.x);
+  vec2 fine = vec2(0.28 * place.x - 0.96 * place.y, 0.28 * place.y + 0.96 * place.x);
+  float width = max(footprint.x, footprint.y);
+  float tone = 1.0 + 0.05 * noise(place / 0.55, vec2(width / 0.55)) + 0.045 * noise(turned / 0.09, vec2(width / 0.09))
+               + 0.05 * noise(fine / 0.022, vec2(width / 0.022));
+  return vec3(0.80, 0.78, 0.74) * tone;
 }
 )glsl";
 
@@ -106,7 +111,7 @@ vec3 albedo(vec2 place, vec2 footprint) {
   vec2 x = place / vec2(0.24, 0.08), w = footprint / vec2(0.24, 0.08);
   x.x += 0.5 * (floor(x.y) - 2.0 * floor(0.5 * x.y));
   float tone = 1.0 + 0.16 * patches(x, w) + 0.06 * noise(place / 0.02, footprint / 0.02);
-  return mix(vec3(0.56, 0.50, 0.46) * tone, vec3(0.70, 0.69, 0.67), joints(x, w, vec2(0.042, 0.125)));
+  return mix(vec3(0.68, 0.62, 0.58) * tone, vec3(0.82, 0.81, 0.78), joints(x, w, vec2(0.042, 0.125)));
 }
 )glsl";
 
@@ -115,7 +120,7 @@ vec3 albedo(vec2 place, vec2 footprint) {
   vec2 x = place / vec2(0.14, 2.4), w = footprint / vec2(0.14, 2.4);
   vec2 grain = vec2(110.0, 3.0);
   float tone = 1.0 + 0.10 * patches(x, w) + 0.12 * noise(place * grain, footprint * grain);
-  return mix(vec3(0.55, 0.49, 0.42) * tone, vec3(0.30, 0.27, 0.24), joints(x, w, vec2(0.03, 0.002)));
+  return mix(vec3(0.68, 0.61, 0.53) * tone, vec3(0.36, 0.33, 0.29), joints(x, w, vec2(0.03, 0.002)));
 }
 )glsl";
 

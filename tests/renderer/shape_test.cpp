@@ -1,8 +1,7 @@
 /// Rendered balls against the closed form of their outline, by what the pixels weigh.
 ///
-/// Mutations seen red here: half a pixel added anywhere; the ellipse centred on the projected centre;
-/// coverage without its curvature term (radius bias) or replaced by a threshold; swapped eyes (sign of the
-/// disparity).
+/// Mutations seen red here: half a pixel added to the balls; the ellipse centred on the projected centre; no
+/// curvature in the coverage, no coverage, no rim; balls drawn near to far; red and blue exchanged.
 
 #include <cmath>
 
@@ -38,11 +37,18 @@ Blob weigh(const cv::Mat& colour) {
   return blob;
 }
 
-/// A ball somewhere in both eyes' view, 5 to 60 px in radius, in the left camera's frame.
-worlds::Ball ball_in_view(const vision::StereoRig& rig, slam::RandomStream& random,
+/// Sizes of balls, and what their pixels may be off: centres per coordinate and rms, radii on average.
+struct Sizes {
+  double least_px, most_px;
+  double centre_rms_px, radius_bias_px;
+};
+
+/// A ball of such a size somewhere in both eyes' view, in the left camera's frame.
+worlds::Ball ball_in_view(const vision::StereoRig& rig, const Sizes& sizes, slam::RandomStream& random,
                           Eigen::Vector3d& in_camera) {
   const double depth_m = test::between(random, 0.6, 3.0);
-  const double radius_m = test::between(random, 5.0, 60.0) * depth_m / rig.camera.focal_px;
+  const double radius_m =
+      test::between(random, sizes.least_px, sizes.most_px) * depth_m / rig.camera.focal_px;
   const Eigen::Vector2d pixel(test::between(random, 140.0, 320.0), test::between(random, 75.0, 225.0));
   in_camera = depth_m * vision::pixel_ray(rig.camera, pixel);
   return {vision::robot_from_camera(rig, vision::Eye::kLeft) * in_camera, radius_m, 0};
@@ -60,11 +66,11 @@ bool inside(const vision::OutlineEllipse& outline, const vision::Intrinsics& cam
          outline.centre_px.y() > reach && outline.centre_px.y() < camera.height_px - 1 - reach;
 }
 
-Seen see_a_ball(std::uint64_t seed) {
+Seen see_a_ball(std::uint64_t seed, const Sizes& sizes) {
   const vision::StereoRig rig = test::rig_looking_up();
   slam::RandomStream random(seed, slam::Stream::kWorld, 7);
   Eigen::Vector3d in_camera;
-  const worlds::Ball ball = ball_in_view(rig, random, in_camera);
+  const worlds::Ball ball = ball_in_view(rig, sizes, random, in_camera);
   Seen seen;
   seen.left_truth = *vision::sphere_outline(rig.camera, in_camera, ball.radius_m);
   seen.right_truth = *vision::sphere_outline(
@@ -81,11 +87,13 @@ double radius_px(const vision::OutlineEllipse& ellipse) {
   return std::sqrt(ellipse.semi_major_px * ellipse.semi_minor_px);
 }
 
-TEST(Shape, CentresRadiiAndDisparitiesOfBallsAreThoseOfTheClosedForm) {
+class BallShape : public testing::TestWithParam<Sizes> {};
+
+TEST_P(BallShape, CentresRadiiAndDisparitiesAreThoseOfTheClosedForm) {
   double centre2 = 0.0, radius = 0.0, disparity2 = 0.0;
   int eyes = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    const Seen seen = see_a_ball(seed);
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Seen seen = see_a_ball(seed, GetParam());
     if (!seen.whole) continue;
     eyes += 2;
     centre2 += (seen.left.centre_px - seen.left_truth.centre_px).squaredNorm();
@@ -95,13 +103,18 @@ TEST(Shape, CentresRadiiAndDisparitiesOfBallsAreThoseOfTheClosedForm) {
     const double truth_px = seen.left_truth.centre_px.x() - seen.right_truth.centre_px.x();
     disparity2 += std::pow(seen.left.centre_px.x() - seen.right.centre_px.x() - truth_px, 2);
   }
-  ASSERT_GE(eyes, 120);
+  ASSERT_GE(eyes, 100);
   RecordProperty("centre_rms_px", std::to_string(std::sqrt(centre2 / (2 * eyes))));
   RecordProperty("radius_bias_px", std::to_string(radius / eyes));
-  EXPECT_LE(std::sqrt(centre2 / (2 * eyes)), 0.005);  // per coordinate; no coverage at all gives 0.05
-  EXPECT_LE(std::abs(radius / eyes), 0.003);          // a missing curvature term gives 0.004
-  EXPECT_LE(std::sqrt(2.0 * disparity2 / eyes), 0.007);
+  EXPECT_LE(std::sqrt(centre2 / (2 * eyes)), GetParam().centre_rms_px);
+  EXPECT_LE(std::abs(radius / eyes), GetParam().radius_bias_px);
+  EXPECT_LE(std::sqrt(disparity2 / eyes), 2.0 * GetParam().centre_rms_px);
 }
+
+// Seen: 0.00037 and 0.00001 px; 0.0018 and 0.0001 px. Pixels that are in or out give 0.05, edges without
+// curvature 0.002 of radius. Small outlines are not straight within a pixel, hence the larger bound.
+INSTANTIATE_TEST_SUITE_P(Sizes, BallShape,
+                         testing::Values(Sizes{5.0, 60.0, 0.001, 0.0003}, Sizes{2.5, 5.0, 0.004, 0.001}));
 
 TEST(Shape, DisparityIsFocalLengthTimesBaselineOverDepth) {
   vision::StereoRig rig = test::rig_looking_up();

@@ -1,8 +1,8 @@
 /// Identities and depth of every pixel against the double-precision ray-caster.
 ///
 /// Mutations seen red here: half a pixel added to u, to v, or to the balls' centres only; the eyes swapped;
-/// the rows flipped; the near root of the sphere exchanged for the far one; balls sorted near to far; D32F
-/// exchanged for a 24-bit depth.
+/// the rows flipped; the near root of the sphere exchanged for the far one; rims that write identity or
+/// depth; no depth test; a mesh without its scale; 16 bits of depth.
 
 #include <cmath>
 #include <fstream>
