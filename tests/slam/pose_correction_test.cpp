@@ -1,0 +1,184 @@
+// What one particle makes of a frame: likelihood, gate, contradictions, and whose sighting it is.
+#include "slam/pose_correction.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "tests/slam/checks.h"
+
+namespace stereobench::slam {
+namespace {
+
+template <class Model>
+class Corrections : public ::testing::Test {
+ protected:
+  FilterConfig config_;
+  Particle particle_;
+  PoseBelief predicted_{{0.0, 0.0, 0.3}, Eigen::Vector3d(4e-4, 1e-4, 1e-4).asDiagonal()};
+  std::vector<Target> targets_;
+  FilterCounters counters_;
+
+  void know(const Eigen::Vector2d& place, int uses = 5) {
+    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, uses, 0});
+  }
+  void know_colour(const Eigen::Vector2d& place, int colour) {
+    particle_.classed.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, colour, 5, 0});
+  }
+  // What is seen of a place from the predicted pose, with an error in range and bearing.
+  Sighting see(const Eigen::Vector2d& place, int slot, const Eigen::Vector2d& error = Eigen::Vector2d::Zero()) const {
+    const Eigen::Vector2d exact = predict_sighting(predicted_.mean, place);
+    return {{exact + error, Eigen::Vector2d(1e-4, 1e-4).asDiagonal()}, slot, kUnknown};
+  }
+  Sighting see_colour(const Eigen::Vector2d& place, int colour) const {
+    Sighting seen = see(place, kUnknown);
+    seen.colour_class = colour;
+    return seen;
+  }
+  Posterior correct(const std::vector<Sighting>& frame) {
+    targets_.assign(frame.size(), Target{});
+    return PoseCorrection<Model>(config_).correct(particle_, predicted_, frame, targets_, counters_);
+  }
+};
+using BothModels = ::testing::Types<Linearised, Unscented>;
+TYPED_TEST_SUITE(Corrections, BothModels);
+
+// The likelihood and posterior of a frame, from one joint Gaussian of all its sightings: another route to the same
+// numbers. Errata: eq. 35 (no determinant) and Table 1 (weight overwritten by each landmark); public code takes the
+// weight from the updated P. Each of these, and moments not redrawn after the first landmark (eq. 24), shows here.
+TYPED_TEST(Corrections, OneByOneIsTheSameAsAllAtOnce) {
+  const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {5.0, 4.0}};
+  std::vector<Sighting> frame;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    this->know(places[i]);
+    frame.push_back(this->see(places[i], static_cast<int>(i), {0.005 * static_cast<double>(i), -0.004}));
+  }
+  Eigen::Matrix<double, 6, 3> slope;
+  Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> residual;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& place = places[static_cast<std::size_t>(i)];
+    const Observation& seen = frame[static_cast<std::size_t>(i)].observation;
+    const double r = place.norm();
+    Eigen::Matrix2d by_place;
+    by_place << place.x() / r, place.y() / r, -place.y() / (r * r), place.x() / (r * r);
+    slope.block<2, 3>(2 * i, 0) << -by_place, Eigen::Vector2d(0.0, -1.0);
+    joint.block<2, 2>(2 * i, 2 * i) = 1e-4 * by_place * by_place.transpose() + seen.noise;
+    residual.segment<2>(2 * i) =
+        sighting_residual(seen.range_bearing, predict_sighting(this->predicted_.mean, place));
+  }
+  joint += slope * this->predicted_.covariance * slope.transpose();
+  const double expected = -0.5 * (residual.dot(joint.ldlt().solve(residual)) +
+                                  std::log(joint.determinant()) + 6.0 * std::log(2.0 * M_PI));
+  const Eigen::Matrix<double, 3, 6> gain = this->predicted_.covariance * slope.transpose() * joint.inverse();
+  const Posterior posterior = this->correct(frame);
+  EXPECT_NEAR(posterior.log_likelihood, expected, 0.05);
+  EXPECT_TRUE(near(displacement(posterior.pose.mean, this->predicted_.mean), gain * residual, 3e-4));
+  const Eigen::Matrix3d covariance = this->predicted_.covariance - gain * slope * this->predicted_.covariance;
+  EXPECT_TRUE(near(posterior.pose.covariance, covariance, 5e-6));
+}
+
+// Jacobians of the first landmark used for all, or sightings paired by position in the frame, would show here.
+TYPED_TEST(Corrections, OrderInTheFrameDoesNotMatter) {
+  this->know({3.0, 1.0});
+  this->know({-2.0, 4.0});
+  const Sighting a = this->see({3.0, 1.0}, 0, {0.01, 0.005});
+  const Sighting b = this->see({-2.0, 4.0}, 1, {-0.01, 0.01});
+  const Posterior one = this->correct({a, b});
+  const Posterior other = this->correct({b, a});
+  EXPECT_TRUE(near(one.pose.mean, other.pose.mean, 1e-15));
+  EXPECT_EQ(one.log_likelihood, other.log_likelihood);
+}
+
+// P = 0 and rank 2: catches a gain that needs the inverse of P.
+TYPED_TEST(Corrections, SingularCovariancesAreNothingSpecial) {
+  this->know({3.0, 1.0});
+  for (const Eigen::Vector3d& variances : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1e-4, 0, 1e-4)}) {
+    this->predicted_.covariance = variances.asDiagonal();
+    const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {0.01, 0.0})});
+    EXPECT_TRUE(std::isfinite(posterior.log_likelihood));
+    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+    const bool moved = displacement(posterior.pose.mean, this->predicted_.mean).norm() > 1e-6;
+    EXPECT_EQ(moved, variances.sum() > 0.0);
+  }
+}
+
+TYPED_TEST(Corrections, AnOutlierMovesNothingCostsTheGateAndIsCounted) {
+  this->know({3.0, 1.0});
+  const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_TRUE(near(posterior.pose.mean, this->predicted_.mean, 0.0));
+  EXPECT_EQ(this->counters_.gated_measurements, 1);
+  const Posterior farther = this->correct({this->see({3.0, 1.0}, 0, {2.0, 0.0})});
+  EXPECT_NEAR(farther.log_likelihood, posterior.log_likelihood, 1e-9);  // no matter how far
+}
+
+TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
+  this->config_.gate_probability = 1.0;
+  this->know({3.0, 1.0});
+  this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+}
+
+// A landmark that is contradicted again and again: who is wrong depends on who else was seen.
+TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVouchedFor) {
+  this->know({3.0, 1.0});
+  this->know({3.0, -1.0});
+  this->particle_.known[1].refusals = 10;
+  this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_EQ(this->targets_[1].fate, Fate::kMove);
+}
+
+TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
+  this->know({3.0, 1.0});
+  this->particle_.known[0].refusals = 10;
+  const Posterior pulled = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_GT(displacement(pulled.pose.mean, this->predicted_.mean).norm(), 0.5);
+  this->particle_.known[0].uses = 1;
+  this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kMove);
+}
+
+TYPED_TEST(Corrections, AColourIsMatchedToTheLikeliestLandmarkOfThatColour) {
+  this->know_colour({3.0, 1.0}, 4);
+  this->know_colour({3.1, 1.0}, 5);
+  this->know_colour({9.0, 1.0}, 4);
+  this->correct({this->see_colour({3.02, 1.0}, 4), this->see_colour({9.0, 1.0}, 4), this->see_colour({3.02, 1.0}, 6)});
+  EXPECT_EQ(this->targets_[0].landmark, 0);
+  EXPECT_EQ(this->targets_[1].landmark, 2);
+  EXPECT_EQ(this->targets_[2].fate, Fate::kAdd);
+}
+
+// Mutual exclusion. Catches two sightings of one frame that take the same landmark.
+TYPED_TEST(Corrections, ALandmarkIsSeenOnceInAFrame) {
+  this->know_colour({3.0, 1.0}, 4);
+  const std::vector<Sighting> twins = {this->see_colour({3.03, 1.0}, 4), this->see_colour({3.0, 1.0}, 4)};
+  this->correct(twins);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);  // nothing is known of spacing: there may be two
+  EXPECT_EQ(this->targets_[1].landmark, 0);
+  this->config_.colour_spacing_m = 10.0;
+  this->correct(twins);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kIgnore);
+  EXPECT_EQ(this->targets_[1].landmark, 0);
+}
+
+// The end of a loop: the drift is a hundred times what the filter believes of it.
+TYPED_TEST(Corrections, WithinHalfTheColourSpacingItIsTheSameLandmark) {
+  this->know_colour({3.0, 1.0}, 4);
+  const std::vector<Sighting> off = {this->see_colour({3.0, 3.0}, 4)};
+  this->correct(off);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+  this->config_.colour_spacing_m = 10.0;
+  const Posterior pulled = this->correct(off);
+  EXPECT_EQ(this->targets_[0].landmark, 0);
+  const Eigen::Vector2d place = locate(pulled.pose.mean, off[0].observation.range_bearing);
+  EXPECT_LT((place - Eigen::Vector2d(3.0, 1.0)).norm(), 1.0) << "pulled back by more than half";
+  const Posterior nearer = this->correct({this->see_colour({3.0, 1.5}, 4)});
+  EXPECT_GT(nearer.log_likelihood, pulled.log_likelihood) << "less drift, more weight";
+  this->correct({this->see_colour({3.0, 7.0}, 4)});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+}
+
+}  // namespace
+}  // namespace stereobench::slam
