@@ -22,7 +22,7 @@ constexpr double kConverged_px = 1e-3;
 constexpr double kRimDepth_px = 1.2;  // inside of it a pixel is wholly the ball's
 constexpr double kMinFill = 0.25;     // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
-constexpr double kMaxRadius_px = 2000.0;
+constexpr double kMaxRadius_px = 1000.0;
 
 Eigen::Vector3d palette_bgr(int colour) {
   const PaletteColour& c = kPalette[static_cast<std::size_t>(colour)];

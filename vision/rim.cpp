@@ -155,7 +155,7 @@ Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_
       if (x == inner.first && inner.last > x) x = inner.last;  // the middle of the ball is not the rim
       const Eigen::Vector2d position(x, y);
       const double distance = outline.rim_point(position).distance_px;
-      if (x < 0 || x > last_x || !(std::abs(distance) <= reach_px)) continue;
+      if (x > last_x || !(std::abs(distance) <= reach_px)) continue;
       const std::uint8_t* bgr = row + 3 * x;
       const auto sector =
           static_cast<std::size_t>(turns(position - centre) * static_cast<double>(rim.sectors));
