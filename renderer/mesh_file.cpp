@@ -18,6 +18,7 @@ namespace stereobench::renderer {
 namespace {
 
 constexpr std::array<std::string_view, 6> kEndings = {".obj", ".dae", ".gltf", ".glb", ".stl", ".fbx"};
+constexpr double kFarthest = 1e6;  // mesh units: beyond, single precision has nothing left for the shape
 constexpr unsigned kSteps =
     aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure;
 
@@ -39,14 +40,15 @@ Eigen::Vector3d vector(const aiVector3D& v) {
 }
 
 Triangle read_triangle(const std::filesystem::path& file, const aiMesh& mesh, const aiFace& face) {
-  if (face.mNumIndices != 3) refuse(file, "the mesh has points or lines; only faces can be drawn");
   Triangle triangle;
   for (unsigned i = 0; i < 3; ++i) {
     const unsigned index = face.mIndices[i];
     if (index >= mesh.mNumVertices)
       refuse(file, fmt::format("a face uses vertex {} of {}", index, mesh.mNumVertices));
     triangle.corners[i] = vector(mesh.mVertices[index]);
-    if (!triangle.corners[i].allFinite()) refuse(file, "a vertex is not finite");
+    if (!(triangle.corners[i].cwiseAbs().maxCoeff() <= kFarthest)) {
+      refuse(file, "a vertex is not finite, or more than a million units away");
+    }
   }
   const Eigen::Vector3d edge = triangle.corners[1] - triangle.corners[0];
   const Eigen::Vector3d flat = edge.cross(triangle.corners[2] - triangle.corners[0]).stableNormalized();
@@ -75,8 +77,9 @@ std::vector<Triangle> read_mesh(const std::filesystem::path& file) {
   std::vector<Triangle> triangles;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-      triangles.push_back(read_triangle(file, mesh, mesh.mFaces[f]));
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      if (mesh.mFaces[f].mNumIndices == 3) triangles.push_back(read_triangle(file, mesh, mesh.mFaces[f]));
+    }
   }
   if (triangles.empty()) refuse(file, "the mesh has no faces");
   return triangles;

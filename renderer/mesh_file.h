@@ -14,11 +14,12 @@ struct Triangle {
   Eigen::Vector3d normals[3];  ///< unit length, outward; the face's own where the file has none
 };
 
-/// Reads all triangles of a mesh file; larger faces are cut into triangles, points and lines are refused.
+/// Reads all triangles of a mesh file; larger faces are cut into triangles, points and lines have no area and
+/// are passed over.
 /// @param file its ending says the format: obj, dae, gltf, glb, stl or fbx
-/// @return at least one triangle, all finite
-/// @throws std::runtime_error naming the file: another ending, unreadable, incomplete, empty, not made of
-///   faces, coordinates that are not finite, indices out of range
+/// @return at least one triangle, coordinates of at most a million units
+/// @throws std::runtime_error naming the file: another ending, unreadable, incomplete, without
+///   faces, coordinates that are not finite or absurd, indices out of range
 std::vector<Triangle> read_mesh(const std::filesystem::path& file);
 
 }  // namespace stereobench::renderer

@@ -49,6 +49,22 @@ TEST(MeshFile, PlacesEachInstanceInTheWorldAndReadsAFileOnce) {
   EXPECT_TRUE(placed.runs[1].centre_m.isApprox(Eigen::Vector3d(0.5, 0.0, 1.5), 1e-6));
 }
 
+TEST(MeshFile, PassesOverLinesAndPoints) {
+  const std::string file = written("mesh_lines.obj", std::string(kSquare) + "l 1 3\n");
+  EXPECT_EQ(read_mesh(file).size(), 2U);
+}
+
+TEST(MeshFile, ReadsTheMeshesThatShipWithTheScenarios) {
+  for (const char* name : {"door.obj", "column.obj"}) {
+    const std::vector<Triangle> triangles =
+        read_mesh(std::string(STEREOBENCH_SOURCE_DIR "/assets/meshes/") + name);
+    EXPECT_GE(triangles.size(), 12U) << name;
+    double volume = 0.0;  // of a closed shape whose faces look outward
+    for (const Triangle& t : triangles) volume += t.corners[0].dot(t.corners[1].cross(t.corners[2])) / 6.0;
+    EXPECT_GT(volume, 0.0) << name;
+  }
+}
+
 struct BadFile {
   std::string name;
   std::string text;
@@ -70,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadFile{"bad_empty.obj", "", "not a readable mesh"},
                     BadFile{"bad_points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n", "bad_points"},
                     BadFile{"bad_infinite.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n", "not finite"},
+                    BadFile{"bad_absurd.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "not finite"},
                     BadFile{"bad_json.gltf", "{\"asset\": 3", "not a readable mesh"},
                     BadFile{"bad_xml.dae", "<COLLADA><broken", "not a readable mesh"},
                     BadFile{"bad_bytes.glb", "glTF\x02", "not a readable mesh"},
