@@ -7,7 +7,8 @@ namespace stereobench::slam {
 
 void assign(std::vector<Candidate>& candidates, bool near_excludes, std::span<Target> targets) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.gated, a.cost, a.sighting, a.landmark) < std::tie(b.gated, b.cost, b.sighting, b.landmark);
+    return std::tie(a.gated, a.cost, a.sighting, a.landmark) <
+           std::tie(b.gated, b.cost, b.sighting, b.landmark);
   });
   std::vector<int> taken;
   for (const Candidate& pair : candidates) {

@@ -27,8 +27,8 @@ struct Observation {
 
 /// What a landmark should look like from an uncertain pose: moments of the sighting before it is used.
 struct Innovation {
-  Eigen::Vector2d expected = Eigen::Vector2d::Zero();             ///< range, bearing
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();           ///< S: pose, landmark and sensor together
+  Eigen::Vector2d expected = Eigen::Vector2d::Zero();    ///< range, bearing
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< S: pose, landmark and sensor together
   Eigen::Matrix<double, 3, 2> cross = Eigen::Matrix<double, 3, 2>::Zero();  ///< of pose and sighting
 };
 
@@ -40,8 +40,8 @@ Eigen::Vector3d displacement(const Pose& to, const Pose& from);
 
 /// Puts a relative motion behind a pose that is known exactly.
 ///
-/// Rotating and shifting a Gaussian is linear, so this loses nothing: motion in the plane does not depend on where
-/// it happens, and the motion since the last update can be predicted once for all particles.
+/// Rotating and shifting a Gaussian is linear, so this loses nothing: motion in the plane does not depend on
+/// where it happens, and the motion since the last update can be predicted once for all particles.
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now);
 
 /// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.

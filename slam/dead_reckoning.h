@@ -7,8 +7,8 @@
 
 namespace stereobench::slam {
 
-/// Integrates controls; the covariance is that of the odometry's noise to first order. Sightings are checked and
-/// counted like everywhere, and otherwise ignored.
+/// Integrates controls; the covariance is that of the odometry's noise to first order. Sightings are checked
+/// and counted like everywhere, and otherwise ignored.
 class DeadReckoning {
  public:
   DeadReckoning(const FilterConfig& config, const Pose& start);

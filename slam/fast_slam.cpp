@@ -167,7 +167,8 @@ void FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
   }
   const double near_m = 0.5 * config_.colour_spacing_m;
   const bool doubled = std::ranges::any_of(particle.classed, [&](const Landmark& other) {
-    return other.colour_class == found.colour_class && (other.belief.mean - found.belief.mean).norm() < near_m;
+    return other.colour_class == found.colour_class &&
+           (other.belief.mean - found.belief.mean).norm() < near_m;
   });
   if (doubled) {
     ++counters_.gated_measurements;  // no second landmark of this colour can be here
@@ -187,7 +188,8 @@ Estimate FastSlam<Model>::estimate() const {
     estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance});
   }
   for (const Landmark& own : reported.classed) {
-    const LandmarkBelief mixed = mixed_landmark_near(particles_, log_weights_, own, 0.5 * config_.colour_spacing_m);
+    const LandmarkBelief mixed =
+        mixed_landmark_near(particles_, log_weights_, own, 0.5 * config_.colour_spacing_m);
     estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance});
   }
   return estimate;

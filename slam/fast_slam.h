@@ -18,18 +18,19 @@ namespace stereobench::slam {
 
 /// FastSLAM with the optimal proposal, for any model of moments.
 ///
-/// FastSLAM 2.0 and UFastSLAM are this one filter. They differ in Model only: how moments go through a control,
-/// what a landmark should look like from an uncertain pose, and how a landmark is refined and found.
+/// FastSLAM 2.0 and UFastSLAM are this one filter. They differ in Model only: how moments go through a
+/// control, what a landmark should look like from an uncertain pose, and how a landmark is refined and found.
 ///
-/// Each update draws every particle's pose once, which leaves it without uncertainty; until the next update all
-/// particles are given the same controls. Motion in the plane does not depend on where it happens, so the motion
-/// since the last update, its mean and covariance in the robot's frame, is predicted once for all particles and
-/// put behind each particle's pose when something is seen. A prediction costs the same for 1 particle and 1000. A
-/// frame in which nothing is seen, or nothing believed, leaves that motion to grow.
+/// Each update draws every particle's pose once, which leaves it without uncertainty; until the next update
+/// all particles are given the same controls. Motion in the plane does not depend on where it happens, so the
+/// motion since the last update, its mean and covariance in the robot's frame, is predicted once for all
+/// particles and put behind each particle's pose when something is seen. A prediction costs the same for 1
+/// particle and 1000. A frame in which nothing is seen, or nothing believed, leaves that motion to grow.
 ///
-/// An update corrects each particle's pose by the landmarks it knows (PoseCorrection), resamples if need be, draws
-/// the poses, and then refines the landmarks that were seen and adds new ones, given the pose drawn. The weights
-/// depend on nothing that is drawn in the update, so resampling can go first: copies then draw poses of their own.
+/// An update corrects each particle's pose by the landmarks it knows (PoseCorrection), resamples if need be,
+/// draws the poses, and then refines the landmarks that were seen and adds new ones, given the pose drawn.
+/// The weights depend on nothing that is drawn in the update, so resampling can go first: copies then draw
+/// poses of their own.
 template <class Model>
 class FastSlam {
  public:

@@ -10,7 +10,9 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("make_filter: ") + what);
 }
 
-bool is_sd(double value) { return std::isfinite(value) && value >= 0.0; }
+bool is_sd(double value) {
+  return std::isfinite(value) && value >= 0.0;
+}
 
 void check(const OdometryNoise& noise) {
   require(is_sd(noise.v_constant_mps) && is_sd(noise.v_per_v) && is_sd(noise.v_per_w) &&
@@ -21,9 +23,11 @@ void check(const OdometryNoise& noise) {
 void check(const FilterConfig& config) {
   check(config.odometry_noise);
   require(config.particles >= 1, "particles must be >= 1");
-  require(is_sd(config.range_floor_m) && is_sd(config.bearing_floor_rad), "noise floors must be finite and >= 0");
+  require(is_sd(config.range_floor_m) && is_sd(config.bearing_floor_rad),
+          "noise floors must be finite and >= 0");
   require(config.resample_below >= 0.0 && config.resample_below <= 1.0, "resample_below must be in [0, 1]");
-  require(config.gate_probability > 0.0 && config.gate_probability <= 1.0, "gate_probability must be in (0, 1]");
+  require(config.gate_probability > 0.0 && config.gate_probability <= 1.0,
+          "gate_probability must be in (0, 1]");
   require(is_sd(config.colour_spacing_m), "colour_spacing_m must be finite and >= 0");
   const UnscentedParameters& unscented = config.unscented;
   require(std::isfinite(unscented.alpha) && unscented.alpha > 0.0, "unscented.alpha must be > 0");
@@ -33,9 +37,12 @@ void check(const FilterConfig& config) {
 
 }  // namespace
 
-std::vector<std::string> filter_names() { return {"dead_reckoning", "fastslam2", "ufastslam"}; }
+std::vector<std::string> filter_names() {
+  return {"dead_reckoning", "fastslam2", "ufastslam"};
+}
 
-Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start, std::uint64_t seed) {
+Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start,
+                   std::uint64_t seed) {
   check(config);
   require(std::isfinite(start.x_m) && std::isfinite(start.y_m) && std::isfinite(start.heading_rad),
           "the start pose must be finite");

@@ -27,7 +27,8 @@ std::vector<std::string> filter_names();
 /// @param start world_from_robot, without uncertainty: the start defines the world frame
 /// @param seed key of the filter's random numbers
 /// @throws std::invalid_argument for an unknown name, a setting out of range or a start that is not finite
-Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start, std::uint64_t seed);
+Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start,
+                   std::uint64_t seed);
 
 /// Moves the belief by one control. One that is not finite or runs backwards in time is ignored and counted.
 void predict(Filter& filter, const Control& control);

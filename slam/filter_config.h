@@ -7,9 +7,9 @@ namespace stereobench::slam {
 
 /// Spread and weights of sigma points (eq. 7, 8 and 14).
 ///
-/// The paper's alpha = 0.002 puts weights of about -250,000 on the centre, which costs ten digits and can make a
-/// covariance indefinite. With alpha = 1 and kappa = 0 all weights are >= 0 and every covariance is semidefinite
-/// by construction; the results of the filters are the same within their scatter.
+/// The paper's alpha = 0.002 puts weights of about -250,000 on the centre, which costs ten digits and can
+/// make a covariance indefinite. With alpha = 1 and kappa = 0 all weights are >= 0 and every covariance is
+/// semidefinite by construction; the results of the filters are the same within their scatter.
 struct UnscentedParameters {
   double alpha = 1.0;
   double beta = 2.0;
@@ -26,11 +26,13 @@ struct FilterConfig {
   double range_floor_m = 1e-3;
   double bearing_floor_rad = 5e-5;
 
-  double resample_below = 0.5;       ///< resample when the effective particles fall below this fraction of M
-  double gate_probability = 0.9999;  ///< a sighting is refused beyond this quantile of chi-square(2); 1 = never
+  double resample_below = 0.5;  ///< resample when the effective particles fall below this fraction of M
+  double gate_probability =
+      0.9999;  ///< a sighting is refused beyond this quantile of chi-square(2); 1 = never
 
-  /// Two landmarks of one colour class are known to be at least this far apart; 0 = nothing is known. A sighting
-  /// that lies within half of it of a landmark of its colour is that landmark, however sure the filter was.
+  /// Two landmarks of one colour class are known to be at least this far apart; 0 = nothing is known. A
+  /// sighting that lies within half of it of a landmark of its colour is that landmark, however sure the
+  /// filter was.
   double colour_spacing_m = 0.0;
 
   UnscentedParameters unscented;

@@ -9,12 +9,14 @@ namespace stereobench::slam {
 
 /// A square root L of a semidefinite matrix, P = L L'.
 ///
-/// A Cholesky factorisation that takes the direction with the largest relative uncertainty first and stops where
-/// nothing is left. Motion noise has rank 2 and a drawn pose has P = 0, so this is normal life. Without the choice of
-/// pivots a pivot that is rounding error would be divided by. L is triangular up to the order of its rows.
+/// A Cholesky factorisation that takes the direction with the largest relative uncertainty first and stops
+/// where nothing is left. Motion noise has rank 2 and a drawn pose has P = 0, so this is normal life. Without
+/// the choice of pivots a pivot that is rounding error would be divided by. L is triangular up to the order
+/// of its rows.
 ///
 /// @param covariance symmetric
-/// @param repairs incremented when the matrix was not semidefinite beyond rounding: what is negative becomes zero
+/// @param repairs incremented when the matrix was not semidefinite beyond rounding: what is negative becomes
+/// zero
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
                                                       long& repairs) {
@@ -91,6 +93,8 @@ class Factor2 {
 };
 
 /// The quantile of the chi-square distribution with two degrees of freedom, -2 log(1 - p).
-inline double chi_square_2_quantile(double probability) { return -2.0 * std::log1p(-probability); }
+inline double chi_square_2_quantile(double probability) {
+  return -2.0 * std::log1p(-probability);
+}
 
 }  // namespace stereobench::slam

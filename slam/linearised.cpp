@@ -26,8 +26,8 @@ Eigen::Matrix2d landmark_jacobian(const Pose& robot, const Eigen::Vector2d& poin
 
 }  // namespace
 
-PoseBelief Linearised::move(const PoseBelief& belief, const Control& control, const Eigen::Vector2d& control_sd,
-                            long&) const {
+PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
+                            const Eigen::Vector2d& control_sd, long&) const {
   const PoseBelief moved{advance(belief.mean, control), belief.covariance};
   const double dt = control.duration_s;
   const double half_turn = 0.5 * control.w_radps * dt;
@@ -43,11 +43,11 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control, co
   by_pose(1, 2) = moved.mean.x_m - belief.mean.x_m;
   Eigen::Matrix<double, 3, 2> by_control = Eigen::Matrix<double, 3, 2>::Zero();
   by_control.block<2, 1>(0, 0) = dt * sinc * along;
-  by_control.block<2, 1>(0, 1) =
-      0.5 * control.v_mps * dt * dt * (sinc_slope * along + sinc * across);
+  by_control.block<2, 1>(0, 1) = 0.5 * control.v_mps * dt * dt * (sinc_slope * along + sinc * across);
   by_control(2, 1) = dt;
   const Eigen::Matrix<double, 3, 2> spread = by_control * control_sd.asDiagonal();
-  const Eigen::Matrix3d covariance = by_pose * belief.covariance * by_pose.transpose() + spread * spread.transpose();
+  const Eigen::Matrix3d covariance =
+      by_pose * belief.covariance * by_pose.transpose() + spread * spread.transpose();
   return {moved.mean, 0.5 * (covariance + covariance.transpose())};
 }
 

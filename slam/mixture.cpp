@@ -20,7 +20,9 @@ struct Moments {
     second += weight * (covariance + offset * offset.transpose());
   }
   Eigen::Matrix<double, kSize, 1> mean() const { return first / total; }
-  Eigen::Matrix<double, kSize, kSize> covariance() const { return second / total - mean() * mean().transpose(); }
+  Eigen::Matrix<double, kSize, kSize> covariance() const {
+    return second / total - mean() * mean().transpose();
+  }
 };
 
 const Landmark* nearest(const std::vector<Landmark>& landmarks, const Landmark& own, double within_m) {
@@ -58,8 +60,9 @@ LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std:
   return {reference + moments.mean(), moments.covariance()};
 }
 
-LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
-                                   const Landmark& own, double within_m) {
+LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles,
+                                   const std::vector<double>& log_weights, const Landmark& own,
+                                   double within_m) {
   Moments<2> moments;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Landmark* same = nearest(particles[i].classed, own, within_m);

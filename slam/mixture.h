@@ -18,11 +18,13 @@ PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vecto
 LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
                               std::size_t slot);
 
-/// The same of a landmark of one particle's map and its nearest neighbours of that colour in the others' maps.
+/// The same of a landmark of one particle's map and its nearest neighbours of that colour in the others'
+/// maps.
 ///
 /// @param own the landmark in the particle that is reported
 /// @param within_m how far a neighbour may lie to count as the same landmark
-LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
-                                   const Landmark& own, double within_m);
+LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles,
+                                   const std::vector<double>& log_weights, const Landmark& own,
+                                   double within_m);
 
 }  // namespace stereobench::slam

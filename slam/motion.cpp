@@ -7,7 +7,9 @@ namespace stereobench::slam {
 namespace {
 
 /// sin(x) / x, which is 1 - x^2/6 to the last bit where the quotient would lose it.
-double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
+double sinc(double x) {
+  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
+}
 
 }  // namespace
 
@@ -57,8 +59,8 @@ Control perturb(const Control& control, const OdometryNoise& noise, RandomStream
 }
 
 bool is_valid(const Control& control) {
-  return std::isfinite(control.v_mps) && std::isfinite(control.w_radps) && std::isfinite(control.duration_s) &&
-         control.duration_s >= 0.0;
+  return std::isfinite(control.v_mps) && std::isfinite(control.w_radps) &&
+         std::isfinite(control.duration_s) && control.duration_s >= 0.0;
 }
 
 }  // namespace stereobench::slam

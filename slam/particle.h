@@ -22,7 +22,8 @@ struct Particle {
   std::vector<Landmark> classed;  ///< landmarks with no more than a colour, in order of discovery
 };
 
-/// A sighting that passed the checks. Its slot is the identity's index, or kUnknown when only a colour was seen.
+/// A sighting that passed the checks. Its slot is the identity's index, or kUnknown when only a colour was
+/// seen.
 struct Sighting {
   Observation observation;
   int slot = kUnknown;
@@ -53,10 +54,12 @@ struct Posterior {
 
 /// The landmark in a particle's map that a target points at.
 inline Landmark& landmark_of(Particle& particle, const Sighting& sighting, const Target& target) {
-  return (sighting.slot == kUnknown ? particle.classed : particle.known)[static_cast<std::size_t>(target.landmark)];
+  return (sighting.slot == kUnknown ? particle.classed
+                                    : particle.known)[static_cast<std::size_t>(target.landmark)];
 }
 inline const Landmark& landmark_of(const Particle& particle, const Sighting& sighting, const Target& target) {
-  return (sighting.slot == kUnknown ? particle.classed : particle.known)[static_cast<std::size_t>(target.landmark)];
+  return (sighting.slot == kUnknown ? particle.classed
+                                    : particle.known)[static_cast<std::size_t>(target.landmark)];
 }
 
 }  // namespace stereobench::slam

@@ -102,8 +102,8 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
     const Landmark& landmark = particle.classed[j];
     if (landmark.colour_class != sighting.colour_class) continue;
     long& repairs = counters.covariance_repairs;
-    const Surprise surprise(model_.expect(predicted, landmark.belief, observation.noise, repairs), observation,
-                            repairs);
+    const Surprise surprise(model_.expect(predicted, landmark.belief, observation.noise, repairs),
+                            observation, repairs);
     const bool gated = !(surprise.squared_length <= gate_);
     if (gated && !((place - landmark.belief.mean).norm() < near_m_)) continue;
     candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
@@ -126,8 +126,8 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
                                 FilterCounters& counters) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
-  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation,
-                          repairs);
+  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs),
+                          observation, repairs);
   if (surprise.squared_length <= gate_) {
     apply(surprise, posterior);
     return Fate::kUse;
@@ -136,7 +136,8 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
   const Fate fate = judge(landmark, sighting, posterior);
   if (fate == Fate::kUse) {
     posterior.pose.covariance += drift_covariance(posterior.pose, landmark.belief, observation);
-    apply(Surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation, repairs),
+    apply(Surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation,
+                   repairs),
           posterior);
   } else {
     posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());

@@ -14,17 +14,19 @@ namespace stereobench::slam {
 
 /// Corrects the predicted pose of a particle by the landmarks it knows, one after the other, oldest first.
 ///
-/// Each landmark's moments are taken from the belief that the one before left, and the particle's likelihood is
-/// multiplied by N(innovation; 0, S) with S from before the landmark is used; never from the updated covariance.
+/// Each landmark's moments are taken from the belief that the one before left, and the particle's likelihood
+/// is multiplied by N(innovation; 0, S) with S from before the landmark is used; never from the updated
+/// covariance.
 ///
 /// **Contradictions.** A sighting beyond the gate is refused: it moves nothing, and costs the particle the
-/// likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that. A landmark that is
-/// contradicted kPatience times in a row is no outlier: either the pose or the landmark is wrong. When an older
-/// landmark has vouched for the pose in this frame, or the landmark itself was seen rarely, the landmark is found
-/// anew. Otherwise the pose has drifted, as at the end of a loop, and the filter was too sure of it: the
-/// covariance grows by the smallest drift that explains the sighting, and the sighting is used. Its likelihood
-/// falls with the square of that drift, so that particles which close the loop best live on. Where the spacing of
-/// colours is known a single sighting settles whose it is, and no patience is needed.
+/// likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that. A landmark
+/// that is contradicted kPatience times in a row is no outlier: either the pose or the landmark is wrong.
+/// When an older landmark has vouched for the pose in this frame, or the landmark itself was seen rarely, the
+/// landmark is found anew. Otherwise the pose has drifted, as at the end of a loop, and the filter was too
+/// sure of it: the covariance grows by the smallest drift that explains the sighting, and the sighting is
+/// used. Its likelihood falls with the square of that drift, so that particles which close the loop best live
+/// on. Where the spacing of colours is known a single sighting settles whose it is, and no patience is
+/// needed.
 template <class Model>
 class PoseCorrection {
  public:
@@ -43,7 +45,8 @@ class PoseCorrection {
   void find_candidates(const Particle& particle, const PoseBelief& predicted, const Sighting& sighting,
                        int index, FilterCounters& counters);
   void order_by_age(std::span<const Target> targets);
-  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior, FilterCounters& counters) const;
+  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
+           FilterCounters& counters) const;
   Fate judge(const Landmark& landmark, const Sighting& sighting, const Posterior& posterior) const;
 
   Model model_;

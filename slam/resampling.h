@@ -17,8 +17,8 @@ double effective_particles(const std::vector<double>& log_weights);
 
 /// Systematic resampling: M equally spaced positions behind one uniform number.
 ///
-/// Particle i gets floor(M w_i) or ceil(M w_i) descendants. Positions are counted in integers, so there are always
-/// exactly M descendants, whatever rounding does to the sum of the weights.
+/// Particle i gets floor(M w_i) or ceil(M w_i) descendants. Positions are counted in integers, so there are
+/// always exactly M descendants, whatever rounding does to the sum of the weights.
 ///
 /// @param log_weights normalised
 /// @param uniform in [0, 1)

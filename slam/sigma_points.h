@@ -28,8 +28,9 @@ struct SigmaWeights {
 
 /// Transformed sigma points as residuals from the transformed centre, whose own residual is zero.
 ///
-/// Columns 2i and 2i + 1 come from the points above and below along column i of the root. Residuals are formed,
-/// and angles wrapped, by the caller; from there on everything is linear, so no angle is ever averaged.
+/// Columns 2i and 2i + 1 come from the points above and below along column i of the root. Residuals are
+/// formed, and angles wrapped, by the caller; from there on everything is linear, so no angle is ever
+/// averaged.
 template <int kOut, int kDimension>
 using SigmaResiduals = Eigen::Matrix<double, kOut, 2 * kDimension>;
 
@@ -46,7 +47,8 @@ Eigen::Matrix<double, kOut, kOut> sigma_covariance(const SigmaResiduals<kOut, kD
                                                    const Eigen::Matrix<double, kOut, 1>& mean,
                                                    const SigmaWeights<kDimension>& weights) {
   const SigmaResiduals<kOut, kDimension> centred = residuals.colwise() - mean;
-  return weights.other * (centred * centred.transpose()) + weights.covariance_centre * (mean * mean.transpose());
+  return weights.other * (centred * centred.transpose()) +
+         weights.covariance_centre * (mean * mean.transpose());
 }
 
 /// The covariance of the input's part along columns first..first+kIn-1 of its root with the output.

@@ -6,8 +6,8 @@
 
 namespace stereobench::slam {
 
-PoseBelief Unscented::move(const PoseBelief& belief, const Control& control, const Eigen::Vector2d& control_sd,
-                           long& repairs) const {
+PoseBelief Unscented::move(const PoseBelief& belief, const Control& control,
+                           const Eigen::Vector2d& control_sd, long& repairs) const {
   const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, repairs);
   const Pose centre = advance(belief.mean, control);
   SigmaResiduals<3, 5> residuals;

@@ -9,13 +9,13 @@ namespace stereobench::slam {
 
 /// Unscented moments.
 ///
-/// The paper augments the pose by control noise and measurement noise, N = 7. Measurement noise is additive, so
-/// its sigma points only add R to the covariance; control noise acts in the motion only. Five dimensions of pose
-/// and control noise in the motion, and five of pose and landmark in the measurement with R added, say the same.
+/// The paper augments the pose by control noise and measurement noise, N = 7. Measurement noise is additive,
+/// so its sigma points only add R to the covariance; control noise acts in the motion only. Five dimensions
+/// of pose and control noise in the motion, and five of pose and landmark in the measurement with R added,
+/// say the same.
 class Unscented {
  public:
-  explicit Unscented(const UnscentedParameters& parameters = {})
-      : five_(parameters), two_(parameters) {}
+  explicit Unscented(const UnscentedParameters& parameters = {}) : five_(parameters), two_(parameters) {}
 
   /// The pose after a control: sigma points over (pose, control noise), eq. 10-13.
   PoseBelief move(const PoseBelief& belief, const Control& control, const Eigen::Vector2d& control_sd,

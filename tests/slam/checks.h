@@ -14,14 +14,17 @@ namespace stereobench::slam {
 
 // NaN fails: every comparison is written so that only a proof of closeness passes.
 inline ::testing::AssertionResult near(const Pose& a, const Pose& b, double tolerance) {
-  const double off = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) + std::abs(wrap_angle(a.heading_rad - b.heading_rad));
+  const double off =
+      std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) + std::abs(wrap_angle(a.heading_rad - b.heading_rad));
   if (off <= tolerance) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "(" << a.x_m << ", " << a.y_m << ", " << a.heading_rad << ") is " << off
-                                       << " from (" << b.x_m << ", " << b.y_m << ", " << b.heading_rad << ")";
+  return ::testing::AssertionFailure()
+         << "(" << a.x_m << ", " << a.y_m << ", " << a.heading_rad << ") is " << off << " from (" << b.x_m
+         << ", " << b.y_m << ", " << b.heading_rad << ")";
 }
 
 template <class A, class B>
-::testing::AssertionResult near(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b, double tolerance) {
+::testing::AssertionResult near(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b,
+                                double tolerance) {
   const double off = (a - b).cwiseAbs().maxCoeff();
   if (off <= tolerance) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "\n" << a << "\nis " << off << " from\n" << b;
@@ -71,8 +74,9 @@ struct Drive {
     std::vector<Eigen::Vector2d> places;
     for (double along = 1.0; along < side_m; along += 4.0) {
       for (const double off : {-3.0, 3.5}) {
-        places.insert(places.end(), {{along, off}, {side_m - off, along}, {side_m - along, side_m - off},
-                                     {off, side_m - along}});
+        places.insert(
+            places.end(),
+            {{along, off}, {side_m - off, along}, {side_m - along, side_m - off}, {off, side_m - along}});
       }
     }
     return places;
@@ -118,9 +122,11 @@ inline DriveScore drive(Filter filter, const Drive& world, std::uint64_t seed) {
   score.last = estimate(filter);
   const std::vector<Eigen::Vector2d> places = world.landmarks();
   for (const LandmarkEstimate& landmark : score.last.landmarks) {
-    score.map_rms_m += (landmark.position_m - places[static_cast<std::size_t>(landmark.landmark_id)]).squaredNorm();
+    score.map_rms_m +=
+        (landmark.position_m - places[static_cast<std::size_t>(landmark.landmark_id)]).squaredNorm();
   }
-  score.map_rms_m = std::sqrt(score.map_rms_m / std::fmax(1.0, static_cast<double>(score.last.landmarks.size())));
+  score.map_rms_m =
+      std::sqrt(score.map_rms_m / std::fmax(1.0, static_cast<double>(score.last.landmarks.size())));
   return score;
 }
 

@@ -16,25 +16,27 @@ Eigen::Matrix<double, kRows, kColumns> any_matrix(RandomStream& random) {
   return matrix;
 }
 
-class OverSeeds : public ::testing::TestWithParam<int> {
+class GaussianLaws : public ::testing::TestWithParam<int> {
  protected:
   RandomStream random_{static_cast<std::uint64_t>(GetParam()), Stream::kWorld};
 };
-INSTANTIATE_TEST_SUITE_P(Gaussian, OverSeeds, ::testing::Range(0, 100));
+INSTANTIATE_TEST_SUITE_P(Gaussian, GaussianLaws, ::testing::Range(0, 100));
 
-// Ranks 0 to 3, rows of scales 1e-6 to 1e6. Catches a factorisation that needs a positive definite matrix: the
-// process noise of one control has rank 2.
-TEST_P(OverSeeds, RootTimesItsTransposeIsTheCovarianceOfAnyRank) {
+// Ranks 0 to 3, rows of scales 1e-6 to 1e6. Catches a factorisation that needs a positive definite matrix:
+// the process noise of one control has rank 2.
+TEST_P(GaussianLaws, RootTimesItsTransposeIsTheCovarianceOfAnyRank) {
   for (int rank = 0; rank <= 3; ++rank) {
     Eigen::Matrix3d spread = any_matrix<3, 3>(random_);
     for (int j = rank; j < 3; ++j) spread.col(j).setZero();
-    const Eigen::Vector3d scale(std::pow(10.0, 2.0 * random_.normal()), 1.0, std::pow(10.0, 2.0 * random_.normal()));
+    const Eigen::Vector3d scale(std::pow(10.0, 2.0 * random_.normal()), 1.0,
+                                std::pow(10.0, 2.0 * random_.normal()));
     spread = scale.asDiagonal() * spread;
     const Eigen::Matrix3d covariance = spread * spread.transpose();
     long repairs = 0;
     const Eigen::Matrix3d root = semidefinite_root<3>(covariance, repairs);
     const Eigen::Matrix3d relative = scale.cwiseInverse().asDiagonal() *
-                                     (root * root.transpose() - covariance) * scale.cwiseInverse().asDiagonal();
+                                     (root * root.transpose() - covariance) *
+                                     scale.cwiseInverse().asDiagonal();
     EXPECT_TRUE(near(relative, Eigen::Matrix3d::Zero(), 1e-12));
     EXPECT_EQ(repairs, 0);
   }
@@ -51,9 +53,9 @@ TEST(SemidefiniteRoot, CountsWhatItHadToMend) {
 // A pivot that is rounding error must not be divided by: seen on a robot that stands still.
 TEST(SemidefiniteRoot, DoesNotBlowUpRoundingErrors) {
   Eigen::Matrix3d covariance;
-  covariance << 3.7444101946245291e-11, -1.2164602333812248e-10, 3.4240799153318204e-15, -1.2164602333812248e-10,
-      3.9519588482727322e-10, 1.1130097388897191e-15, 3.4240799153318204e-15, 1.1130097388897191e-15,
-      8.9999757756067888e-10;
+  covariance << 3.7444101946245291e-11, -1.2164602333812248e-10, 3.4240799153318204e-15,
+      -1.2164602333812248e-10, 3.9519588482727322e-10, 1.1130097388897191e-15, 3.4240799153318204e-15,
+      1.1130097388897191e-15, 8.9999757756067888e-10;
   long repairs = 0;
   const Eigen::Matrix3d root = semidefinite_root<3>(covariance, repairs);
   const Eigen::Matrix3d square = root * root.transpose();
@@ -61,7 +63,7 @@ TEST(SemidefiniteRoot, DoesNotBlowUpRoundingErrors) {
   EXPECT_EQ(repairs, 0);
 }
 
-TEST_P(OverSeeds, FactorGivesInverseAndDeterminant) {
+TEST_P(GaussianLaws, FactorGivesInverseAndDeterminant) {
   const Eigen::Matrix2d spread = any_matrix<2, 2>(random_) + 3.0 * Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d covariance = spread * spread.transpose();
   const Eigen::Vector2d v = any_matrix<2, 1>(random_);
@@ -83,9 +85,9 @@ TEST(Factor2, MendsASingularMatrixAndCounts) {
   EXPECT_EQ(repairs, 2);
 }
 
-// Errata: eq. 10 has a plus sign twice, eq. 14 the denominator n - lambda. With either the moments of a linear map
-// are wrong, for every alpha.
-TEST_P(OverSeeds, UnscentedTransformIsExactForLinearMaps) {
+// Errata: eq. 10 has a plus sign twice, eq. 14 the denominator n - lambda. With either the moments of a
+// linear map are wrong, for every alpha.
+TEST_P(GaussianLaws, UnscentedTransformIsExactForLinearMaps) {
   for (const double alpha : {0.002, 0.1, 1.0}) {
     const SigmaWeights<3> weights(UnscentedParameters{alpha, 2.0, 0.0});
     const Eigen::Matrix3d root = any_matrix<3, 3>(random_);
@@ -98,7 +100,8 @@ TEST_P(OverSeeds, UnscentedTransformIsExactForLinearMaps) {
     const Eigen::Vector2d mean = sigma_mean<2, 3>(residuals, weights);
     const Eigen::Matrix3d covariance = root * root.transpose();
     EXPECT_TRUE(near(mean, Eigen::Vector2d::Zero(), 1e-9));
-    EXPECT_TRUE(near(sigma_covariance<2, 3>(residuals, mean, weights), map * covariance * map.transpose(), 1e-9));
+    EXPECT_TRUE(
+        near(sigma_covariance<2, 3>(residuals, mean, weights), map * covariance * map.transpose(), 1e-9));
     EXPECT_TRUE(near(sigma_cross<3, 2, 3>(root, 0, residuals, weights), covariance * map.transpose(), 1e-9));
   }
 }

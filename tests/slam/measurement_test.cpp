@@ -16,8 +16,8 @@ TEST(PredictSighting, BearingIsLeftPositiveFromTheHeading) {
   EXPECT_TRUE(near(predict_sighting(east, {1.0, 4.0}), Eigen::Vector2d(2.0, M_PI / 2.0), 1e-15));
   EXPECT_TRUE(near(predict_sighting(east, {1.0, 1.0}), Eigen::Vector2d(1.0, -M_PI / 2.0), 1e-15));
   const Pose west{0.0, 0.0, 3.0};
-  EXPECT_TRUE(near(predict_sighting(west, {-1.0, -0.1}), Eigen::Vector2d(std::sqrt(1.01), std::atan(0.1) + M_PI - 3.0),
-                   1e-12));
+  EXPECT_TRUE(near(predict_sighting(west, {-1.0, -0.1}),
+                   Eigen::Vector2d(std::sqrt(1.01), std::atan(0.1) + M_PI - 3.0), 1e-12));
 }
 
 TEST(PredictSighting, AndLocateUndoEachOther) {

@@ -21,10 +21,12 @@ class Models : public ::testing::Test {
 
   Pose draw(const PoseBelief& belief) {
     const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, repairs_);
-    return displace(belief.mean, root * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()));
+    return displace(belief.mean,
+                    root * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()));
   }
   Eigen::Vector2d draw(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) {
-    return mean + semidefinite_root<2>(covariance, repairs_) * Eigen::Vector2d(random_.normal(), random_.normal());
+    return mean +
+           semidefinite_root<2>(covariance, repairs_) * Eigen::Vector2d(random_.normal(), random_.normal());
   }
 };
 using BothModels = ::testing::Types<Linearised, Unscented>;
@@ -42,18 +44,23 @@ LandmarkBelief some_landmark() {
   return landmark;
 }
 
-Eigen::Matrix2d some_noise() { return Eigen::Vector2d(0.01, 0.0016).asDiagonal(); }
+Eigen::Matrix2d some_noise() {
+  return Eigen::Vector2d(0.01, 0.0016).asDiagonal();
+}
 
-// The error of a covariance estimate, relative to its deviations; five standard errors, and second-order terms.
+// The error of a covariance estimate, relative to its deviations; five standard errors, and second-order
+// terms.
 template <int kSize>
-void expect_same_moments(const Eigen::Matrix<double, kSize, kSize>& a, const Eigen::Matrix<double, kSize, kSize>& b) {
+void expect_same_moments(const Eigen::Matrix<double, kSize, kSize>& a,
+                         const Eigen::Matrix<double, kSize, kSize>& b) {
   const Eigen::Matrix<double, kSize, 1> sd = b.diagonal().cwiseSqrt().cwiseMax(1e-12);
-  const Eigen::Matrix<double, kSize, kSize> off = sd.cwiseInverse().asDiagonal() * (a - b) * sd.cwiseInverse().asDiagonal();
+  const Eigen::Matrix<double, kSize, kSize> off =
+      sd.cwiseInverse().asDiagonal() * (a - b) * sd.cwiseInverse().asDiagonal();
   EXPECT_LE(off.cwiseAbs().maxCoeff(), 5.0 * std::sqrt(2.0 / kDraws) + 0.02) << a << "\nagainst\n" << b;
 }
 
-// Errata: eq. 6 and 7 (control noise belongs to the motion). Catches a dropped or swapped control noise, a wrong
-// Jacobian by v, w or heading, and angles averaged across the seam.
+// Errata: eq. 6 and 7 (control noise belongs to the motion). Catches a dropped or swapped control noise, a
+// wrong Jacobian by v, w or heading, and angles averaged across the seam.
 TYPED_TEST(Models, MoveHasTheMomentsOfManyNoisyMoves) {
   const PoseBelief start = some_pose();
   const Control control{1.5, 0.8, 0.6};
@@ -81,8 +88,9 @@ TYPED_TEST(Models, OneControlLeavesRankTwo) {
   EXPECT_EQ(this->repairs_, 0);
 }
 
-// Errata: eq. 17 and 19 leave out R and the landmark's covariance; public code stacks landmarks on one set of sigma
-// columns. Catches S without R, S without Sigma, a wrong cross covariance and pose correlated with landmark.
+// Errata: eq. 17 and 19 leave out R and the landmark's covariance; public code stacks landmarks on one set of
+// sigma columns. Catches S without R, S without Sigma, a wrong cross covariance and pose correlated with
+// landmark.
 TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
   const PoseBelief pose = some_pose();
   const LandmarkBelief landmark = some_landmark();
@@ -91,9 +99,8 @@ TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
   Eigen::Matrix<double, 5, 5> second = Eigen::Matrix<double, 5, 5>::Zero();
   for (int i = 0; i < kDraws; ++i) {
     const Pose from = this->draw(pose);
-    const Eigen::Vector2d seen =
-        predict_sighting(from, this->draw(landmark.mean, landmark.covariance)) +
-        this->draw(Eigen::Vector2d::Zero(), some_noise());
+    const Eigen::Vector2d seen = predict_sighting(from, this->draw(landmark.mean, landmark.covariance)) +
+                                 this->draw(Eigen::Vector2d::Zero(), some_noise());
     Eigen::Matrix<double, 5, 1> off;
     off << displacement(from, pose.mean), sighting_residual(seen, expected.expected);
     mean += off / kDraws;
@@ -120,8 +127,8 @@ TYPED_TEST(Models, FoundHasTheMomentsOfManyFinds) {
   expect_same_moments<2>(second - mean * mean.transpose(), found.covariance);
 }
 
-// With little noise a refined landmark is the information-weighted mean of before and now, an independent formula.
-// Errata: eq. 26-31 (no R in S-bar, wrong columns) and eq. 33 (x for mu).
+// With little noise a refined landmark is the information-weighted mean of before and now, an independent
+// formula. Errata: eq. 26-31 (no R in S-bar, wrong columns) and eq. 33 (x for mu).
 TYPED_TEST(Models, RefineAddsInformation) {
   const Pose robot{0.5, -1.0, 2.0};
   const LandmarkBelief before{{4.0, 3.0}, 1e-6 * (Eigen::Matrix2d() << 3.0, 1.0, 1.0, 2.0).finished()};
@@ -142,15 +149,18 @@ TYPED_TEST(Models, StandingOnALandmarkIsFinite) {
   for (const PoseBelief& belief : {pose, PoseBelief{pose.mean, Eigen::Matrix3d::Zero()}}) {
     const LandmarkBelief landmark{{1.0, 1.0}, Eigen::Matrix2d::Zero()};
     const Innovation expected = this->model_.expect(belief, landmark, some_noise(), this->repairs_);
-    EXPECT_TRUE(expected.covariance.allFinite() && expected.cross.allFinite() && expected.expected.allFinite());
-    const LandmarkBelief refined = this->model_.refine(landmark, belief.mean, {{0.0, 0.0}, some_noise()}, this->repairs_);
+    EXPECT_TRUE(expected.covariance.allFinite() && expected.cross.allFinite() &&
+                expected.expected.allFinite());
+    const LandmarkBelief refined =
+        this->model_.refine(landmark, belief.mean, {{0.0, 0.0}, some_noise()}, this->repairs_);
     EXPECT_TRUE(refined.mean.allFinite() && refined.covariance.allFinite());
     const LandmarkBelief found = this->model_.found(belief.mean, {{0.0, 0.0}, some_noise()}, this->repairs_);
     EXPECT_TRUE(found.mean.allFinite() && found.covariance.allFinite());
   }
 }
 
-// Where noise is small the two models are one. Catches an error in either, wherever the other does not have it.
+// Where noise is small the two models are one. Catches an error in either, wherever the other does not have
+// it.
 TEST(BothModels, AgreeWhenNoiseIsSmall) {
   RandomStream random(6, Stream::kWorld);
   long repairs = 0;
@@ -172,7 +182,8 @@ TEST(BothModels, AgreeWhenNoiseIsSmall) {
   }
 }
 
-// The motion since the last update, predicted once and put behind a pose, is the motion predicted at that pose.
+// The motion since the last update, predicted once and put behind a pose, is the motion predicted at that
+// pose.
 TYPED_TEST(Models, SharedMotionIsEachParticlesMotion) {
   const Pose start{3.0, -1.0, 2.5};
   PoseBelief shared;

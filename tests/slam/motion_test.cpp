@@ -18,14 +18,14 @@ Control any_control(RandomStream& random) {
   return {2.0 * random.normal(), 2.0 * random.normal(), 2.0 * random.uniform()};
 }
 
-class OverSeeds : public ::testing::TestWithParam<int> {
+class MotionLaws : public ::testing::TestWithParam<int> {
  protected:
   RandomStream random_{static_cast<std::uint64_t>(GetParam()), Stream::kWorld};
 };
-INSTANTIATE_TEST_SUITE_P(Motion, OverSeeds, ::testing::Range(0, 50));
+INSTANTIATE_TEST_SUITE_P(Motion, MotionLaws, ::testing::Range(0, 50));
 
 // Exact only for the true arc: catches the chord taken along the old heading, and an Euler step.
-TEST_P(OverSeeds, HalfAStepPlusHalfAStepIsAStep) {
+TEST_P(MotionLaws, HalfAStepPlusHalfAStepIsAStep) {
   const Pose start = any_pose(random_);
   const Control whole = any_control(random_);
   Control half = whole;
@@ -34,7 +34,7 @@ TEST_P(OverSeeds, HalfAStepPlusHalfAStepIsAStep) {
 }
 
 // Eq. 4 as printed, where it can be evaluated. Catches a sign or a sine in place of a cosine.
-TEST_P(OverSeeds, AdvanceIsEquation4WhereThatIsDefined) {
+TEST_P(MotionLaws, AdvanceIsEquation4WhereThatIsDefined) {
   const Pose p = any_pose(random_);
   const Control u = any_control(random_);
   const double radius = u.v_mps / u.w_radps;
@@ -45,12 +45,12 @@ TEST_P(OverSeeds, AdvanceIsEquation4WhereThatIsDefined) {
 }
 
 // Errata: eq. 4 divides by w. Catches that division, and a threshold that jumps.
-TEST_P(OverSeeds, AdvanceIsSmoothThroughNoTurnAtAll) {
+TEST_P(MotionLaws, AdvanceIsSmoothThroughNoTurnAtAll) {
   const Pose start = any_pose(random_);
   const double v = random_.normal();
   const Pose straight = advance(start, {v, 0.0, 1.0});
-  const Pose expected = {start.x_m + v * std::cos(start.heading_rad), start.y_m + v * std::sin(start.heading_rad),
-                         start.heading_rad};
+  const Pose expected = {start.x_m + v * std::cos(start.heading_rad),
+                         start.y_m + v * std::sin(start.heading_rad), start.heading_rad};
   EXPECT_TRUE(near(straight, expected, 1e-14));
   for (const double w : {1e-300, 1e-12, 1e-8, 1.9e-4, 2.1e-4}) {
     EXPECT_TRUE(near(advance(start, {v, w, 1.0}), straight, 3.0 * w * (1.0 + std::abs(v)) + 1e-14)) << w;
@@ -58,13 +58,13 @@ TEST_P(OverSeeds, AdvanceIsSmoothThroughNoTurnAtAll) {
 }
 
 // What the filters' shared motion rests on: a control does the same wherever it is given.
-TEST_P(OverSeeds, MotionDoesNotDependOnWhereItHappens) {
+TEST_P(MotionLaws, MotionDoesNotDependOnWhereItHappens) {
   const Pose start = any_pose(random_);
   const Control control = any_control(random_);
   EXPECT_TRUE(near(advance(start, control), compose(start, advance(Pose{}, control)), 1e-12));
 }
 
-TEST_P(OverSeeds, PosesFormAGroup) {
+TEST_P(MotionLaws, PosesFormAGroup) {
   const Pose a = any_pose(random_);
   const Pose b = any_pose(random_);
   const Pose c = any_pose(random_);
@@ -73,7 +73,7 @@ TEST_P(OverSeeds, PosesFormAGroup) {
   EXPECT_TRUE(near(compose(compose(a, b), c), compose(a, compose(b, c)), 1e-11));
 }
 
-TEST_P(OverSeeds, WrappedAngleIsTheSameDirectionWithinHalfATurn) {
+TEST_P(MotionLaws, WrappedAngleIsTheSameDirectionWithinHalfATurn) {
   const double angle = 1000.0 * random_.normal();
   const double wrapped = wrap_angle(angle);
   EXPECT_TRUE(wrapped > -M_PI && wrapped <= M_PI);

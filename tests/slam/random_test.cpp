@@ -8,7 +8,8 @@
 namespace stereobench::slam {
 namespace {
 
-// The generator's published known-answer vectors: catches words in the wrong order and a wrong number of rounds.
+// The generator's published known-answer vectors: catches words in the wrong order and a wrong number of
+// rounds.
 TEST(RandomStream, GivesPhilox4x32KnownAnswers) {
   RandomStream zero(0, Stream::kWorld, 0);
   EXPECT_EQ(zero.bits(), 0x6627e8d5u);
@@ -74,7 +75,8 @@ TEST(NormalQuantile, InvertsTheDistributionFunction) {
     const double back = 0.5 * std::erfc(-x / std::sqrt(2.0));
     ASSERT_NEAR(back / p, 1.0, 1e-14 * (1.0 + x * x)) << "p " << p;
   }
-  for (double p = 0.01; p < 0.5; p += 0.001) ASSERT_NEAR(normal_quantile(p), -normal_quantile(1.0 - p), 1e-12);
+  for (double p = 0.01; p < 0.5; p += 0.001)
+    ASSERT_NEAR(normal_quantile(p), -normal_quantile(1.0 - p), 1e-12);
   EXPECT_EQ(normal_quantile(0.5), 0.0);
 }
 

@@ -19,7 +19,8 @@ std::vector<double> any_log_weights(RandomStream& random, std::size_t count, dou
   return log_weights;
 }
 
-// A public implementation loops over floats and yields the wrong count. Catches that, and rounding at both ends.
+// A public implementation loops over floats and yields the wrong count. Catches that, and rounding at both
+// ends.
 TEST(SystematicDescendants, KeepCountAndExpectation) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     RandomStream random(seed, Stream::kFilter);
@@ -38,7 +39,7 @@ TEST(SystematicDescendants, KeepCountAndExpectation) {
 }
 
 TEST(AncestorsInPlace, SurvivorsStayAndCountsHold) {
-  const std::vector<int> descendants = {0, 3, 0, 1, 1, 0};
+  const std::vector<int> descendants = {0, 3, 0, 2, 1, 0};
   const std::vector<int> ancestors = ancestors_in_place(descendants);
   std::vector<int> counted(descendants.size(), 0);
   for (const int ancestor : ancestors) ++counted[static_cast<std::size_t>(ancestor)];
@@ -46,12 +47,14 @@ TEST(AncestorsInPlace, SurvivorsStayAndCountsHold) {
   for (const int survivor : {1, 3, 4}) EXPECT_EQ(ancestors[static_cast<std::size_t>(survivor)], survivor);
 }
 
-// Weights of exp(-5000) underflow in a public implementation. Catches weights that are not kept as logarithms.
+// Weights of exp(-5000) underflow in a public implementation. Catches weights that are not kept as
+// logarithms.
 TEST(Normalise, SurvivesWeightsThatUnderflow) {
   std::vector<double> log_weights = {-5000.0, -5001.0, -9000.0};
   EXPECT_TRUE(normalise(log_weights));
   EXPECT_NEAR(std::exp(log_weights[0]), 1.0 / (1.0 + std::exp(-1.0)), 1e-12);
-  EXPECT_NEAR(effective_particles(log_weights), std::pow(1.0 + std::exp(-1.0), 2) / (1.0 + std::exp(-2.0)), 1e-12);
+  EXPECT_NEAR(effective_particles(log_weights), std::pow(1.0 + std::exp(-1.0), 2) / (1.0 + std::exp(-2.0)),
+              1e-12);
 }
 
 TEST(Normalise, MakesVanishedWeightsEqualAndSaysSo) {
@@ -66,7 +69,8 @@ TEST(Normalise, MakesVanishedWeightsEqualAndSaysSo) {
   EXPECT_EQ(std::exp(partly[1]), 1.0);
 }
 
-// A public implementation lets all copies share one landmark array. Catches a map that is referred to, not owned.
+// A public implementation lets all copies share one landmark array. Catches a map that is referred to, not
+// owned.
 TEST(Particle, CopiesShareNothing) {
   Particle original;
   original.known = {Landmark{{{1.0, 2.0}, Eigen::Matrix2d::Zero()}}};

