@@ -14,7 +14,7 @@ namespace {
 // error that an arc's pixels share.
 constexpr double kQuantisation = 0.005;  // c
 constexpr double kNoiseFactor = 1.1;     // k
-constexpr double kTextureFactor = 0.9;
+constexpr double kTextureFactor = 0.4;
 
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;

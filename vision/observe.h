@@ -11,7 +11,7 @@ namespace stereobench::vision {
 struct ObserverSettings {
   double ball_radius_m = 0.05;   ///< all balls are of one size
   double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
-  double min_radius_px = 3.0;    ///< smaller outlines are not measured
+  double min_radius_px = 5.0;    ///< smaller outlines are not measured
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <Eigen/Cholesky>
+
 namespace stereobench::vision {
 namespace {
 
@@ -14,7 +16,9 @@ constexpr std::size_t kSlopeArcs = 2;         // to either side
 constexpr double kShadeUncertainty = 0.12;    // of the ball's brightness at the rim, relative
 constexpr double kShadeTolerance = 0.10;      // colour off the ball's line, relative to its brightness
 constexpr double kMinShade_levels = 35.0;     // a ball in the deepest shade and its own noise has more
+constexpr double kMeanSquareShare = 0.4;      // of either colour in a rim pixel
 constexpr double kMinContrast_levels = 14.0;
+constexpr double kMaxAlphaSd = 0.5;  // a pixel that knows its alpha no better says nothing
 constexpr double kPi = 3.14159265358979323846;
 
 // Angle in turns, [0, 1), to 0.001 turns: arithmetic only, so that every machine agrees on it.
@@ -93,39 +97,50 @@ void borrow_inside(const std::vector<ArcSamples>& arcs, std::size_t arc, ArcSamp
   }
 }
 
-// Weighted least squares of I - background = alpha (ball - background), with noise sigma^2 in each channel
-// and the shade's uncertainty along the ball's own colour.
-ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, double noise_variance) {
+// How the background's colours scatter about their means beside the arcs, beyond what noise explains:
+// texture. An edge in the background may lie under the rim, unseen beside it, so what all arcs show goes for
+// each.
+Eigen::Matrix3d texture_covariance(const std::vector<ArcSamples>& arcs, double noise_variance) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  double freedom = 0.0;
+  for (const ArcSamples& arc : arcs) {
+    if (arc.outside.count < 2.0) continue;
+    scatter += arc.outside.count * arc.outside.covariance();
+    freedom += arc.outside.count - 1.0;
+  }
+  if (!(freedom > 0.0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d texture = scatter / freedom - noise_variance * Eigen::Matrix3d::Identity();
+  return texture.trace() > 0.0 ? texture : Eigen::Matrix3d::Zero();
+}
+
+// What disturbs the colours of rim pixels.
+struct Disturbance {
+  double noise_variance = 0.0;  // of each channel
+  Eigen::Matrix3d texture = Eigen::Matrix3d::Zero();
+};
+
+// Generalised least squares of I - background = alpha (ball - background). The image's noise disturbs all
+// channels alike, the shade at the rim lies along the ball's own colour, and texture mostly along grey: alpha
+// is read in the direction that suffers least from the three of them.
+ArcColours unmixing(const ArcSamples& arc, const Eigen::Vector3d& slope, const Disturbance& disturbance) {
   ArcColours result;
   const double outwards_px = arc.outside.distance / arc.outside.count - kBackgroundDepth_px;
   result.background = arc.outside.mean() - outwards_px * slope;
   const Eigen::Vector3d ball = arc.inside.mean();
   const Eigen::Vector3d contrast = ball - result.background;
-  const double shade_variance = 0.4 * kShadeUncertainty * kShadeUncertainty * ball.squaredNorm();
-  const double damping = shade_variance / (noise_variance + shade_variance);
-  const Eigen::Vector3d along = ball.normalized();
-  const Eigen::Vector3d weighted = contrast - damping * along.dot(contrast) * along;
+  if (!(contrast.norm() > kMinContrast_levels)) return result;
+  const Eigen::Vector3d shade = kShadeUncertainty * ball;
+  const Eigen::Matrix3d covariance = disturbance.noise_variance * Eigen::Matrix3d::Identity() +
+                                     kMeanSquareShare * (shade * shade.transpose() + disturbance.texture);
+  const Eigen::LDLT<Eigen::Matrix3d> solver(covariance);
+  const Eigen::Vector3d weighted = solver.solve(contrast);
   const double strength = contrast.dot(weighted);
-  if (!(strength > kMinContrast_levels * kMinContrast_levels)) return result;
+  if (!solver.isPositive() || !(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return result;
   result.unmix = weighted / strength;
-  const double texture = result.unmix.dot(arc.outside.covariance() * result.unmix);
-  result.noise_variance = noise_variance / strength;
-  result.texture_variance = std::max(0.0, texture - noise_variance * result.unmix.squaredNorm());
+  result.noise_variance = disturbance.noise_variance * result.unmix.squaredNorm();
+  result.texture_variance = std::max(0.0, result.unmix.dot(disturbance.texture * result.unmix));
   result.usable = true;
   return result;
-}
-
-// An edge in the background may lie under the rim, unseen beside it: what one arc's texture says goes for
-// all.
-void share_texture(std::vector<ArcColours>& arcs) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const ArcColours& arc : arcs) {
-    sum += arc.texture_variance;
-    count += arc.usable ? 1.0 : 0.0;
-  }
-  if (count <= 0.0) return;
-  for (ArcColours& arc : arcs) arc.texture_variance = 0.5 * (arc.texture_variance + sum / count);
 }
 
 }  // namespace
@@ -168,6 +183,7 @@ Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_
 std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
   const std::vector<ArcSamples> samples = sample_arcs(rim, settings.gap_px);
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
+  const Disturbance disturbance{noise_variance, texture_covariance(samples, noise_variance)};
   std::vector<ArcColours> arcs(rim.sectors);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     ArcSamples arc = samples[i];
@@ -175,9 +191,8 @@ std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setting
     if (arc.inside.count < 2.0 || arc.outside.count < 2.0) continue;
     const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / arc.inside.count));
     if (!shades.contain(arc.inside.mean())) continue;
-    arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), noise_variance);
+    arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), disturbance);
   }
-  share_texture(arcs);
   return arcs;
 }
 

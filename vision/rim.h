@@ -34,7 +34,7 @@ struct ArcColours {
   Eigen::Vector3d unmix = Eigen::Vector3d::Zero();       ///< per level; zero where the arc shows nothing
   double noise_variance = 0.0;                           ///< of a pixel's alpha, from image noise
   double texture_variance =
-      0.0;              ///< of the arc's alpha, since texture is not the same at the rim as beside it
+      0.0;              ///< of a pixel's alpha, since texture is not the same at the rim as beside it
   bool usable = false;  ///< the ball's colour inside, another one outside, enough contrast
 };
 
@@ -45,10 +45,11 @@ struct UnmixSettings {
   double gap_px = 0.9;  ///< colours are sampled this far from the outline and two pixels further
 };
 
-/// Samples both colours of each arc and prepares the unmixing I = alpha ball + (1 - alpha) background. The
-/// ball's brightness at the very rim is known from further inside only to some 12 % (Lambert shading changes
-/// fastest there), so differences along the ball's own colour count for little, and chromaticity for much.
-/// The background is extrapolated to the rim where it changes steadily.
+/// Samples both colours of each arc and prepares the unmixing I = alpha ball + (1 - alpha) background.
+/// The ball's brightness at the very rim is known from further inside only to some 12 % (Lambert shading changes
+/// fastest there), so differences along the ball's own colour count for little. Neither do differences along
+/// which the background's texture varies, which is brightness more than chromaticity. The background is
+/// extrapolated to the rim where it changes steadily.
 std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
 
 /// The shades of a ball's colour: what lies near the line from black through it.

@@ -13,7 +13,7 @@ namespace stereobench::harness {
 
 namespace {
 
-constexpr double kSmallestRadius_px = 3.0;
+constexpr double kSmallestRadius_px = 5.0;
 constexpr double kVisibleFraction = 0.95;
 
 /// A ball has to be found when it is whole, not tiny and hardly hidden.

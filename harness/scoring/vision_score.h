@@ -35,7 +35,7 @@ struct VisionScore {
 };
 
 /// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
-/// radius of at least 3 px, and at least 95 % of it is seen by each eye. An observation is right
+/// radius of at least 5 px, and at least 95 % of it is seen by each eye. An observation is right
 /// when its centres lie within the outlines of a ball of its colour in both eyes.
 VisionScore score_observations(const VisionTruth& truth,
                                std::span<const vision::BallObservation> observations);
