@@ -13,9 +13,9 @@ namespace stereobench::harness {
 /// One instant at which the robot looked: the odometry since the instant before, and what it saw.
 struct LogStep {
   std::int64_t stamp_ns = 0;
-  std::vector<slam::Control> odometry;             ///< as measured, with its noise
+  std::vector<slam::Control> odometry;  ///< as measured, with its noise
   std::vector<slam::RangeBearing> measurements;
-  std::optional<slam::Pose> truth;                 ///< world_from_robot, where it is known
+  std::optional<slam::Pose> truth;  ///< world_from_robot, where it is known
 };
 
 /// A landmark's true place.
@@ -40,9 +40,9 @@ struct FilterRun {
   std::uint64_t seed = 0;
   std::vector<slam::Pose> poses;
   std::vector<Eigen::Matrix3d> covariances;
-  slam::Estimate last;    ///< the final estimate, with its map
-  bool failed = false;    ///< it threw, or a pose was not finite
-  std::string failure;    ///< why, and at which step; empty when it did not fail
+  slam::Estimate last;  ///< the final estimate, with its map
+  bool failed = false;  ///< it threw, or a pose was not finite
+  std::string failure;  ///< why, and at which step; empty when it did not fail
 };
 
 }  // namespace stereobench::harness

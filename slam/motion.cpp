@@ -46,8 +46,10 @@ Pose inverse(const Pose& a_from_b) {
 Eigen::Vector2d standard_deviations(const Control& control, const OdometryNoise& noise) {
   const double v = std::abs(control.v_mps);
   const double w = std::abs(control.w_radps);
-  return {noise.v_constant_mps + noise.v_per_v * v + noise.v_per_w * w,
-          noise.w_constant_radps + noise.w_per_v * v + noise.w_per_w * w};
+  const bool brief = control.duration_s > 0.0 && control.duration_s < noise.correlation_s;
+  const double share = brief ? std::sqrt(noise.correlation_s / control.duration_s) : 1.0;
+  return share * Eigen::Vector2d(noise.v_constant_mps + noise.v_per_v * v + noise.v_per_w * w,
+                                 noise.w_constant_radps + noise.w_per_v * v + noise.w_per_w * w);
 }
 
 Control perturb(const Control& control, const OdometryNoise& noise, RandomStream& random) {

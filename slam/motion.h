@@ -26,7 +26,9 @@ Pose inverse(const Pose& a_from_b);
 
 /// The standard deviations (m/s, rad/s) of a control's velocities (eq. 3, read as standard deviations).
 ///
-/// They hold for the control as a whole, whatever its duration, and controls are independent of each other.
+/// They hold for the control as a whole, and controls are independent of each other. A control that is
+/// shorter than noise.correlation_s gets sqrt(correlation_s / duration_s) times as much: over that time the
+/// path then spreads as if one error had lasted, however finely the odometry is divided.
 Eigen::Vector2d standard_deviations(const Control& control, const OdometryNoise& noise);
 
 /// Draws what the odometry would have reported for a true control, or the reverse: two normals, v then w.

@@ -33,6 +33,9 @@ struct OdometryNoise {
   double w_constant_radps = 0.0;
   double w_per_v = 0.0;  ///< alpha_3, rad/s per m/s
   double w_per_w = 0.0;  ///< alpha_4, rad/s per rad/s
+  /// How long an error lasts: slip outlives the readings of a fast odometer, and errors drawn anew for each
+  /// of them would average out. 0 = each control has an error of its own.
+  double correlation_s = 0.0;
 };
 
 inline constexpr int kUnknown = -1;  ///< an identity or a colour class that is not known

@@ -78,8 +78,8 @@ vision::StereoRig read_rig(const YamlValue& value) {
 }
 
 slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
-  const YamlMap map(value,
-                    {"v_constant_mps", "v_per_v", "v_per_w", "w_constant_degps", "w_per_v", "w_per_w"});
+  const YamlMap map(value, {"v_constant_mps", "v_per_v", "v_per_w", "w_constant_degps", "w_per_v", "w_per_w",
+                            "correlation_s"});
   slam::OdometryNoise noise;
   noise.v_constant_mps = map.number("v_constant_mps", kNoise, 0.0);
   noise.v_per_v = map.number("v_per_v", kNoise, 0.0);
@@ -87,6 +87,7 @@ slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
   noise.w_constant_radps = map.number("w_constant_degps", {0.0, 1e4}, 0.0) * kDegree;
   noise.w_per_v = map.number("w_per_v", kNoise, 0.0);
   noise.w_per_w = map.number("w_per_w", kNoise, 0.0);
+  noise.correlation_s = map.number("correlation_s", {0.0, 1e3}, 0.0);
   return noise;
 }
 

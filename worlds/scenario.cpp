@@ -103,6 +103,10 @@ World world_for_seed(const Scenario& scenario, std::uint64_t seed) {
     world.balls[i].centre_m.x() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
     world.balls[i].centre_m.y() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
   }
+  for (MeshInstance& mesh : world.meshes) {
+    if (mesh.carried_ball == slam::kUnknown) continue;
+    mesh.position_m.head<2>() = world.balls[static_cast<std::size_t>(mesh.carried_ball)].centre_m.head<2>();
+  }
   return world;
 }
 

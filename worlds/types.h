@@ -31,13 +31,15 @@ struct Wall {
   Material material = Material::kPlaster;
 };
 
-/// A mesh file put somewhere: a door, a column. Mesh axes are the world's (z up, metres).
+/// A mesh file put somewhere: a door, a column. Mesh axes are the world's (z up, metres). One that carries a
+/// ball stands under it, reaches up to it, and moves with it.
 struct MeshInstance {
   std::string file;  ///< path of the mesh file, absolute after reading
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   double heading_rad = 0.0;  ///< about z
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Material material = Material::kWood;
+  int carried_ball = slam::kUnknown;  ///< index into World::balls
 };
 
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.

@@ -82,6 +82,7 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
   add("--w-constant-radps", noise.w_constant_radps, "of the turn rate, constant part");
   add("--w-per-v", noise.w_per_v, "of the turn rate, per m/s");
   add("--w-per-w", noise.w_per_w, "of the turn rate, per rad/s");
+  add("--correlation-s", noise.correlation_s, "how long an odometry error lasts (slip outlives fast readings)");
 }
 
 }  // namespace

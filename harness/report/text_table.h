@@ -12,8 +12,6 @@ struct AlignedTable {
   std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-using TextTable = AlignedTable;
-
 /// Aligns the columns with spaces. @throws std::invalid_argument when a row is not as long as the header
 std::string plain_text(const AlignedTable& table);
 

@@ -39,6 +39,7 @@ Json filter_json(const RunResult& result, const FilterSummary& summary) {
           {"ate_max_m", summary_json(summary.ate_max_m)},
           {"ate_aligned_rms_m", summary_json(summary.ate_aligned_rms_m)},
           {"ate_aligned_median_m", number(summary.ate_aligned_median_m)},
+          {"ate_aligned_at_sightings_rms_m", summary_json(summary.ate_aligned_at_sightings_rms_m)},
           {"ate_over_dead_reckoning", over_dead_reckoning(result, summary)},
           {"heading_rms_rad", summary_json(summary.heading_rms_rad)},
           {"rpe_rms_m", summary_json(summary.rpe_rms_m)},
@@ -142,8 +143,8 @@ nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
 }
 
 std::string result_table(const RunResult& result) {
-  TextTable table{.header = {"filter", "particles", "ATE rms [m]", "ATE max [m]", "aligned [m]",
-                             "heading [deg]", "landmarks [m]", "ANEES", "failures"}};
+  AlignedTable table{.header = {"filter", "particles", "ATE rms [m]", "ATE max [m]", "aligned [m]",
+                                "heading [deg]", "landmarks [m]", "ANEES", "failures"}};
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   for (const FilterResult& filter : result.filters) {
     const FilterSummary& s = filter.summary;

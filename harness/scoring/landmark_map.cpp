@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "harness/scoring/trajectory.h"
+
 namespace stereobench::harness {
 
 namespace {
@@ -37,6 +39,19 @@ std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const E
 }
 
 }  // namespace
+
+slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
+                     double match_limit_m) {
+  std::vector<PosePair> pairs;
+  for (const slam::LandmarkEstimate& estimate : estimates) {
+    const auto index = owner(estimate, estimate.position_m, truth, match_limit_m);
+    if (!index) continue;
+    const Eigen::Vector2d& place_m = truth[*index].position_m;
+    pairs.push_back(
+        {{estimate.position_m.x(), estimate.position_m.y(), 0.0}, {place_m.x(), place_m.y(), 0.0}});
+  }
+  return align(pairs);
+}
 
 MapScore score_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
                    const slam::Pose& truth_from_estimate, double match_limit_m) {

@@ -17,11 +17,17 @@ struct MapScore {
   long spurious = 0;    ///< estimates that belong to no true landmark
 };
 
+/// The rotation and shift that bring a map's landmarks nearest to the true ones they belong to: what a map
+/// that was made from an unknown start cannot be blamed for. (A path's own alignment is another one.)
+/// @return identity when no estimate belongs to a true landmark
+slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
+                     double match_limit_m = 2.0);
+
 /// Scores a map. An estimate with an identity belongs to the landmark of that identity, however far it
 /// is; one without belongs to the nearest landmark of its colour class within the limit.
 /// @param estimates the filter's map
 /// @param truth the true landmarks; an empty list scores as all spurious
-/// @param truth_from_estimate applied to the estimates first: identity, or the path's alignment
+/// @param truth_from_estimate applied to the estimates first: identity, or align_map
 /// @param match_limit_m the farthest that an estimate without an identity may be from its landmark
 MapScore score_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
                    const slam::Pose& truth_from_estimate = {}, double match_limit_m = 2.0);

@@ -87,7 +87,8 @@ FilterScore score(const FilterRun& run, const MeasurementLog& log) {
   score.trajectory = score_trajectory(pair_with_truth(run.poses, log));
   score.ate_aligned_at_sightings_rms_m = aligned_rms_at_sightings(run, log);
   score.map = score_map(run.last.landmarks, log.landmarks);
-  score.map_aligned = score_map(run.last.landmarks, log.landmarks, score.trajectory.truth_from_estimate);
+  score.map_aligned =
+      score_map(run.last.landmarks, log.landmarks, align_map(run.last.landmarks, log.landmarks));
   score.normalised_errors = normalised_errors(run, log);
   return score;
 }

@@ -19,7 +19,7 @@ struct FilterScore {
   TrajectoryScore trajectory;
   double ate_aligned_at_sightings_rms_m = 0.0;           ///< aligned and scored only where something was seen
   MapScore map;                                          ///< in the world frame, as estimated
-  MapScore map_aligned;                                  ///< after the path's alignment
+  MapScore map_aligned;                                  ///< after its own best alignment
   std::vector<std::optional<double>> normalised_errors;  ///< NEES / rank, one per step
 };
 

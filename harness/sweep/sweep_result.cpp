@@ -68,7 +68,7 @@ SweepCell assemble_cell(const std::string& name, const std::string& backend, con
 }
 
 std::string sweep_table(const SweepResult& sweep) {
-  TextTable table;
+  AlignedTable table;
   for (const Variation& variation : sweep.variations) table.header.push_back(variation.key);
   table.header.insert(table.header.end(), {"recall", "range rms [mm]", "bearing rms [mrad]"});
   for (const FilterResult& filter : sweep.cells.front().result.filters)

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"BadName", "name: tiny", "name: ../tiny", "name"},
         BadScenario{"NotYaml", "particles: 5", "particles: [5", "tiny.yaml:"},
         BadScenario{"UnknownFilter", "seeds: 0..1", "filters: [kalmann]", "filters[0]"}),
-    [](const auto& info) { return info.param.kind; });
+    [](const auto& test) { return test.param.kind; });
 
 struct BadCall {
   std::string kind;
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"VaryBadValueInTheLastCell",
                 {"sweep", "{scenario}", "--vary", "path.laps=1,0.5,x", "--out", "{out}"},
                 "path.laps"}),
-    [](const auto& info) { return info.param.kind; });
+    [](const auto& test) { return test.param.kind; });
 
 struct BadLog {
   std::string kind;
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
                "observations.csv:2"},
         BadLog{"LandmarkOfAFraction", "observations.csv",
                "t_s,landmark_id,range_m,bearing_rad\n0.5,1.5,2,0.1\n", "observations.csv:2"}),
-    [](const auto& info) { return info.param.kind; });
+    [](const auto& test) { return test.param.kind; });
 
 /// Runs the program with files limited to `bytes`, as a disk that is full would.
 Outcome run_on_full_disk(const std::vector<std::string>& arguments, rlim_t bytes) {

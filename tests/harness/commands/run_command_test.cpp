@@ -87,7 +87,7 @@ TEST(RunCommand, DrawsAFewFramesWithDetections) {
   run_stereobench(with(kShortDrive, {"--out", scratch.path().string()}));
   std::size_t frames = 0;
   for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "frames"))
-    frames += entry.path().extension() == ".png" ? 1 : 0;
+    frames += entry.path().extension() == ".png" ? 1U : 0U;
   EXPECT_GE(frames, 3u);
 }
 

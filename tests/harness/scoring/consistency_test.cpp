@@ -53,7 +53,8 @@ TEST(NormalisedError, CountsTheDegreesOfFreedomThatThereAre) {
   EXPECT_NEAR((mean_over_draws<1>(kRoot.rightCols<1>())), 1.0, 0.05);
 }
 
-// Full rank in metres and in units of 10 km; mutation: a rank tolerance on P itself, whose units do not compare.
+// Full rank in metres and in units of 10 km; mutation: a rank tolerance on P itself, whose units do not
+// compare.
 TEST(NormalisedError, DoesNotDependOnUnits) {
   slam::RandomStream random(3, slam::Stream::kWorld);
   for (int i = 0; i < 200; ++i) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/motion.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -54,12 +56,25 @@ TEST(LandmarkMap, TheLimitItselfStillBelongs) {
 }
 
 // Mutations: applying the inverse of the alignment, a wrong sign in its rotation.
-TEST(LandmarkMap, IsMovedByThePathsAlignmentFirst) {
+TEST(LandmarkMap, IsMovedByTheAlignmentFirst) {
   const slam::Pose truth_from_estimate{11.0, -2.0, M_PI / 2.0};
   // Turned by a quarter to the left and shifted, (3, 1) comes to (10, 1), landmark 2.
   const std::vector<slam::LandmarkEstimate> map = {estimate(slam::kUnknown, 6, 3.0, 1.0)};
   EXPECT_EQ(score_map(map, kTruth).spurious, 1);
   EXPECT_NEAR(score_map(map, kTruth, truth_from_estimate).rms_m, 0.0, 1e-15);
+}
+
+// Mutations: aligning estimates with landmarks of another identity, or the truth with the estimates.
+TEST(LandmarkMap, AlignmentUndoesAnyMotionOfTheWholeMap) {
+  const slam::Pose moved_from_truth{0.7, -0.4, 2.5};
+  std::vector<slam::LandmarkEstimate> map;
+  for (const LandmarkTruth& landmark : kTruth) {
+    const slam::Pose place =
+        slam::compose(moved_from_truth, {landmark.position_m.x(), landmark.position_m.y(), 0.0});
+    map.push_back(estimate(landmark.landmark_id, landmark.colour_class, place.x_m, place.y_m));
+  }
+  EXPECT_GT(score_map(map, kTruth).rms_m, 0.5);
+  EXPECT_NEAR(score_map(map, kTruth, align_map(map, kTruth)).rms_m, 0.0, 1e-12);
 }
 
 TEST(LandmarkMap, AnEmptyMapMissesAllAndAnEmptyTruthOwnsNothing) {
