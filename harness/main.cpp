@@ -1,6 +1,7 @@
 /// stereobench: an offscreen-rendered stereo simulation testbench. See README.md.
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,6 +27,9 @@ int run_program(int argc, char** argv) {
   add_slam_command(program, action);
   add_sweep_command(program, action);
   add_doctor_command(program, action);
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty())
+    throw std::runtime_error(fmt::format("no command is called '{}'; see --help", argv[1]));
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {

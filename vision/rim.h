@@ -46,10 +46,10 @@ struct UnmixSettings {
 };
 
 /// Samples both colours of each arc and prepares the unmixing I = alpha ball + (1 - alpha) background.
-/// The ball's brightness at the very rim is known from further inside only to some 12 % (Lambert shading changes
-/// fastest there), so differences along the ball's own colour count for little. Neither do differences along
-/// which the background's texture varies, which is brightness more than chromaticity. The background is
-/// extrapolated to the rim where it changes steadily.
+/// The ball's brightness at the very rim is known from further inside only to some 12 % (Lambert shading
+/// changes fastest there), so differences along the ball's own colour count for little. Neither do
+/// differences along which the background's texture varies, which is brightness more than chromaticity. The
+/// background is extrapolated to the rim where it changes steadily.
 std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
 
 /// The shades of a ball's colour: what lies near the line from black through it.

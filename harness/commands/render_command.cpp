@@ -64,7 +64,9 @@ void add_render_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<RenderArguments>();
   command->add_option("scenario", arguments->scenario, "scenario file (YAML)")->required();
   add_set_option(*command, arguments->overrides);
-  command->add_option("--seed", arguments->seed, "of the world and the noise")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of the world and the noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--out,-o", arguments->out, "folder for the data set (default: out/<name>_dataset)");
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "

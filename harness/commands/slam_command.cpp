@@ -21,6 +21,11 @@ struct SlamArguments {
   slam::FilterConfig config;
 };
 
+/// What is assumed of a log's odometry unless the command line says otherwise: slip of a small robot over a
+/// second, as measured on UTIAS MRCLAM set 7 against its ground truth (docs/results.md).
+constexpr slam::OdometryNoise kUsualOdometry = {
+    .v_constant_mps = 0.013, .w_constant_radps = 0.04, .correlation_s = 1.0};
+
 /// The name of the results: the log's folder, e.g. "robot2".
 std::string name_of(const std::filesystem::path& log) {
   const std::filesystem::path absolute = std::filesystem::absolute(log).lexically_normal();
@@ -68,21 +73,23 @@ int run_slam(SlamArguments arguments) {
 
 void add_noise_options(CLI::App& command, SlamArguments& arguments) {
   slam::OdometryNoise& noise = arguments.config.odometry_noise;
-  const auto add = [&](const char* name, double& value, const char* text) {
+  const auto add = [&](const char* name, double& value, double least, const char* text) {
     command.add_option(name, value, text)
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(CLI::Range(least, 1e6))
         ->capture_default_str()
         ->group("Noise (standard deviations)");
   };
-  add("--range-sd-m", arguments.sensor.range_sd_m, "of a range, for logs without covariances");
-  add("--bearing-sd-rad", arguments.sensor.bearing_sd_rad, "of a bearing, for logs without covariances");
-  add("--v-constant-mps", noise.v_constant_mps, "of the forward speed, constant part");
-  add("--v-per-v", noise.v_per_v, "of the forward speed, per m/s");
-  add("--v-per-w", noise.v_per_w, "of the forward speed, per rad/s");
-  add("--w-constant-radps", noise.w_constant_radps, "of the turn rate, constant part");
-  add("--w-per-v", noise.w_per_v, "of the turn rate, per m/s");
-  add("--w-per-w", noise.w_per_w, "of the turn rate, per rad/s");
-  add("--correlation-s", noise.correlation_s, "how long an odometry error lasts (slip outlives fast readings)");
+  add("--range-sd-m", arguments.sensor.range_sd_m, 1e-9, "of a range, for logs without covariances");
+  add("--bearing-sd-rad", arguments.sensor.bearing_sd_rad, 1e-9,
+      "of a bearing, for logs without covariances");
+  add("--v-constant-mps", noise.v_constant_mps, 0.0, "of the forward speed, constant part");
+  add("--v-per-v", noise.v_per_v, 0.0, "of the forward speed, per m/s");
+  add("--v-per-w", noise.v_per_w, 0.0, "of the forward speed, per rad/s");
+  add("--w-constant-radps", noise.w_constant_radps, 0.0, "of the turn rate, constant part");
+  add("--w-per-v", noise.w_per_v, 0.0, "of the turn rate, per m/s");
+  add("--w-per-w", noise.w_per_w, 0.0, "of the turn rate, per rad/s");
+  add("--correlation-s", noise.correlation_s, 0.0,
+      "how long an odometry error lasts (slip outlives fast readings)");
 }
 
 }  // namespace
@@ -91,6 +98,7 @@ void add_slam_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("slam", "run the filters on a recorded log, score them against its truth");
   auto arguments = std::make_shared<SlamArguments>();
+  arguments->config.odometry_noise = kUsualOdometry;
   command
       ->add_option("log", arguments->log,
                    "folder of a measurement log (odometry.csv, observations.csv, ...) or of UTIAS MRCLAM "

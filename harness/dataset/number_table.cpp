@@ -33,6 +33,10 @@ std::string excerpt(std::string_view text) {
   return excerpted + (text.size() > kMaxQuoted ? "...'" : "'");
 }
 
+[[noreturn]] void fail_at(const fs::path& file, long line, std::string_view what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, what));
+}
+
 [[noreturn]] void fail(const fs::path& file, std::string_view what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
@@ -95,8 +99,9 @@ std::vector<std::string> split_at_blanks(std::string_view line) {
 
 void append_row(NumberTable& table, long line, std::vector<std::string> cells) {
   if (cells.size() != table.columns.size()) {
-    fail(table.file, fmt::format("{}: expected {} fields ({}), found {}", line, table.columns.size(),
-                                 fmt::join(table.columns, ", "), cells.size()));
+    fail_at(table.file, line,
+            fmt::format("expected {} fields ({}), found {}", table.columns.size(),
+                        fmt::join(table.columns, ", "), cells.size()));
   }
   table.rows.push_back({line, std::move(cells)});
 }
@@ -149,9 +154,9 @@ NumberTable read_csv_table(const fs::path& file, const std::vector<std::string>&
   const std::string text = read_all(file);
   const std::vector<std::string_view> lines = split_lines(text);
   const std::string expected = fmt::format("expected the header '{}'", fmt::join(headers, "' or '"));
-  if (lines.empty()) fail(file, "1: the file is empty, " + expected);
+  if (lines.empty()) fail_at(file, 1, "the file is empty, " + expected);
   if (std::find(headers.begin(), headers.end(), lines[0]) == headers.end()) {
-    fail(file, fmt::format("1: {}, found {}", expected, excerpt(lines[0])));
+    fail_at(file, 1, fmt::format("{}, found {}", expected, excerpt(lines[0])));
   }
   NumberTable table{file, split_at_commas(lines[0]), {}};
   table.rows.reserve(lines.size() - 1);
@@ -197,8 +202,8 @@ std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::siz
 }
 
 void refuse(const NumberTable& table, const TableRow& row, std::size_t column, std::string_view expectation) {
-  fail(table.file, fmt::format("{}: {}: {}, found {}", row.line, table.columns[column], expectation,
-                               excerpt(row.cells[column])));
+  fail_at(table.file, row.line,
+          fmt::format("{}: {}, found {}", table.columns[column], expectation, excerpt(row.cells[column])));
 }
 
 }  // namespace stereobench::harness

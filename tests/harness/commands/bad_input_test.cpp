@@ -58,6 +58,10 @@ void expect_bad_input(const Outcome& outcome, const std::string& message) {
   EXPECT_THAT(outcome.err, HasSubstr(message));
 }
 
+void PrintTo(const BadScenario& bad, std::ostream* out) {
+  *out << bad.kind;
+}
+
 class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
 
 TEST_P(BadScenarioTest, IsOneLineThatNamesFileLineAndKey) {
@@ -116,6 +120,10 @@ struct BadCall {
   std::string message;
 };
 
+void PrintTo(const BadCall& bad, std::ostream* out) {
+  *out << bad.kind;
+}
+
 class BadCallTest : public testing::TestWithParam<BadCall> {};
 
 TEST_P(BadCallTest, IsOneLineThatSaysWhatWasExpected) {
@@ -141,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoScenario", {"run"}, "scenario"},
         BadCall{"MissingScenario", {"run", "{scratch}/none.yaml"}, "none.yaml"},
         BadCall{"EmptyScenario", {"run", "{scratch}/empty.yaml"}, "empty.yaml"},
-        BadCall{"FolderForScenario", {"run", "{scratch}"}, "scratch"},
+        BadCall{"FolderForScenario", {"run", "{scratch}"}, "got a folder"},
         BadCall{"UnknownOption", {"run", "{scenario}", "--fast"}, "--fast"},
         BadCall{"UnknownFilter", {"run", "{scenario}", "--filters", "kalman"}, "kalman"},
         BadCall{"EmptyFilter", {"run", "{scenario}", "--filters", "ufastslam,"}, "--filters"},
@@ -191,6 +199,10 @@ struct BadLog {
   std::string content;
   std::string message;
 };
+
+void PrintTo(const BadLog& bad, std::ostream* out) {
+  *out << bad.kind;
+}
 
 class BadLogTest : public testing::TestWithParam<BadLog> {};
 

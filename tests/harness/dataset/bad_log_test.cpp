@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include <gmock/gmock.h>
 
 #include "harness/dataset/measurement_log_reader.h"
@@ -27,6 +29,12 @@ std::string message_of(const std::filesystem::path& path) {
   return "(it was read)";
 }
 
+/// "file:line: ..." when the message begins with a line, else "file: ...".
+std::string located(const BadLog& bad) {
+  const bool has_line = std::isdigit(static_cast<unsigned char>(bad.message[0])) != 0;
+  return std::string(bad.file) + (has_line ? ":" : ": ") + bad.message;
+}
+
 class BadCsvLog : public testing::TestWithParam<BadLog> {};
 class BadMrclamLog : public testing::TestWithParam<BadLog> {};
 
@@ -36,7 +44,7 @@ TEST_P(BadCsvLog, IsRefusedByFileLineAndColumn) {
   write_small_csv_log(folder);
   folder.write(std::string("log/") + GetParam().file, GetParam().text);
   const std::string message = message_of(folder.path() / "log");
-  EXPECT_THAT(message, testing::HasSubstr(std::string(GetParam().file) + ": " + GetParam().message));
+  EXPECT_THAT(message, testing::HasSubstr(located(GetParam())));
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
@@ -45,7 +53,7 @@ TEST_P(BadMrclamLog, IsRefusedByFileLineAndColumn) {
   write_small_mrclam_log(folder);
   folder.write(std::string("log/") + GetParam().file, GetParam().text);
   const std::string message = message_of(folder.path() / "log");
-  EXPECT_THAT(message, testing::HasSubstr(std::string(GetParam().file) + ": " + GetParam().message));
+  EXPECT_THAT(message, testing::HasSubstr(located(GetParam())));
 }
 
 const char* const kObs = "observations.csv";
@@ -212,7 +220,7 @@ TEST(BadLogFolder, ASightingOutsideTheStatedInstantsIsNamed) {
   EXPECT_EQ(message_of(folder.path() / "log"), "(it was read)");
   folder.write("log/instants.csv", "t_s\n0.5\n1.4989\n");
   EXPECT_THAT(message_of(folder.path() / "log"),
-              testing::HasSubstr("observations.csv: 3: t_s: expected one of the times of instants.csv"));
+              testing::HasSubstr("observations.csv:3: t_s: expected one of the times of instants.csv"));
 }
 
 TEST(BadLogNoise, MustBePositive) {
