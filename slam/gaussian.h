@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
+
+#include "slam/random.h"
 
 namespace stereobench::slam {
 
@@ -95,6 +98,14 @@ class Factor2 {
 /// The quantile of the chi-square distribution with two degrees of freedom, -2 log(1 - p).
 inline double chi_square_2_quantile(double probability) {
   return -2.0 * std::log1p(-probability);
+}
+
+/// The same for any number of degrees of freedom, by Wilson and Hilferty's cube: within 2 % from two on.
+inline double chi_square_quantile(double probability, double degrees_of_freedom) {
+  if (!(probability < 1.0)) return std::numeric_limits<double>::infinity();
+  const double spread = 2.0 / (9.0 * degrees_of_freedom);
+  const double root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);
+  return degrees_of_freedom * root * root * root;
 }
 
 }  // namespace stereobench::slam

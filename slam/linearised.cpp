@@ -1,6 +1,5 @@
 #include "slam/linearised.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "slam/gaussian.h"
@@ -8,24 +7,6 @@
 #include "slam/motion.h"
 
 namespace stereobench::slam {
-namespace {
-
-/// d(range, bearing) / d(landmark x, y). From the landmark's own place the bearing has no slope: the range is
-/// taken as at least a millimetre, and the direction as zero when there is none.
-Eigen::Matrix2d landmark_jacobian(const Pose& robot, const Eigen::Vector2d& point) {
-  constexpr double kNearest_m = 1e-3;
-  const double dx = point.x() - robot.x_m;
-  const double dy = point.y() - robot.y_m;
-  const double range = std::max(std::sqrt(dx * dx + dy * dy), kNearest_m);
-  const double c = dx / range;
-  const double s = dy / range;
-  Eigen::Matrix2d slope;
-  slope << c, s, -s / range, c / range;
-  return slope;
-}
-
-}  // namespace
-
 PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
                             const Eigen::Vector2d& control_sd, long&) const {
   const PoseBelief moved{advance(belief.mean, control), belief.covariance};
@@ -53,7 +34,7 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
 
 Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
                               const Eigen::Matrix2d& noise, long&) const {
-  const Eigen::Matrix2d by_landmark = landmark_jacobian(belief.mean, landmark.mean);
+  const Eigen::Matrix2d by_landmark = sighting_by_landmark(belief.mean, landmark.mean);
   Eigen::Matrix<double, 2, 3> by_pose;
   by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
   Innovation innovation;
@@ -66,7 +47,7 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
 
 LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
                                   const Observation& observation, long& repairs) const {
-  const Eigen::Matrix2d slope = landmark_jacobian(robot, landmark.mean);
+  const Eigen::Matrix2d slope = sighting_by_landmark(robot, landmark.mean);
   const Eigen::Matrix2d cross = landmark.covariance * slope.transpose();
   const Factor2 factor(slope * cross + observation.noise, repairs);
   const Eigen::Matrix2d gain = factor.divide<2>(cross);

@@ -1,6 +1,7 @@
 /// How a landmark is seen: range and bearing of a point from a pose, and back.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -26,6 +27,20 @@ inline Eigen::Vector2d locate(const Pose& robot, const Eigen::Vector2d& range_be
   const double direction_rad = robot.heading_rad + range_bearing.y();
   return {robot.x_m + range_bearing.x() * std::cos(direction_rad),
           robot.y_m + range_bearing.x() * std::sin(direction_rad)};
+}
+
+/// d(range, bearing) / d(landmark x, y). From the landmark's own place the bearing has no slope: the range is
+/// taken as at least a millimetre, and the direction as zero when there is none.
+inline Eigen::Matrix2d sighting_by_landmark(const Pose& robot, const Eigen::Vector2d& point) {
+  constexpr double kNearest_m = 1e-3;
+  const double dx = point.x() - robot.x_m;
+  const double dy = point.y() - robot.y_m;
+  const double range = std::max(std::sqrt(dx * dx + dy * dy), kNearest_m);
+  const double c = dx / range;
+  const double s = dy / range;
+  Eigen::Matrix2d slope;
+  slope << c, s, -s / range, c / range;
+  return slope;
 }
 
 /// The difference a - b of two sightings: the bearing is wrapped, the range is not.

@@ -10,7 +10,9 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kPatience = 5;   ///< contradictions in a row before they are taken seriously
+constexpr int kPatience = 5;  ///< contradictions in a row before they are taken seriously
+constexpr double kSlip =
+    3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
 constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
 
 bool is_finite(const Posterior& posterior) {
@@ -25,6 +27,14 @@ Eigen::Matrix3d drift_covariance(const PoseBelief& belief, const LandmarkBelief&
   constexpr double kHeadingPerMetre_rad = 0.1;
   const double off_m2 = (locate(belief.mean, observation.range_bearing) - landmark.mean).squaredNorm();
   return Eigen::Vector3d(off_m2, off_m2, kHeadingPerMetre_rad * kHeadingPerMetre_rad * off_m2).asDiagonal();
+}
+
+/// What a prediction of first order leaves out: an error of the heading turns an error of the way. Twice of
+/// it, for the tails.
+Eigen::Matrix3d bend_covariance(const PoseBelief& belief) {
+  const Eigen::Matrix3d& p = belief.covariance;
+  const double bend_m2 = p(2, 2) * (p(0, 0) + p(1, 1));
+  return Eigen::Vector3d(bend_m2, bend_m2, 0.0).asDiagonal();
 }
 
 /// A sighting's surprise, measured by what was expected.
@@ -58,6 +68,7 @@ void apply(const Surprise& surprise, Posterior& posterior) {
 template <class Model>
 PoseCorrection<Model>::PoseCorrection(const FilterConfig& config)
     : model_(config.unscented),
+      gate_probability_(config.gate_probability),
       gate_(chi_square_2_quantile(config.gate_probability)),
       near_m_(0.5 * config.colour_spacing_m) {}
 
@@ -68,9 +79,21 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   associate(particle, predicted, frame, targets, counters);
   order_by_age(targets);
   Posterior posterior{predicted};
+  const long gated_before = counters.gated_measurements;
   for (const std::size_t k : order_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
     targets[k].fate = use(landmark, frame[k], posterior, counters);
+  }
+  if (counters.gated_measurements > gated_before) {
+    matches_.clear();
+    for (const std::size_t k : order_)
+      matches_.push_back({landmark_of(particle, frame[k], targets[k]).belief, frame[k].observation});
+    const auto joint = reconsider(predicted, posterior, counters.covariance_repairs);
+    if (joint) {
+      posterior = *joint;
+      counters.gated_measurements = gated_before;
+      for (const std::size_t k : order_) targets[k].fate = Fate::kUse;
+    }
   }
   if (is_finite(posterior)) return posterior;
   ++counters.covariance_repairs;
@@ -108,6 +131,23 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
     if (gated && !((place - landmark.belief.mean).norm() < near_m_)) continue;
     candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
   }
+}
+
+/// @param refusing the posterior that refuses some of the matches
+/// @return the posterior of all matches at once, when one pose explains them better than refusing does
+template <class Model>
+std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& predicted,
+                                                           const Posterior& refusing, long& repairs) const {
+  const double limit = chi_square_quantile(gate_probability_, 2.0 * static_cast<double>(matches_.size()));
+  const Eigen::Matrix3d covariance = predicted.covariance + bend_covariance(predicted);
+  const FrameFit bent = fit_frame({predicted.mean, covariance}, matches_, repairs);
+  if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
+  if (matches_.size() < 2) return std::nullopt;  // nobody else says so
+  FrameFit slipped = fit_frame({predicted.mean, kSlip * kSlip * covariance}, matches_, repairs);
+  slipped.posterior.log_likelihood += std::log1p(-gate_probability_);  // so rarely is the odometry that wrong
+  if (!(slipped.prior_cost + slipped.sighting_cost <= limit)) return std::nullopt;
+  if (!(slipped.posterior.log_likelihood > refusing.log_likelihood)) return std::nullopt;
+  return slipped.posterior;
 }
 
 template <class Model>

@@ -1,11 +1,13 @@
 /// What one particle makes of one frame: which landmarks it saw, and where that puts it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "slam/association.h"
 #include "slam/filter_config.h"
+#include "slam/frame_fit.h"
 #include "slam/linearised.h"
 #include "slam/particle.h"
 #include "slam/unscented.h"
@@ -18,15 +20,20 @@ namespace stereobench::slam {
 /// is multiplied by N(innovation; 0, S) with S from before the landmark is used; never from the updated
 /// covariance.
 ///
-/// **Contradictions.** A sighting beyond the gate is refused: it moves nothing, and costs the particle the
-/// likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that. A landmark
-/// that is contradicted kPatience times in a row is no outlier: either the pose or the landmark is wrong.
-/// When an older landmark has vouched for the pose in this frame, or the landmark itself was seen rarely, the
-/// landmark is found anew. Otherwise the pose has drifted, as at the end of a loop, and the filter was too
-/// sure of it: the covariance grows by the smallest drift that explains the sighting, and the sighting is
-/// used. Its likelihood falls with the square of that drift, so that particles which close the loop best live
-/// on. Where the spacing of colours is known a single sighting settles whose it is, and no patience is
-/// needed.
+/// **Second look.** When a sighting falls beyond the gate, the frame is looked at as a whole (fit_frame).
+/// After coarse odometry a precise sensor may be refused for what first order leaves out, and that is
+/// granted. And when two or more landmarks agree on one pose, it is the odometry that is wrong: outliers do
+/// not agree with each other.
+///
+/// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
+/// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
+/// A landmark that is contradicted kPatience times in a row is no outlier: either the pose or the landmark is
+/// wrong. When an older landmark has vouched for the pose in this frame, or the landmark itself was seen
+/// rarely, the landmark is found anew. Otherwise the pose has drifted, as at the end of a loop, and the
+/// filter was too sure of it: the covariance grows by the smallest drift that explains the sighting, and the
+/// sighting is used. Its likelihood falls with the square of that drift, so that particles which close the
+/// loop best live on. Where the spacing of colours is known a single sighting settles whose it is, and no
+/// patience is needed.
 template <class Model>
 class PoseCorrection {
  public:
@@ -44,16 +51,20 @@ class PoseCorrection {
                  std::span<Target> targets, FilterCounters& counters);
   void find_candidates(const Particle& particle, const PoseBelief& predicted, const Sighting& sighting,
                        int index, FilterCounters& counters);
+  std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
+                                      long& repairs) const;
   void order_by_age(std::span<const Target> targets);
   Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
            FilterCounters& counters) const;
   Fate judge(const Landmark& landmark, const Sighting& sighting, const Posterior& posterior) const;
 
   Model model_;
+  double gate_probability_;
   double gate_;
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
+  std::vector<Match> matches_;
 };
 
 extern template class PoseCorrection<Linearised>;

@@ -10,7 +10,7 @@ namespace stereobench::harness {
 /// What the reader tells the filters of a sensor whose log carries no covariances.
 struct SensorNoise {
   double range_sd_m = 0.17;
-  double bearing_sd_rad = 0.015;
+  double bearing_sd_rad = 0.0125;
 };
 
 /// A log together with what was left out of it on purpose.
