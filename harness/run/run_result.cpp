@@ -143,7 +143,7 @@ nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
 }
 
 std::string result_table(const RunResult& result) {
-  AlignedTable table{.header = {"filter", "particles", "ATE rms [m]", "ATE max [m]", "aligned [m]",
+  AlignedTable table{.header = {"filter", "particles", "ATE rms [m]", "worst seed [m]", "aligned [m]",
                                 "heading [deg]", "landmarks [m]", "ANEES", "failures"}};
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   for (const FilterResult& filter : result.filters) {

@@ -31,7 +31,7 @@ FilterRun replay(const MeasurementLog& log, const std::string& filter, const sla
                  std::uint64_t seed) {
   FilterRun run;
   run.filter = filter;
-  run.particles = config.particles;
+  run.particles = filter == "dead_reckoning" ? 1 : config.particles;
   run.seed = seed;
   slam::Filter state = slam::make_filter(filter, config, log.start, seed);
   try {
