@@ -1,0 +1,99 @@
+#include "harness/dataset/rendered_dataset.h"
+
+#include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+
+#include "slam/random.h"
+#include "tests/harness/dataset/log_folder.h"
+#include "vision/palette.h"
+#include "vision/rig.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const vision::StereoRig kRig{{320, 240, 300.0, 150.0, 125.0}, 0.12, 0.5, 0.3};
+
+cv::Mat matrix_of(const vision::StereoRig& rig, const std::string& key) {
+  const cv::FileStorage file(calibration_yaml(rig), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  return file[key].mat();
+}
+
+Eigen::Vector2d projected(const cv::Mat& projection, const Eigen::Vector3d& point) {
+  const cv::Mat pixel = projection * cv::Mat(cv::Vec4d(point.x(), point.y(), point.z(), 1.0));
+  return Eigen::Vector2d(pixel.at<double>(0), pixel.at<double>(1)) / pixel.at<double>(2);
+}
+
+// Property: P1 and P2 take points of the left camera's frame to the pixels at which the rig's eyes have them.
+TEST(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
+  const cv::Mat p1 = matrix_of(kRig, "P1");
+  const cv::Mat p2 = matrix_of(kRig, "P2");
+  slam::RandomStream random(4, slam::Stream::kWorld);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d point(random.normal(), random.normal(), 1.0 + 4.0 * random.uniform());
+    const Eigen::Vector2d left = vision::project(kRig.camera, point);
+    const Eigen::Vector2d right =
+        vision::project(kRig.camera, vision::point_in_eye(kRig, point, vision::Eye::kRight));
+    EXPECT_LT((projected(p1, point) - left).norm(), 1e-9);
+    EXPECT_LT((projected(p2, point) - right).norm(), 1e-9);
+  }
+  EXPECT_LT(p2.at<double>(0, 3), 0.0);  // as OpenCV has it: -f B
+}
+
+TEST(Calibration, HasTheEyesABaselineApart) {
+  const cv::Mat left = matrix_of(kRig, "robot_from_left_camera");
+  const cv::Mat right = matrix_of(kRig, "robot_from_right_camera");
+  EXPECT_NEAR(left.at<double>(1, 3) - right.at<double>(1, 3), kRig.baseline_m, 1e-12);  // y is left
+  EXPECT_NEAR(left.at<double>(2, 3), kRig.height_m, 1e-12);
+  EXPECT_EQ(cv::norm(matrix_of(kRig, "D")), 0.0);
+  EXPECT_EQ(matrix_of(kRig, "K").size(), cv::Size(3, 3));
+}
+
+TEST(BallsCsv, NamesEachBallByItsPlaceInTheWorld) {
+  worlds::World world;
+  world.balls = {{{1.5, -2.0, 0.3}, 0.05, 4}, {{0.1, 0.2, 0.25}, 0.125, 0}};
+  const auto rgb = vision::kPalette[4];
+  EXPECT_THAT(balls_csv(world), HasSubstr("\n0,4," + std::to_string(rgb.r) + "," + std::to_string(rgb.g) +
+                                          "," + std::to_string(rgb.b) + ",1.5,-2,0.3,0.05\n1,0,"));
+  EXPECT_THAT(balls_csv(world), testing::EndsWith(",0.1,0.2,0.25,0.125\n"));
+}
+
+const MeasurementLog kOneStep{.start = {}, .steps = {{.truth = slam::Pose{}}}, .landmarks = {}};
+
+/// A look at a picture of one grey level.
+void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
+  const renderer::EyeFrame eye{cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(level)), cv::Mat(4, 6, CV_8UC1, level),
+                               cv::Mat(4, 6, CV_32FC1, cv::Scalar(level))};
+  dataset.write({step, {eye, eye}, {eye.colour, eye.colour}, {}});
+}
+
+TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
+  const TestFolder folder;
+  write_look(RenderedDataset(folder.path(), "one"), 0, 10);
+  const std::string left = folder.read("left/000000.png");
+  const std::string depth = folder.read("right_depth/000000.pfm");
+  ASSERT_FALSE(left.empty());
+  std::filesystem::remove(folder.path() / "right_depth/000000.pfm");
+  const RenderedDataset again(folder.path(), "one");
+  write_look(again, 0, 20);  // another picture, to see which one is kept
+  EXPECT_EQ(folder.read("left/000000.png"), left);
+  EXPECT_NE(folder.read("right_depth/000000.pfm"), depth);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
+  again.finish({}, kRig, kOneStep);
+  EXPECT_EQ(folder.read("dataset.json"), "one");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
+}
+
+TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
+  const TestFolder folder;
+  const RenderedDataset dataset(folder.path(), "one");
+  const auto take_up = [&] { RenderedDataset(folder.path(), "another"); };
+  EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
+  dataset.finish({}, kRig, kOneStep);
+  EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,85 @@
+#include "harness/regression/gates.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "slam/random.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using worlds::Gate;
+
+const Gate kAtMostHalf{"filters.ufastslam.ate_rms_m.mean", Gate::Relation::kAtMost, 0.5};
+
+Json result_with(const Json& mean) {
+  return {{"filters", {{"ufastslam", {{"ate_rms_m", {{"mean", mean}}}}}}}};
+}
+
+std::vector<BrokenGate> broken_by(const Json& mean, Gate::Relation relation, double limit) {
+  return broken_gates(result_with(mean), std::vector{Gate{kAtMostHalf.metric, relation, limit}});
+}
+
+// A value other than the limit keeps one of the two relations and breaks the other; the limit itself keeps
+// both.
+TEST(Gates, AValueOffTheLimitBreaksOneOfTheRelations) {
+  slam::RandomStream random(1, slam::Stream::kWorld);
+  for (int i = 0; i < 100; ++i) {
+    const double value = random.normal();
+    const double limit = random.normal();
+    EXPECT_EQ(broken_by(value, Gate::Relation::kAtMost, limit).size(), value > limit ? 1U : 0U);
+    EXPECT_EQ(broken_by(value, Gate::Relation::kAtLeast, limit).size(), value < limit ? 1U : 0U);
+    EXPECT_TRUE(broken_by(limit, Gate::Relation::kAtMost, limit).empty());
+    EXPECT_TRUE(broken_by(limit, Gate::Relation::kAtLeast, limit).empty());
+  }
+}
+
+TEST(Gates, ABrokenOneSaysWhatWasExpectedAndByHowMuchItIsMissed) {
+  const auto broken = broken_by(0.75, Gate::Relation::kAtMost, 0.5);
+  ASSERT_EQ(broken.size(), 1U);
+  EXPECT_EQ(broken[0].value, 0.75);
+  EXPECT_EQ(broken[0].message,
+            "filters.ufastslam.ate_rms_m.mean is 0.75, expected at most 0.5: off by 0.250");
+}
+
+// What could not be measured keeps no limit.
+TEST(Gates, AMetricWithoutValueIsBroken) {
+  for (const auto relation : {Gate::Relation::kAtMost, Gate::Relation::kAtLeast}) {
+    const auto broken = broken_by(nullptr, relation, 0.0);
+    ASSERT_EQ(broken.size(), 1U);
+    EXPECT_FALSE(broken[0].value);
+    EXPECT_THAT(broken[0].message, HasSubstr("has no value"));
+  }
+}
+
+TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
+  worlds::Scenario scenario;
+  scenario.gates = {
+      kAtMostHalf, {"vision.recall"}, {"filters.fastslam2.failures"}, {"filters.nobody.failures"}};
+  EXPECT_EQ(gates_of(scenario).size(), 4U);
+  scenario.filters = {"dead_reckoning", "fastslam2"};
+  const auto gates = gates_of(scenario);
+  ASSERT_EQ(gates.size(), 3U);
+  EXPECT_EQ(gates[0].metric, "vision.recall");
+  EXPECT_EQ(gates[1].metric, "filters.fastslam2.failures");
+  EXPECT_EQ(gates[2].metric, "filters.nobody.failures");  // a slip of the pen, for check_metrics to find
+}
+
+TEST(Gates, NameANumberOfTheResultBeforeAnythingIsRun) {
+  worlds::Scenario scenario;
+  const auto check = [&](const std::string& metric) { check_metrics(std::vector{Gate{metric}}, scenario); };
+  for (const char* metric : {"vision.recall", "vision.flagged", "filters.ufastslam.ate_rms_m.mean",
+                             "filters.dead_reckoning.landmarks.missed", "filters.fastslam2.failures"})
+    EXPECT_NO_THROW(check(metric)) << metric;
+  for (const char* metric : {"", "vision", "vision.", "vision.beauty", "vision.recall.mean", "scenario",
+                             "filters.nobody.failures", "filters.ufastslam.ate_rms_m"})
+    EXPECT_THAT([&] { check(metric); }, ThrowsMessage<std::runtime_error>(HasSubstr(metric)));
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,92 @@
+#include "harness/run/run_result.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace stereobench::harness {
+namespace {
+
+/// A drive along x of some steps; dead reckoning is `slip_m` beside it, the other filter a quarter of that.
+SeedDrive drive_of(std::uint64_t seed, std::size_t steps, double slip_m) {
+  SeedDrive drive{.seed = seed};
+  for (const char* filter : {"dead_reckoning", "ufastslam"})
+    drive.runs.push_back({.filter = filter, .particles = 5, .seed = seed});
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double x_m = static_cast<double>(k);
+    drive.recording.log.steps.push_back(
+        {.stamp_ns = static_cast<std::int64_t>(k) * 100, .truth = slam::Pose{x_m, 0.0, 0.0}});
+    for (FilterRun& run : drive.runs) {
+      run.poses.push_back({x_m, run.filter == "ufastslam" ? slip_m / 4.0 : slip_m, 0.0});
+      run.covariances.push_back(Eigen::Matrix3d::Identity());
+    }
+  }
+  return drive;
+}
+
+std::set<std::string> keys_of(const nlohmann::ordered_json& json) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  const RunResult result = assemble("name", "none", drives);
+  const auto json = run_json(result);
+  EXPECT_EQ(keys_of(json),
+            (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "vision", "filters"}));
+  EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
+  for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
+  EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
+}
+
+TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
+  const std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  const auto json = run_json(assemble("name", "none", drives));
+  EXPECT_EQ(json["seeds"], (std::vector<int>{3, 8}));
+  EXPECT_DOUBLE_EQ(json["filters"]["dead_reckoning"]["ate_rms_m"]["mean"], 0.6);
+  EXPECT_DOUBLE_EQ(json["filters"]["ufastslam"]["ate_rms_m"]["mean"], 0.15);
+  EXPECT_DOUBLE_EQ(json["filters"]["ufastslam"]["ate_over_dead_reckoning"], 0.25);
+  EXPECT_EQ(json["filters"]["ufastslam"]["failures"], 0);
+}
+
+// JSON knows neither NaN nor infinity; they must not become 0 either.
+TEST(RunResult, WhatHasNoValueIsNull) {
+  const auto json = run_json(assemble("name", "none", std::vector{drive_of(3, 4, 0.4)}));
+  EXPECT_TRUE(json["vision"]["recall"].is_null());
+  EXPECT_TRUE(json["filters"]["ufastslam"]["ate_rms_m"]["ci95_half_width"].is_null());  // of a single seed
+  EXPECT_TRUE(json["filters"]["ufastslam"]["landmark_rms_m"]["mean"].is_null());        // there is none
+}
+
+TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  drives[1].recording.log.steps[2].truth.reset();
+  drives[1].runs[1].poses.resize(1);  // failed at the second step
+  drives[1].runs[1].covariances.resize(1);
+  drives[1].runs[1].failed = true;
+  std::istringstream csv(steps_csv(assemble("name", "none", drives), drives));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(csv, line); ++lines)
+    EXPECT_EQ(std::ranges::count(line, ','), 12) << line;
+  EXPECT_EQ(lines, 1U + 4U + 4U + 6U + 1U);
+}
+
+TEST(RunResult, TimingIsSummedOverTheSeeds) {
+  std::vector<SeedDrive> drives = {drive_of(3, 1, 0.4), drive_of(8, 1, 0.8)};
+  for (SeedDrive& drive : drives) drive.recording.timing = {{"render", 1.5}};
+  EXPECT_EQ(timing_json(drives)["seconds"]["render"], 3.0);
+}
+
+TEST(RunResult, RefusesDrivesThatCannotBePutTogether) {
+  EXPECT_THROW(assemble("name", "none", {}), std::invalid_argument);
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  drives[1].runs.pop_back();
+  EXPECT_THROW(assemble("name", "none", drives), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,66 @@
+#include "harness/sweep/grid.h"
+
+#include <set>
+
+#include <gmock/gmock.h>
+
+namespace stereobench::harness {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(Grid, TheLastVariationMovesFastest) {
+  const std::vector<Variation> variations = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}};
+  EXPECT_THAT(grid(variations), ElementsAre(Cell{"1", "x"}, Cell{"1", "y"}, Cell{"1", "z"}, Cell{"2", "x"},
+                                            Cell{"2", "y"}, Cell{"2", "z"}));
+}
+
+// Each combination once, whatever the sizes: as many different cells as the product of the numbers of values.
+TEST(Grid, HasEachCombinationOnce) {
+  for (std::size_t first = 1; first <= 4; ++first)
+    for (std::size_t second = 1; second <= 4; ++second) {
+      std::vector<Variation> variations = {{"a", {}}, {"b", {}}, {"c", {"0", "1"}}};
+      for (std::size_t i = 0; i < first; ++i) variations[0].values.push_back(std::to_string(i));
+      for (std::size_t i = 0; i < second; ++i) variations[1].values.push_back(std::to_string(i));
+      const std::vector<Cell> cells = grid(variations);
+      EXPECT_EQ(cells.size(), 2 * first * second);
+      EXPECT_EQ(std::set<Cell>(cells.begin(), cells.end()).size(), cells.size());
+      for (const Cell& cell : cells) EXPECT_EQ(cell.size(), 3U);
+    }
+}
+
+TEST(Grid, OfNothingIsTheScenarioItself) {
+  EXPECT_THAT(grid({}), ElementsAre(Cell{}));
+}
+
+TEST(Grid, HasALimitAndEachKeyOnce) {
+  const std::vector<std::string> hundred(100, "1");
+  EXPECT_EQ(grid({{"a", hundred}, {"b", hundred}}).size(), 10'000U);
+  EXPECT_THROW(grid({{"a", hundred}, {"b", hundred}, {"c", {"1", "2"}}}), std::runtime_error);
+  EXPECT_THAT(([] {
+                grid({{"a", {"1"}}, {"a", {"2"}}});
+              }),
+              ThrowsMessage<std::runtime_error>(HasSubstr("a is varied twice")));
+}
+
+TEST(Grid, ACellOverridesEachKeyWithItsOwnValue) {
+  EXPECT_THAT(overrides_of({{"path.laps", {"1", "2"}}, {"particles", {"10"}}}, {"2", "10"}),
+              ElementsAre("path.laps=2", "particles=10"));
+}
+
+TEST(ParseVariation, KeepsValuesAsTheyWereWritten) {
+  const Variation variation = parse_variation("camera.noise_sd_levels=0,1.50,-2e1,x=y");
+  EXPECT_EQ(variation.key, "camera.noise_sd_levels");
+  EXPECT_THAT(variation.values, ElementsAre("0", "1.50", "-2e1", "x=y"));
+}
+
+TEST(ParseVariation, RefusesWhatIsEmptyOrRepeated) {
+  for (const char* text : {"", "key", "=1", "key=", "key=,1", "key=1,,2", "key=1,", "key=1,2,1"})
+    EXPECT_THAT([&] { parse_variation(text); }, ThrowsMessage<std::runtime_error>(HasSubstr("--vary")))
+        << text;
+}
+
+}  // namespace
+}  // namespace stereobench::harness
