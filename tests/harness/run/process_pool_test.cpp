@@ -62,14 +62,17 @@ TEST(ProcessPool, CrashOfATaskIsAnErrorThatNamesIt) {
                   testing::AllOf(testing::HasSubstr("signal 9"), testing::HasSubstr("task 5"))));
 }
 
-// Mutation: a pool that does not wait for its children leaves zombies, which waitpid finds.
-TEST(ProcessPool, LeavesNoChildBehind) {
+// Mutations: not waiting for the children leaves zombies, which waitpid finds; not killing them first lasts
+// until they wake up.
+TEST(ProcessPool, LeavesNoChildBehindAndWaitsForNoneThatIsAtWork) {
   const Task task = [](std::size_t index, const auto&) -> std::string {
     if (index == 0) throw std::runtime_error("stop");
-    std::this_thread::sleep_for(std::chrono::seconds(60));
+    std::this_thread::sleep_for(std::chrono::seconds(20));
     return "";
   };
-  EXPECT_THROW(run_in_processes(4, 1, task, kSilent), std::runtime_error);
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_THROW(run_in_processes(4, 3, task, kSilent), std::runtime_error);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
 }

@@ -1,0 +1,98 @@
+#include "harness/run/seed_drive.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/run/serialise.h"
+#include "slam/motion.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// A short drive through three balls that each seed moves a little, sensed without pixels.
+worlds::Scenario short_drive() {
+  worlds::Scenario scenario{.name = "short"};
+  scenario.world.balls = {{{2.0, 1.0, 0.3}, 0.1, 0}, {{3.0, -1.0, 0.3}, 0.1, 1}, {{4.0, 0.5, 0.3}, 0.1, 2}};
+  scenario.placement_jitter_m = 0.1;
+  scenario.sensor = worlds::SensorKind::kOracle;
+  scenario.odometry_noise = {.v_constant_mps = 0.05, .w_constant_radps = 0.05};
+  scenario.believed_odometry_noise = scenario.odometry_noise;
+  scenario.particles = 5;
+  slam::Pose pose{0.5, 0.0, 0.1};
+  for (int k = 0; k < 30; ++k) {
+    worlds::PathStep step{.stamp_ns = k * 500'000'000LL, .pose = pose};
+    if (k > 0) step.controls = {{0.2, 0.05, 0.5}};
+    for (const slam::Control& control : step.controls) step.pose = pose = slam::advance(pose, control);
+    scenario.path.push_back(step);
+  }
+  return scenario;
+}
+
+/// All that a drive gave but the time it took.
+std::string bytes_without_timing(SeedDrive drive) {
+  drive.recording.timing.clear();
+  return to_bytes(drive);
+}
+
+double largest_odometry_error_mps(const worlds::Scenario& scenario) {
+  const MeasurementLog log = record(scenario, 3, {}).log;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < log.steps.size(); ++k)
+    for (std::size_t i = 0; i < log.steps[k].odometry.size(); ++i)
+      largest =
+          std::max(largest, std::abs(log.steps[k].odometry[i].v_mps - scenario.path[k].controls[i].v_mps));
+  return largest;
+}
+
+TEST(Record, OdometryIsMeasuredAndTruthIsNot) {
+  worlds::Scenario scenario = short_drive();
+  EXPECT_GT(largest_odometry_error_mps(scenario), 0.02);
+  scenario.odometry_noise = {};
+  EXPECT_EQ(largest_odometry_error_mps(scenario), 0.0);
+  const MeasurementLog log = record(short_drive(), 3, {}).log;
+  ASSERT_EQ(log.steps.size(), scenario.path.size());
+  for (std::size_t k = 0; k < log.steps.size(); ++k) {
+    ASSERT_TRUE(log.steps[k].truth);
+    EXPECT_EQ(log.steps[k].truth->x_m, scenario.path[k].pose.x_m);
+    EXPECT_EQ(log.steps[k].stamp_ns, scenario.path[k].stamp_ns);
+    EXPECT_EQ(log.steps[k].odometry.size(), scenario.path[k].controls.size());
+  }
+}
+
+// What is varied in a sweep must not move the world or the odometry of a seed.
+TEST(Record, WorldAndOdometryOfASeedDoNotDependOnTheSensor) {
+  worlds::Scenario noisy = short_drive();
+  noisy.oracle.range_sd_m *= 3.0;
+  const MeasurementLog log = record(short_drive(), 3, {}).log;
+  const MeasurementLog other = record(noisy, 3, {}).log;
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(log.landmarks[i].position_m, other.landmarks[i].position_m);
+  for (std::size_t k = 1; k < log.steps.size(); ++k)
+    EXPECT_EQ(log.steps[k].odometry[0].v_mps, other.steps[k].odometry[0].v_mps);
+  EXPECT_NE(log.steps[0].measurements.at(0).range_m, other.steps[0].measurements.at(0).range_m);
+}
+
+TEST(Record, ProgressGrowsToOne) {
+  double last = 0.0;
+  record(short_drive(), 3, {.on_progress = [&](double done) {
+           EXPECT_GT(done, last);
+           last = done;
+         }});
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
+  const worlds::Scenario scenario = short_drive();
+  std::vector<DriveTask> tasks;
+  for (const std::uint64_t seed : {4U, 2U, 9U, 0U}) tasks.push_back({&scenario, seed, 0});
+  const auto one = drive_seeds(tasks, 1, "test");
+  ASSERT_EQ(one.size(), tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    EXPECT_EQ(one[i].seed, tasks[i].seed);
+    for (const FilterRun& run : one[i].runs) EXPECT_EQ(run.seed, tasks[i].seed) << run.filter;
+  }
+  const auto three = drive_seeds(tasks, 3, "test");
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    EXPECT_EQ(bytes_without_timing(one[i]), bytes_without_timing(three[i])) << "seed " << tasks[i].seed;
+}
+
+}  // namespace
+}  // namespace stereobench::harness
