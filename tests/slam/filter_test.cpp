@@ -251,8 +251,8 @@ TYPED_TEST(MappingFilter, PutsALandmarkSeenTwiceInAFrameIntoTheMapOnce) {
   EXPECT_EQ(estimate(filter).landmarks[0].landmark_id, 5);
 }
 
-// Ten per cent of the sightings are a metre too long. Catches a gate that lets them through or kills the
-// filter.
+// Ten per cent of the sightings are a metre and a half too long. Catches a gate that lets them through or
+// kills the filter.
 TYPED_TEST(MappingFilter, PassesOverOutliers) {
   const Drive world;
   FilterConfig config = config_for(world, 50);

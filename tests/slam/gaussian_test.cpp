@@ -122,5 +122,29 @@ TEST(ChiSquare, HasTheTabulatedQuantiles) {
   EXPECT_NEAR(chi_square_2_quantile(0.99), 9.210, 1e-3);
 }
 
+// The tail of chi-square has a closed form for an even number of degrees of freedom.
+double chi_square_tail(double x, int half_the_degrees_of_freedom) {
+  double term = std::exp(-0.5 * x);
+  double sum = 0.0;
+  for (int j = 0; j < half_the_degrees_of_freedom; ++j) {
+    sum += term;
+    term *= 0.5 * x / (j + 1);
+  }
+  return sum;
+}
+
+// Catches either term of Wilson and Hilferty's cube left out or halved.
+TEST(ChiSquare, QuantileOfManyDegreesLeavesTheTailItWasAskedFor) {
+  for (const int half : {1, 2, 3, 10, 18}) {
+    for (const double probability : {0.95, 0.99, 0.9999}) {
+      const double within = probability > 0.99 ? 0.05 : 0.02;
+      const double quantile = chi_square_quantile(probability, 2.0 * half);
+      EXPECT_GE(chi_square_tail((1.0 - within) * quantile, half), 1.0 - probability);
+      EXPECT_LE(chi_square_tail((1.0 + within) * quantile, half), 1.0 - probability);
+    }
+    EXPECT_TRUE(std::isinf(chi_square_quantile(1.0, 2.0 * half)));
+  }
+}
+
 }  // namespace
 }  // namespace stereobench::slam

@@ -95,6 +95,22 @@ TEST(StandardDeviations, AreSumsOfTheirPartsAndDoNotCareForSigns) {
   EXPECT_TRUE(near(standard_deviations({2.0, -3.0, 1.0}, noise), expected, 1e-15));
 }
 
+// A path spreads the same however finely its odometry is divided, as long as the parts are shorter than an
+// error lasts. Catches a correlation time that is not read, one without the root, and one that shrinks the
+// errors of long controls.
+TEST(StandardDeviations, SpreadAPathTheSameHoweverFinelyItIsDivided) {
+  OdometryNoise noise{0.01, 0.1, 0.2, 0.03, 0.3, 0.4};
+  const Eigen::Vector2d of_one_control = standard_deviations({2.0, 3.0, 1.0}, noise);
+  noise.correlation_s = 1.0;
+  for (const double parts : {1.0, 2.0, 10.0, 500.0}) {
+    const Eigen::Vector2d sd = standard_deviations({2.0, 3.0, 1.0 / parts}, noise);
+    EXPECT_TRUE(near(std::sqrt(parts) * (sd / parts), of_one_control, 1e-12)) << parts;
+  }
+  for (const double duration_s : {0.0, 1.0, 60.0}) {
+    EXPECT_TRUE(near(standard_deviations({2.0, 3.0, duration_s}, noise), of_one_control, 0.0)) << duration_s;
+  }
+}
+
 // Five standard errors. Catches variances used as deviations and one normal used twice.
 TEST(Perturb, HasTheDeviationsItWasAskedFor) {
   const OdometryNoise noise{0.2, 0.0, 0.0, 0.05, 0.0, 0.0};

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "slam/frame_fit.h"
 #include "tests/slam/checks.h"
 
 namespace stereobench::slam {
@@ -45,8 +46,8 @@ TYPED_TEST_SUITE(Corrections, BothModels);
 
 // The likelihood and posterior of a frame, from one joint Gaussian of all its sightings: another route to the
 // same numbers. Errata: eq. 35 (no determinant) and Table 1 (weight overwritten by each landmark); public
-// code takes the weight from the updated P. Each of these, and moments not redrawn after the first landmark
-// (eq. 24), shows here.
+// code takes the weight from the updated P. Each of these, moments not redrawn after the first landmark (eq.
+// 24), and the first landmark's Jacobian used for all, shows here.
 TYPED_TEST(Corrections, OneByOneIsTheSameAsAllAtOnce) {
   const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {5.0, 4.0}};
   std::vector<Sighting> frame;
@@ -79,8 +80,7 @@ TYPED_TEST(Corrections, OneByOneIsTheSameAsAllAtOnce) {
   EXPECT_TRUE(near(posterior.pose.covariance, covariance, 5e-6));
 }
 
-// Jacobians of the first landmark used for all, or sightings paired by position in the frame, would show
-// here.
+// Catches landmarks that are used in the order of the frame and not of their age.
 TYPED_TEST(Corrections, OrderInTheFrameDoesNotMatter) {
   this->know({3.0, 1.0});
   this->know({-2.0, 4.0});
@@ -105,14 +105,99 @@ TYPED_TEST(Corrections, SingularCovariancesAreNothingSpecial) {
   }
 }
 
+// Catches a refusal that is free, one that costs what the sighting would have, and a cost without the gate or
+// without the determinant.
 TYPED_TEST(Corrections, AnOutlierMovesNothingCostsTheGateAndIsCounted) {
   this->know({3.0, 1.0});
   const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
   EXPECT_TRUE(near(posterior.pose.mean, this->predicted_.mean, 0.0));
   EXPECT_EQ(this->counters_.gated_measurements, 1);
+  long repairs = 0;
+  const Eigen::Matrix2d noise = this->see({3.0, 1.0}, 0).observation.noise;
+  const Innovation expected =
+      TypeParam().expect(this->predicted_, this->particle_.known[0].belief, noise, repairs);
+  EXPECT_NEAR(posterior.log_likelihood,
+              std::log1p(-this->config_.gate_probability) -  // half the gate, by chi-square(2)
+                  0.5 * std::log((2.0 * M_PI * expected.covariance).determinant()),
+              1e-9);
   const Posterior farther = this->correct({this->see({3.0, 1.0}, 0, {2.0, 0.0})});
   EXPECT_NEAR(farther.log_likelihood, posterior.log_likelihood, 1e-9);  // no matter how far
+}
+
+// Seven deviations off: one landmark alone is refused, two that agree on a pose overrule the odometry, and
+// two that do not agree are both refused. Catches odometry that cannot slip or slips any distance, a frame
+// that is never looked at again, a slip that costs nothing, and sightings that are used and still counted as
+// refused.
+TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}};
+  for (const Eigen::Vector2d& place : places) {
+    this->know(place);
+    this->particle_.known.back().belief.covariance *= 1e-2;
+  }
+  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  std::vector<Sighting> frame;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d seen = predict_sighting(truth, places[static_cast<std::size_t>(i)]);
+    frame.push_back({{seen, 1e-6 * Eigen::Matrix2d::Identity()}, i, kUnknown});
+  }
+  this->correct({frame[0]});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_EQ(this->counters_.gated_measurements, 1);
+  const Posterior slipped = this->correct(frame);
+  EXPECT_TRUE(near(slipped.pose.mean, truth, 5e-3));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kUse);
+  EXPECT_EQ(this->counters_.gated_measurements, 1) << "a sighting that is used after all was not refused";
+  std::vector<Match> matches;
+  for (std::size_t i = 0; i < 2; ++i)
+    matches.push_back({this->particle_.known[i].belief, frame[i].observation});
+  long repairs = 0;
+  const PoseBelief poorer{this->predicted_.mean, 9.0 * this->predicted_.covariance};
+  EXPECT_NEAR(slipped.log_likelihood,
+              fit_frame(poorer, matches, repairs).posterior.log_likelihood +
+                  std::log1p(-this->config_.gate_probability),
+              0.05);
+  frame[1].observation.range_bearing.y() -= 0.14;
+  EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+}
+
+// One landmark is where it should be, and the pose would have to turn about it to please the other. That is
+// granted as far as chi-square(4) goes; beyond, one outlier is likelier than slip. Catches a limit of half
+// the degrees of freedom, and slip that is believed because it is possible.
+TYPED_TEST(Corrections, OneOutlierIsLikelierThanSlip) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  const Eigen::Vector2d pivot(3.0, 1.0);
+  const Eigen::Vector2d place(2.0, -2.0);
+  for (const Eigen::Vector2d& known : {pivot, place}) {
+    this->know(known);
+    this->particle_.known.back().belief.covariance *= 1e-2;
+  }
+  for (const double squared_deviations : {22.0, 49.0}) {
+    const double turn_rad = std::sqrt(squared_deviations * 1e-4 / (1.0 + pivot.squaredNorm()));
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(turn_rad) * pivot;
+    const Pose turned{pivot.x() - arm.x(), pivot.y() - arm.y(), this->predicted_.mean.heading_rad + turn_rad};
+    std::vector<Sighting> frame = {this->see(pivot, 0), this->see(place, 1)};
+    frame[1].observation.range_bearing = predict_sighting(turned, place);
+    for (Sighting& seen : frame) seen.observation.noise = 1e-6 * Eigen::Matrix2d::Identity();
+    this->correct(frame);
+    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+    EXPECT_EQ(this->targets_[1].fate, squared_deviations < 23.5 ? Fate::kUse : Fate::kRefuse);
+  }
+}
+
+// A heading that is uncertain by 40 degrees makes the way as long again in its uncertainty: a range five
+// deviations off is no outlier then. Catches a prediction taken at its first order.
+TYPED_TEST(Corrections, AnUncertainHeadingExcusesTheWay) {
+  this->know({3.0, 0.0});
+  this->predicted_ = {{0.0, 0.0, 0.0}, Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal()};
+  const Sighting seen = this->see({3.0, 0.0}, 0, {0.5, 0.0});
+  this->correct({seen});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  this->predicted_.covariance(2, 2) = 0.5;
+  this->correct({seen});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
 }
 
 TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
