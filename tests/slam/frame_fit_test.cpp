@@ -62,6 +62,9 @@ TEST(FrameFit, FindsAPoseThatBendsAway) {
   const FrameFit fit = fit_frame(predicted, frame_from(truth, kPrecise), repairs);
   EXPECT_LE(displacement(fit.posterior.pose.mean, truth).norm(), 5e-4);
   EXPECT_LE(fit.sighting_cost, 1.0);
+  const FrameFit at_truth = fit_frame({truth, predicted.covariance}, frame_from(truth, kPrecise), repairs);
+  const Eigen::Matrix3d covariance = at_truth.posterior.pose.covariance;
+  EXPECT_LE((fit.posterior.pose.covariance - covariance).norm(), 0.02 * covariance.norm());
   EXPECT_NEAR(fit.prior_cost, (0.12 * 0.12 + 0.05 * 0.05 + 0.25 * 0.25) / 0.01, 0.5);
 }
 
