@@ -129,8 +129,8 @@ TYPED_TEST(EveryFilter, IgnoresAndCountsWhatCannotBe) {
   EXPECT_EQ(estimate(clean).counters.rejected_inputs, 0);
 }
 
-// The covariance between updates is the odometry's. Against 20,000 drives; catches noise that is added per
-// metre or second in place of per control, and variances taken for deviations.
+// The covariance between updates is the odometry's. Against 20,000 drives; catches variances taken for
+// deviations when FastSLAM predicts, and a motion along the old heading.
 TYPED_TEST(EveryFilter, PredictsTheSpreadOfManyDrives) {
   FilterConfig config;
   config.odometry_noise = {0.05, 0.0, 0.0, 0.03, 0.0, 0.0};

@@ -85,8 +85,8 @@ TEST(Factor2, MendsASingularMatrixAndCounts) {
   EXPECT_EQ(repairs, 2);
 }
 
-// Errata: eq. 10 has a plus sign twice, eq. 14 the denominator n - lambda. With either the moments of a
-// linear map are wrong, for every alpha.
+// Errata: eq. 14 has the denominator n - lambda, with which the moments of a linear map are wrong unless
+// lambda is 0.
 TEST_P(GaussianLaws, UnscentedTransformIsExactForLinearMaps) {
   for (const double alpha : {0.002, 0.1, 1.0}) {
     const SigmaWeights<3> weights(UnscentedParameters{alpha, 2.0, 0.0});

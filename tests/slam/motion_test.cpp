@@ -24,7 +24,8 @@ class MotionLaws : public ::testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Motion, MotionLaws, ::testing::Range(0, 50));
 
-// Exact only for the true arc: catches the chord taken along the old heading, and an Euler step.
+// Exact only for the true arc: catches the chord taken along the old heading, an Euler
+// step, and a threshold that jumps.
 TEST_P(MotionLaws, HalfAStepPlusHalfAStepIsAStep) {
   const Pose start = any_pose(random_);
   const Control whole = any_control(random_);
@@ -44,7 +45,7 @@ TEST_P(MotionLaws, AdvanceIsEquation4WhereThatIsDefined) {
   EXPECT_TRUE(near(advance(p, u), printed, 1e-10));
 }
 
-// Errata: eq. 4 divides by w. Catches that division, and a threshold that jumps.
+// Errata: eq. 4 divides by w. Catches that division.
 TEST_P(MotionLaws, AdvanceIsSmoothThroughNoTurnAtAll) {
   const Pose start = any_pose(random_);
   const double v = random_.normal();
