@@ -13,6 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+// Mutation: dead reckoning not put first.
 TEST(ParseFilters, PutsDeadReckoningFirstAndKeepsTheOrderOfTheOthers) {
   EXPECT_THAT(parse_filters("ufastslam,fastslam2"), ElementsAre(kBaselineFilter, "ufastslam", "fastslam2"));
   EXPECT_THAT(parse_filters("fastslam2,ufastslam"), ElementsAre(kBaselineFilter, "fastslam2", "ufastslam"));
@@ -20,6 +21,7 @@ TEST(ParseFilters, PutsDeadReckoningFirstAndKeepsTheOrderOfTheOthers) {
 }
 
 // Law: whatever is asked for, each filter is run once, and dead reckoning always.
+// Mutation: not looking for those that are there already.
 TEST(ParseFilters, NamesEachFilterOnce) {
   for (const std::string& first : slam::filter_names())
     for (const std::string& second : slam::filter_names()) {
@@ -30,6 +32,7 @@ TEST(ParseFilters, NamesEachFilterOnce) {
     }
 }
 
+// Mutation: letting a comma at the end pass.
 TEST(ParseFilters, RefusesUnknownAndEmptyNamesAndSaysWhichThereAre) {
   for (const char* text : {"", ",", "kalman", "ufastslam,", ",ufastslam", "ufastslam,,fastslam2", "UFastSLAM",
                            "ufastslam, fastslam2"})

@@ -27,7 +27,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-// Mutations: a filter seeded by the worker's number, results in order of arrival, a time in run.json.
+// Mutations: a filter seeded by the worker's process, results in order of arrival, a time in run.json.
 TEST(RunCommand, SameBytesForAnyNumberOfJobsAndRunAfterRun) {
   const ScratchFolder scratch;
   for (const char* run : {"1", "2", "2again"})
@@ -98,7 +98,6 @@ TEST(RunCommand, DrawsAFewFramesWithDetections) {
 }
 
 // Property: a rendered data set, replayed as a recorded log, gives the filters the very same measurements.
-// Mutation: writing the true odometry in place of the measured one.
 TEST(RenderCommand, ReplayedDataSetScoresAsTheRunDid) {
   const ScratchFolder scratch;
   const std::string data = (scratch.path() / "data").string();
@@ -140,7 +139,7 @@ TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
   EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed or version"));
 }
 
-// Mutation: shared random streams between cells would change the worlds of a cell.
+// Mutation: seeds that are shifted from cell to cell.
 TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
   const ScratchFolder scratch;
   const Outcome outcome = run_stereobench({"sweep", scenario_path("ball_circle"), "--set", "path.laps=0.1",

@@ -27,6 +27,7 @@ Eigen::Vector2d projected(const cv::Mat& projection, const Eigen::Vector3d& poin
 }
 
 // Property: P1 and P2 take points of the left camera's frame to the pixels at which the rig's eyes have them.
+// Mutation: P2[3] = +f B.
 TEST(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
   const cv::Mat p1 = matrix_of(kRig, "P1");
   const cv::Mat p2 = matrix_of(kRig, "P2");
@@ -42,6 +43,7 @@ TEST(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
   EXPECT_LT(p2.at<double>(0, 3), 0.0);  // as OpenCV has it: -f B
 }
 
+// Mutation: the left eye twice.
 TEST(Calibration, HasTheEyesABaselineApart) {
   const cv::Mat left = matrix_of(kRig, "robot_from_left_camera");
   const cv::Mat right = matrix_of(kRig, "robot_from_right_camera");
@@ -51,6 +53,7 @@ TEST(Calibration, HasTheEyesABaselineApart) {
   EXPECT_EQ(matrix_of(kRig, "K").size(), cv::Size(3, 3));
 }
 
+// Mutation: blue, green, red.
 TEST(BallsCsv, NamesEachBallByItsPlaceInTheWorld) {
   worlds::World world;
   world.balls = {{{1.5, -2.0, 0.3}, 0.05, 4}, {{0.1, 0.2, 0.25}, 0.125, 0}};
@@ -69,6 +72,7 @@ void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
   dataset.write({step, {eye, eye}, {eye.colour, eye.colour}, {}});
 }
 
+// Mutation: writing frames over again.
 TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   const TestFolder folder;
   write_look(RenderedDataset(folder.path(), "one"), 0, 10);
@@ -86,6 +90,7 @@ TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
 }
 
+// Mutations: no check of the identity; none while the data set is unfinished.
 TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   const TestFolder folder;
   const RenderedDataset dataset(folder.path(), "one");

@@ -27,6 +27,7 @@ std::vector<BrokenGate> broken_by(const Json& mean, Gate::Relation relation, dou
 
 // A value other than the limit keeps one of the two relations and breaks the other; the limit itself keeps
 // both.
+// Mutations: comparing the wrong way round; not letting the limit itself pass.
 TEST(Gates, AValueOffTheLimitBreaksOneOfTheRelations) {
   slam::RandomStream random(1, slam::Stream::kWorld);
   for (int i = 0; i < 100; ++i) {
@@ -47,7 +48,7 @@ TEST(Gates, ABrokenOneSaysWhatWasExpectedAndByHowMuchItIsMissed) {
             "filters.ufastslam.ate_rms_m.mean is 0.75, expected at most 0.5: off by 0.250");
 }
 
-// What could not be measured keeps no limit.
+// What could not be measured keeps no limit. Mutation: letting it pass.
 TEST(Gates, AMetricWithoutValueIsBroken) {
   for (const auto relation : {Gate::Relation::kAtMost, Gate::Relation::kAtLeast}) {
     const auto broken = broken_by(nullptr, relation, 0.0);
@@ -57,6 +58,7 @@ TEST(Gates, AMetricWithoutValueIsBroken) {
   }
 }
 
+// Mutation: keeping all gates.
 TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
   worlds::Scenario scenario;
   scenario.gates = {
@@ -70,6 +72,7 @@ TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
   EXPECT_EQ(gates[2].metric, "filters.nobody.failures");  // a slip of the pen, for check_metrics to find
 }
 
+// Mutations: no check; letting objects and text pass as numbers.
 TEST(Gates, NameANumberOfTheResultBeforeAnythingIsRun) {
   worlds::Scenario scenario;
   const auto check = [&](const std::string& metric) { check_metrics(std::vector{Gate{metric}}, scenario); };

@@ -33,6 +33,7 @@ std::set<std::string> keys_of(const nlohmann::ordered_json& json) {
   return keys;
 }
 
+// Mutations: a clock in it; the number of jobs in it.
 TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const RunResult result = assemble("name", "none", drives);
@@ -44,6 +45,7 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
 }
 
+// Mutation: the ratio upside down.
 TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
   const std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const auto json = run_json(assemble("name", "none", drives));
@@ -54,7 +56,7 @@ TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
   EXPECT_EQ(json["filters"]["ufastslam"]["failures"], 0);
 }
 
-// JSON knows neither NaN nor infinity; they must not become 0 either.
+// JSON knows neither NaN nor infinity. Mutation: writing 0 for them.
 TEST(RunResult, WhatHasNoValueIsNull) {
   const auto json = run_json(assemble("name", "none", std::vector{drive_of(3, 4, 0.4)}));
   EXPECT_TRUE(json["vision"]["recall"].is_null());
@@ -62,6 +64,7 @@ TEST(RunResult, WhatHasNoValueIsNull) {
   EXPECT_TRUE(json["filters"]["ufastslam"]["landmark_rms_m"]["mean"].is_null());        // there is none
 }
 
+// Mutation: a cell too few where the truth is not known.
 TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   drives[1].recording.log.steps[2].truth.reset();
@@ -75,6 +78,7 @@ TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
   EXPECT_EQ(lines, 1U + 4U + 4U + 6U + 1U);
 }
 
+// Mutation: keeping the last seed's alone.
 TEST(RunResult, TimingIsSummedOverTheSeeds) {
   std::vector<SeedDrive> drives = {drive_of(3, 1, 0.4), drive_of(8, 1, 0.8)};
   for (SeedDrive& drive : drives) drive.recording.timing = {{"render", 1.5}};

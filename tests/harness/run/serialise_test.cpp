@@ -39,6 +39,7 @@ void expect_carried(double value) {
 }
 
 // Law: every number comes back with the bits it had.
+// Mutations: matrices in single precision, or transposed.
 TEST(Serialise, CarriesEveryNumberToTheLastBit) {
   for (const double value : {0.0, -0.0, 0.1, Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(),
                              Limits::max(), Limits::min(), Limits::denorm_min(), Limits::epsilon()})
@@ -47,6 +48,7 @@ TEST(Serialise, CarriesEveryNumberToTheLastBit) {
   for (int i = 0; i < 200; ++i) expect_carried(std::ldexp(random.normal(), i - 100));
 }
 
+// Mutation: leaving out whether it failed.
 TEST(Serialise, CarriesWhatARunIs) {
   FilterRun run = run_at(1.0);
   run.failed = true;

@@ -36,6 +36,16 @@ TEST(LandmarkMap, UnknownIdentitiesGoToTheNearestOfTheirColour) {
   EXPECT_EQ(score.missed, 1);
 }
 
+// Mutation: taking the last one within the limit.
+TEST(LandmarkMap, OfSeveralWithinTheLimitTheNearestIsTheOwner) {
+  const std::vector<LandmarkTruth> close = {{0, 5, {0.0, 0.0}}, {1, 5, {1.0, 0.0}}, {2, 5, {2.0, 0.0}}};
+  for (const LandmarkTruth& landmark : close) {
+    const std::vector<slam::LandmarkEstimate> map = {
+        estimate(slam::kUnknown, 5, landmark.position_m.x() + 0.25, 0.0)};
+    EXPECT_DOUBLE_EQ(score_map(map, close, {}, 10.0).rms_m, 0.25) << landmark.landmark_id;
+  }
+}
+
 // Mutations: counting a second estimate of one landmark as another, or as spurious; no limit.
 TEST(LandmarkMap, CountsTwinsMissedAndSpurious) {
   const std::vector<slam::LandmarkEstimate> map = {

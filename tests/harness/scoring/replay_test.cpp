@@ -81,6 +81,37 @@ TEST_P(EveryFilter, TheSameSeedIsTheSameRun) {
   EXPECT_EQ(once.last.landmarks.size(), again.last.landmarks.size());
 }
 
+// Mutation: recording the true pose.
+TEST_P(EveryFilter, NeverLooksAtTheTruth) {
+  const MeasurementLog log = exact_log();
+  MeasurementLog other = log;
+  for (LogStep& step : other.steps) step.truth = slam::Pose{7.0, 8.0, 1.0};
+  other.steps[5].truth.reset();
+  for (LandmarkTruth& landmark : other.landmarks) landmark.position_m *= 2.0;
+  slam::FilterConfig config;
+  config.particles = 5;
+  const FilterRun run = replay(log, GetParam(), config, 3);
+  const FilterRun blind = replay(other, GetParam(), config, 3);
+  ASSERT_EQ(run.poses.size(), blind.poses.size());
+  for (std::size_t i = 0; i < run.poses.size(); ++i) {
+    EXPECT_EQ(run.poses[i].x_m, blind.poses[i].x_m);
+    EXPECT_EQ(run.covariances[i], blind.covariances[i]);
+  }
+  ASSERT_EQ(run.last.landmarks.size(), blind.last.landmarks.size());
+  for (std::size_t i = 0; i < run.last.landmarks.size(); ++i)
+    EXPECT_EQ(run.last.landmarks[i].position_m, blind.last.landmarks[i].position_m);
+}
+
+// Mutation: one seed for all.
+TEST_P(EveryFilter, AnotherSeedIsAnotherRunWhereThereAreParticles) {
+  slam::FilterConfig config;
+  config.particles = 5;
+  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const FilterRun run = replay(exact_log(), GetParam(), config, 3);
+  const FilterRun other = replay(exact_log(), GetParam(), config, 4);
+  EXPECT_EQ(run.poses.back().x_m == other.poses.back().x_m, GetParam() == "dead_reckoning");
+}
+
 INSTANTIATE_TEST_SUITE_P(Filters, EveryFilter, testing::ValuesIn(slam::filter_names()));
 
 TEST(Replay, RefusesWhatIsNoFilter) {

@@ -11,6 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+// Mutation: the first one fastest.
 TEST(Grid, TheLastVariationMovesFastest) {
   const std::vector<Variation> variations = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}};
   EXPECT_THAT(grid(variations), ElementsAre(Cell{"1", "x"}, Cell{"1", "y"}, Cell{"1", "z"}, Cell{"2", "x"},
@@ -35,6 +36,7 @@ TEST(Grid, OfNothingIsTheScenarioItself) {
   EXPECT_THAT(grid({}), ElementsAre(Cell{}));
 }
 
+// Mutation: letting a key stand twice.
 TEST(Grid, HasALimitAndEachKeyOnce) {
   const std::vector<std::string> hundred(100, "1");
   EXPECT_EQ(grid({{"a", hundred}, {"b", hundred}}).size(), 10'000U);
@@ -56,6 +58,7 @@ TEST(ParseVariation, KeepsValuesAsTheyWereWritten) {
   EXPECT_THAT(variation.values, ElementsAre("0", "1.50", "-2e1", "x=y"));
 }
 
+// Mutation: letting a value stand twice.
 TEST(ParseVariation, RefusesWhatIsEmptyOrRepeated) {
   for (const char* text : {"", "key", "=1", "key=", "key=,1", "key=1,,2", "key=1,", "key=1,2,1"})
     EXPECT_THAT([&] { parse_variation(text); }, ThrowsMessage<std::runtime_error>(HasSubstr("--vary")))
