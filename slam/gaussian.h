@@ -100,7 +100,7 @@ inline double chi_square_2_quantile(double probability) {
   return -2.0 * std::log1p(-probability);
 }
 
-/// The same for any number of degrees of freedom, by Wilson and Hilferty's cube: within 2 % from two on.
+/// The same for any number of degrees of freedom, by Wilson and Hilferty's cube: within 5 % from two on.
 inline double chi_square_quantile(double probability, double degrees_of_freedom) {
   if (!(probability < 1.0)) return std::numeric_limits<double>::infinity();
   const double spread = 2.0 / (9.0 * degrees_of_freedom);

@@ -41,7 +41,8 @@ namespace stereobench::harness {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, position_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, steps, landmarks)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, failed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, failed,
+                                   failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
                                    normalised_errors)

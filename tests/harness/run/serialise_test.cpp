@@ -52,11 +52,13 @@ TEST(Serialise, CarriesEveryNumberToTheLastBit) {
 TEST(Serialise, CarriesWhatARunIs) {
   FilterRun run = run_at(1.0);
   run.failed = true;
+  run.failure = "step 3: lost";
   const FilterRun back = filter_runs_from_bytes(to_bytes(std::vector{run})).at(0);
   EXPECT_EQ(back.filter, "ufastslam");
   EXPECT_EQ(back.particles, 7);
   EXPECT_EQ(back.seed, ~std::uint64_t{0});
   EXPECT_TRUE(back.failed);
+  EXPECT_EQ(back.failure, run.failure);
   EXPECT_EQ(back.last.landmarks.at(0).landmark_id, 3);
   EXPECT_EQ(back.last.landmarks.at(0).colour_class, 5);
   EXPECT_EQ(back.last.counters.resamplings, 11);
