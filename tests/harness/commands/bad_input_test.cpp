@@ -255,18 +255,20 @@ TEST(FullDisk, IsOneLineAndLeavesNoPartOfAFile) {
   EXPECT_TRUE(is_empty_or_missing(out));
 }
 
-/// Root may write everywhere: while this lives, it is somebody else.
+/// Root may write everywhere: while this lives, root is somebody else, and so are the programs it starts.
 class AsNobody {
  public:
-  AsNobody() {
-    constexpr uid_t kNobody = 65534;
-    if (::geteuid() == 0) {
-      EXPECT_EQ(::seteuid(kNobody), 0);
-    }
-  }
-  ~AsNobody() { EXPECT_EQ(::seteuid(::getuid()), 0); }
+  AsNobody() : was_root_(::geteuid() == 0) { become(65534); }
+  ~AsNobody() { become(0); }
   AsNobody(const AsNobody&) = delete;
   AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  void become(uid_t user) const {
+    if (!was_root_) return;
+    EXPECT_EQ(::setresuid(user, user, 0), 0);  // the saved one leads back
+  }
+  bool was_root_;
 };
 
 TEST(UnwritableFolder, IsOneLine) {
