@@ -17,14 +17,18 @@ namespace {
 struct SlamArguments {
   std::filesystem::path log;
   RunArguments run;
-  SensorNoise sensor;
+  LogAssumptions log_says;
   slam::FilterConfig config;
 };
 
-/// What is assumed of a log's odometry unless the command line says otherwise: slip of a small robot over a
-/// second, as measured on UTIAS MRCLAM set 7 against its ground truth (docs/results.md).
-constexpr slam::OdometryNoise kUsualOdometry = {
-    .v_constant_mps = 0.013, .w_constant_radps = 0.04, .correlation_s = 1.0};
+/// What is assumed of a log's odometry unless the command line says otherwise: the errors of a small robot's
+/// wheels over a second, driving straight and turning, as measured on UTIAS MRCLAM set 7 (docs/results.md).
+constexpr slam::OdometryNoise kUsualOdometry = {.v_constant_mps = 0.003,
+                                                .v_per_v = 0.03,
+                                                .v_per_w = 0.06,
+                                                .w_constant_radps = 0.012,
+                                                .w_per_w = 0.1,
+                                                .correlation_s = 1.0};
 
 /// The name of the results: the log's folder, e.g. "robot2".
 std::string name_of(const std::filesystem::path& log) {
@@ -56,17 +60,20 @@ int run_slam(SlamArguments arguments) {
   if (run.filters.empty()) run.filters = slam::filter_names();
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
-  const RecordedLog recorded = read_log(arguments.log, arguments.sensor);
+  const RecordedLog recorded = read_log(arguments.log, arguments.log_says);
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   prepare_output_folder(out);
   const auto drives = replay_seeds(recorded.log, arguments);
-  const RunResult result = assemble(name, "none", drives);
+  RunResult result = assemble(name, "none", drives);
+  result.odometry_delay_s = recorded.odometry_delay_s;
   write_run(out, result, drives, {});
   fmt::print("{}: {} seed{}, {} steps", name, drives.size(), drives.size() == 1 ? "" : "s",
              recorded.log.steps.size());
   if (recorded.robot_sightings > 0)
     fmt::print(", {} sightings of other robots left out", recorded.robot_sightings);
+  if (recorded.odometry_delay_s != 0.0)
+    fmt::print(", the motion follows the odometry by {:.2f} s", recorded.odometry_delay_s);
   fmt::print("\n\n{}\nresults: {}\n", result_table(result), (out / "").string());
   return kPassed;
 }
@@ -79,8 +86,8 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
         ->capture_default_str()
         ->group("Noise (standard deviations)");
   };
-  add("--range-sd-m", arguments.sensor.range_sd_m, 1e-9, "of a range, for logs without covariances");
-  add("--bearing-sd-rad", arguments.sensor.bearing_sd_rad, 1e-9,
+  add("--range-sd-m", arguments.log_says.noise.range_sd_m, 1e-9, "of a range, for logs without covariances");
+  add("--bearing-sd-rad", arguments.log_says.noise.bearing_sd_rad, 1e-9,
       "of a bearing, for logs without covariances");
   add("--v-constant-mps", noise.v_constant_mps, 0.0, "of the forward speed, constant part");
   add("--v-per-v", noise.v_per_v, 0.0, "of the forward speed, per m/s");
@@ -88,6 +95,13 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
   add("--w-constant-radps", noise.w_constant_radps, 0.0, "of the turn rate, constant part");
   add("--w-per-v", noise.w_per_v, 0.0, "of the turn rate, per m/s");
   add("--w-per-w", noise.w_per_w, 0.0, "of the turn rate, per rad/s");
+  command
+      .add_option(
+          "--odometry-delay-s", arguments.log_says.odometry_delay_s,
+          "by how much the motion follows the odometry's stamps (default: estimated from how bearings "
+          "change; 0 = trust the stamps)")
+      ->check(CLI::Range(-60.0, 60.0))
+      ->group("Noise (standard deviations)");
   add("--correlation-s", noise.correlation_s, 0.0,
       "how long an odometry error lasts (slip outlives fast readings)");
 }

@@ -11,6 +11,7 @@
 
 #include "harness/dataset/log_steps.h"
 #include "harness/dataset/number_table.h"
+#include "harness/dataset/odometry_delay.h"
 #include "harness/dataset/recorded_streams.h"
 
 namespace stereobench::harness {
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kRobots = 5;
+constexpr double kLongestDelay_s = 60.0;
 
 bool is_csv_file(const std::string& name) {
   for (const char* stem : {"odometry", "observations", "landmarks", "groundtruth", "instants"}) {
@@ -66,17 +68,24 @@ RecordedStreams read_folder(const fs::path& folder, const SensorNoise& noise) {
 
 }  // namespace
 
-RecordedLog read_log(const fs::path& folder_or_file, const SensorNoise& noise) {
+RecordedLog read_log(const fs::path& folder_or_file, const LogAssumptions& assumptions) {
+  const SensorNoise& noise = assumptions.noise;
   if (!(noise.range_sd_m > 0.0 && noise.bearing_sd_rad > 0.0 && std::isfinite(noise.range_sd_m) &&
         std::isfinite(noise.bearing_sd_rad))) {
     throw std::invalid_argument("read_log: standard deviations must be positive and finite");
   }
+  if (!(std::abs(assumptions.odometry_delay_s.value_or(0.0)) <= kLongestDelay_s)) {
+    throw std::invalid_argument("read_log: the odometry's delay must be within a minute");
+  }
   if (!fs::exists(folder_or_file)) {
     throw std::runtime_error(fmt::format("{}: no such file or folder", folder_or_file.string()));
   }
-  const RecordedStreams streams = fs::is_directory(folder_or_file) ? read_folder(folder_or_file, noise)
-                                                                   : read_file_named(folder_or_file, noise);
-  return {steps_from_streams(streams), streams.robot_sightings, streams.unknown_barcodes};
+  RecordedStreams streams = fs::is_directory(folder_or_file) ? read_folder(folder_or_file, noise)
+                                                             : read_file_named(folder_or_file, noise);
+  const double delay_s =
+      assumptions.odometry_delay_s ? *assumptions.odometry_delay_s : estimate_odometry_delay(streams);
+  delay_odometry(streams.odometry, delay_s);
+  return {steps_from_streams(streams), delay_s, streams.robot_sightings, streams.unknown_barcodes};
 }
 
 }  // namespace stereobench::harness

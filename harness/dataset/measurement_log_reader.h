@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "harness/types.h"
 
@@ -13,11 +14,19 @@ struct SensorNoise {
   double bearing_sd_rad = 0.0125;
 };
 
-/// A log together with what was left out of it on purpose.
+/// What a log does not say of itself.
+struct LogAssumptions {
+  SensorNoise noise;  ///< of sightings whose file states no covariance
+  /// By how much the motion follows the odometry's stamps; empty = estimated from the log (odometry_delay.h).
+  std::optional<double> odometry_delay_s;
+};
+
+/// A log together with what was corrected and what was left out of it on purpose.
 struct RecordedLog {
   MeasurementLog log;
-  long robot_sightings = 0;   ///< MRCLAM: sightings of the other robots, which are no landmarks
-  long unknown_barcodes = 0;  ///< MRCLAM: sightings of a barcode that `Barcodes.dat` does not name
+  double odometry_delay_s = 0.0;  ///< that the odometry was moved by
+  long robot_sightings = 0;       ///< MRCLAM: sightings of the other robots, which are no landmarks
+  long unknown_barcodes = 0;      ///< MRCLAM: sightings of a barcode that `Barcodes.dat` does not name
 };
 
 /// Reads a recorded log: `odometry.csv`, `observations.csv` and, where they exist, `landmarks.csv` (also
@@ -27,9 +36,9 @@ struct RecordedLog {
 ///
 /// The stamps of `.dat` files count from the whole second of the first odometry reading.
 /// @param folder_or_file the folder, or one of its files (which picks the robot among MRCLAM's)
-/// @param noise the standard deviations of sightings whose file states no covariance, > 0
+/// @param assumptions standard deviations > 0, a delay within a minute
 /// @return at least one step, in order of time
 /// @throws std::runtime_error `file:line: column: what was expected` for whatever cannot be read exactly
-RecordedLog read_log(const std::filesystem::path& folder_or_file, const SensorNoise& noise);
+RecordedLog read_log(const std::filesystem::path& folder_or_file, const LogAssumptions& assumptions);
 
 }  // namespace stereobench::harness

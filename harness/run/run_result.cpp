@@ -46,6 +46,7 @@ Json filter_json(const RunResult& result, const FilterSummary& summary) {
           {"final_drift", summary_json(summary.final_drift)},
           {"landmark_rms_m", summary_json(summary.landmark_rms_m)},
           {"landmark_aligned_rms_m", summary_json(summary.landmark_aligned_rms_m)},
+          {"landmark_path_aligned_rms_m", summary_json(summary.landmark_path_aligned_rms_m)},
           {"landmarks",
            {{"found_once", summary.landmarks_found_once},
             {"duplicated", summary.landmarks_duplicated},
@@ -115,12 +116,14 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   Json filters = Json::object();
   for (const FilterResult& filter : result.filters)
     filters[filter.filter] = filter_json(result, filter.summary);
-  return {{"schema", kSchema},
-          {"scenario", result.name},
-          {"seeds", result.seeds},
-          {"renderer", {{"backend", result.backend}}},
-          {"vision", vision_json(result.vision)},
-          {"filters", std::move(filters)}};
+  Json json = {{"schema", kSchema},
+               {"scenario", result.name},
+               {"seeds", result.seeds},
+               {"renderer", {{"backend", result.backend}}},
+               {"vision", vision_json(result.vision)}};
+  if (result.odometry_delay_s) json["log"] = {{"odometry_delay_s", *result.odometry_delay_s}};
+  json["filters"] = std::move(filters);
+  return json;
 }
 
 std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives) {

@@ -28,6 +28,7 @@ struct RunResult {
   std::string backend;                ///< what rendered: "osmesa", or "none"
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
+  std::optional<double> odometry_delay_s;  ///< that a recorded log's odometry was moved by
 };
 
 /// Scores each filter's runs against their logs.

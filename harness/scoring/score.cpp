@@ -19,7 +19,7 @@ FilterScore failed_score() {
   score.trajectory = score_trajectory({});
   score.ate_aligned_at_sightings_rms_m = kNone;
   score.map.rms_m = score.map.max_m = kNone;
-  score.map_aligned = score.map;
+  score.map_aligned = score.map_path_aligned = score.map;
   return score;
 }
 
@@ -89,6 +89,7 @@ FilterScore score(const FilterRun& run, const MeasurementLog& log) {
   score.map = score_map(run.last.landmarks, log.landmarks);
   score.map_aligned =
       score_map(run.last.landmarks, log.landmarks, align_map(run.last.landmarks, log.landmarks));
+  score.map_path_aligned = score_map(run.last.landmarks, log.landmarks, score.trajectory.truth_from_estimate);
   score.normalised_errors = normalised_errors(run, log);
   return score;
 }
@@ -109,6 +110,8 @@ FilterSummary summarise(std::span<const FilterScore> scores, int particles) {
   summary.final_drift = over_seeds([](const FilterScore& s) { return s.trajectory.final_drift; });
   summary.landmark_rms_m = over_seeds([](const FilterScore& s) { return s.map.rms_m; });
   summary.landmark_aligned_rms_m = over_seeds([](const FilterScore& s) { return s.map_aligned.rms_m; });
+  summary.landmark_path_aligned_rms_m =
+      over_seeds([](const FilterScore& s) { return s.map_path_aligned.rms_m; });
   add_consistency(scores, summary);
   add_map_counts(scores, summary);
   return summary;

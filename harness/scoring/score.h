@@ -20,6 +20,7 @@ struct FilterScore {
   double ate_aligned_at_sightings_rms_m = 0.0;           ///< aligned and scored only where something was seen
   MapScore map;                                          ///< in the world frame, as estimated
   MapScore map_aligned;                                  ///< after its own best alignment
+  MapScore map_path_aligned;                             ///< after the path's best alignment
   std::vector<std::optional<double>> normalised_errors;  ///< NEES / rank, one per step
 };
 
@@ -35,6 +36,7 @@ struct FilterSummary {
   Summary final_drift;
   Summary landmark_rms_m;
   Summary landmark_aligned_rms_m;
+  Summary landmark_path_aligned_rms_m;
   double ate_aligned_median_m = 0.0;
   Summary anees;  ///< over the steps of `anees_by_step`; mean 1 is honest, above is overconfident
   std::vector<std::optional<double>> anees_by_step;

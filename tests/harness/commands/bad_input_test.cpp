@@ -180,6 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"SlamOfNothing", {"slam", "{scratch}/none"}, "none"},
         BadCall{"SlamOfAFolderWithoutALog", {"slam", "{scratch}"}, "odometry"},
         BadCall{"SlamNegativeNoise", {"slam", "{scratch}", "--range-sd-m", "-1"}, "--range-sd-m"},
+        BadCall{
+            "SlamDelayOfHours", {"slam", "{scratch}", "--odometry-delay-s", "3600"}, "--odometry-delay-s"},
         BadCall{"SlamZeroNoise", {"slam", "{scratch}", "--range-sd-m", "0"}, "--range-sd-m"},
         BadCall{"SweepWithoutVary", {"sweep", "{scenario}"}, "--vary"},
         BadCall{"VaryWithoutValues", {"sweep", "{scenario}", "--vary", "path.laps="}, "--vary"},

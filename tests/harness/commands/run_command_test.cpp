@@ -170,7 +170,6 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::Values("ball_circle", "c
 
 struct RealLog {
   const char* folder;
-  double map_limit_m;
 };
 void PrintTo(const RealLog& log, std::ostream* out) {
   *out << log.folder;
@@ -179,26 +178,25 @@ void PrintTo(const RealLog& log, std::ostream* out) {
 class RealRobot : public testing::TestWithParam<RealLog> {};
 
 // UTIAS MRCLAM set 7 with the settings that any log gets; robot 5 in both of the formats. Seeds are pinned,
-// but another CPU's last bits make other particles: robot 5's map, 0.13-0.15 m (docs/results.md), has room
-// for that.
+// but another CPU's last bits make other particles: 0.15 m is 1.5 times robot 5's map and more than two
+// standard deviations of a mean of five seeds above it (docs/results.md). Mutation: trusting the stamps.
 TEST_P(RealRobot, IsMapped) {
   const std::filesystem::path log =
       std::filesystem::path(STEREOBENCH_SOURCE_DIR) / "../shared/data" / GetParam().folder;
   if (!std::filesystem::exists(log)) GTEST_SKIP() << "no recorded log at " << log;
   const auto json = nlohmann::json::parse(
       result_of({"slam", log.string(), "--particles", "50", "--seeds", "0..4", "--jobs", "2"}, "run.json"));
+  EXPECT_NEAR(json["log"]["odometry_delay_s"].get<double>(), 0.25, 0.051);
   for (const char* name : {"fastslam2", "ufastslam"}) {
     EXPECT_LE(json["filters"][name]["ate_aligned_median_m"].get<double>(), 0.30) << name;
-    EXPECT_LE(json["filters"][name]["landmark_aligned_rms_m"]["mean"].get<double>(), GetParam().map_limit_m)
-        << name;
+    EXPECT_LE(json["filters"][name]["landmark_aligned_rms_m"]["mean"].get<double>(), 0.15) << name;
     EXPECT_EQ(json["filters"][name]["failures"], 0) << name;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Mrclam, RealRobot,
-                         testing::Values(RealLog{"mrclam/ds7/robot2", 0.15},
-                                         RealLog{"mrclam/ds7/robot5", 0.20},
-                                         RealLog{"mrclam_original/ds7_robot5", 0.20}));
+                         testing::Values(RealLog{"mrclam/ds7/robot2"}, RealLog{"mrclam/ds7/robot5"},
+                                         RealLog{"mrclam_original/ds7_robot5"}));
 
 TEST(DoctorCommand, SaysWhatItRunsOnAndThatATestFrameIsRight) {
   const Outcome outcome = run_stereobench({"doctor"});

@@ -42,6 +42,16 @@ TEST(Score, PutsPathMapAndConsistencyTogether) {
   EXPECT_FALSE(result.normalised_errors[0].has_value());
 }
 
+// The whole run lies half a metre to the left, its landmark too. Mutation: the map's own alignment twice.
+TEST(Score, AMapThatIsOffLikeItsPathIsRightAfterThePathsAlignment) {
+  const MeasurementLog log = straight_log();
+  FilterRun run = run_with_errors(log, {0.5, 0.5, 0.5, 0.5});
+  run.last.landmarks[0].position_m = log.landmarks[0].position_m + Eigen::Vector2d(0.0, 0.5);
+  EXPECT_NEAR(score(run, log).map_path_aligned.rms_m, 0.0, 1e-12);
+  run.last.landmarks[0].position_m = log.landmarks[0].position_m;
+  EXPECT_NEAR(score(run, log).map_path_aligned.rms_m, 0.5, 1e-12);
+}
+
 // Mutation: scoring all steps. An offset at the two sightings aligns away, the one before does not count.
 TEST(Score, AtSightingsCountsOnlyStepsThatSawSomething) {
   const MeasurementLog log = straight_log();
