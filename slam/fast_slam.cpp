@@ -10,6 +10,24 @@
 #include "slam/resampling.h"
 
 namespace stereobench::slam {
+namespace {
+
+/// @return whether the map has a landmark of the same colour nearer than a distance
+bool has_neighbour(const LandmarkMap& map, const Landmark& landmark, double near_m) {
+  const Eigen::Vector2d& place = landmark.belief.mean;
+  bool found = false;
+  map.visit(
+      [&](const LandmarkBounds& bounds) {
+        return !found && bounds.places_m.exteriorDistance(place) < near_m;
+      },
+      [&](std::size_t, const Landmark& other) {
+        const bool near = (other.belief.mean - place).norm() < near_m;
+        found = found || (near && other.colour_class == landmark.colour_class);
+      });
+  return found;
+}
+
+}  // namespace
 
 template <class Model>
 FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed)
@@ -105,7 +123,7 @@ void FastSlam<Model>::resample() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const auto from = static_cast<std::size_t>(ancestors[i]);
     if (from == i) continue;
-    particles_[i] = particles_[from];
+    particles_[i] = particles_[from].descendant();
     posteriors_[i] = posteriors_[from];
     std::ranges::copy(targets_of(from), targets_of(i).begin());
   }
@@ -130,7 +148,7 @@ void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting>
   const std::span<const Target> targets = targets_of(particle);
   Particle& mine = particles_[particle];
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark >= 0) learn(mine, frame[k], targets[k]);
+    if (targets[k].landmark >= 0 && targets[k].fate != Fate::kIgnore) learn(mine, frame[k], targets[k]);
   }
   for (std::size_t k = 0; k < frame.size(); ++k) {
     if (targets[k].fate == Fate::kAdd) add(mine, frame[k]);
@@ -139,7 +157,7 @@ void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting>
 
 template <class Model>
 void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const Target& target) {
-  Landmark& landmark = landmark_of(particle, sighting, target);
+  Landmark landmark = landmark_of(particle, sighting, target);
   long& repairs = counters_.covariance_repairs;
   if (target.fate == Fate::kRefuse) {
     ++landmark.refusals;
@@ -150,6 +168,7 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
     landmark.refusals = 0;
     ++landmark.uses;
   }
+  map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);
 }
 
 template <class Model>
@@ -165,12 +184,7 @@ void FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
     particle.known.push_back(found);
     return;
   }
-  const double near_m = 0.5 * config_.colour_spacing_m;
-  const bool doubled = std::ranges::any_of(particle.classed, [&](const Landmark& other) {
-    return other.colour_class == found.colour_class &&
-           (other.belief.mean - found.belief.mean).norm() < near_m;
-  });
-  if (doubled) {
+  if (has_neighbour(particle.classed, found, 0.5 * config_.colour_spacing_m)) {
     ++counters_.gated_measurements;  // no second landmark of this colour can be here
   } else {
     particle.classed.push_back(found);
@@ -187,7 +201,8 @@ Estimate FastSlam<Model>::estimate() const {
     const RangeBearing& first = first_sightings_[slot];
     estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance});
   }
-  for (const Landmark& own : reported.classed) {
+  for (std::size_t i = 0; i < reported.classed.size(); ++i) {
+    const Landmark& own = reported.classed[i];
     const LandmarkBelief mixed =
         mixed_landmark_near(particles_, log_weights_, own, 0.5 * config_.colour_spacing_m);
     estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance});

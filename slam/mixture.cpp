@@ -25,14 +25,16 @@ struct Moments {
   }
 };
 
-const Landmark* nearest(const std::vector<Landmark>& landmarks, const Landmark& own, double within_m) {
+const Landmark* nearest(const LandmarkMap& map, const Landmark& own, double within_m) {
+  const Eigen::Vector2d& place = own.belief.mean;
   const Landmark* best = nullptr;
-  for (const Landmark& landmark : landmarks) {
-    const double distance = (landmark.belief.mean - own.belief.mean).norm();
-    if (landmark.colour_class != own.colour_class || distance > within_m) continue;
-    best = &landmark;
-    within_m = distance;
-  }
+  map.visit([&](const LandmarkBounds& bounds) { return bounds.places_m.exteriorDistance(place) <= within_m; },
+            [&](std::size_t, const Landmark& landmark) {
+              const double distance = (landmark.belief.mean - place).norm();
+              if (landmark.colour_class != own.colour_class || distance > within_m) return;
+              best = &landmark;
+              within_m = distance;
+            });
   return best;
 }
 

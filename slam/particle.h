@@ -1,25 +1,19 @@
 /// A particle, what it sees, and what becomes of it: the values that one update passes along.
 #pragma once
 
-#include <vector>
-
 #include "slam/belief.h"
+#include "slam/landmark_map.h"
 
 namespace stereobench::slam {
 
-/// A landmark in one particle's map.
-struct Landmark {
-  LandmarkBelief belief;
-  int colour_class = kUnknown;
-  int uses = 1;      ///< sightings that agreed with it, the first included
-  int refusals = 0;  ///< sightings since the last agreement that contradicted it
-};
-
 /// A path's end and the map that belongs to the path. Copies share nothing.
 struct Particle {
-  Pose pose;                      ///< as drawn at the last update
-  std::vector<Landmark> known;    ///< landmarks with an identity, by slot: the same slots in all particles
-  std::vector<Landmark> classed;  ///< landmarks with no more than a colour, in order of discovery
+  Pose pose;            ///< as drawn at the last update
+  LandmarkMap known;    ///< landmarks with an identity, by slot: the same slots in all particles
+  LandmarkMap classed;  ///< landmarks with no more than a colour, in order of discovery
+
+  /// @return this particle once more, for a life of its own: its map is shared until one of them changes it
+  Particle descendant() const { return {pose, known.share(), classed.share()}; }
 };
 
 /// A sighting that passed the checks. Its slot is the identity's index, or kUnknown when only a colour was
@@ -52,14 +46,17 @@ struct Posterior {
   bool vouched = false;         ///< some landmark has corrected it in this frame
 };
 
-/// The landmark in a particle's map that a target points at.
-inline Landmark& landmark_of(Particle& particle, const Sighting& sighting, const Target& target) {
-  return (sighting.slot == kUnknown ? particle.classed
-                                    : particle.known)[static_cast<std::size_t>(target.landmark)];
+/// The map that a sighting's landmark is in: by identity, or by colour alone.
+inline const LandmarkMap& map_of(const Particle& particle, const Sighting& sighting) {
+  return sighting.slot == kUnknown ? particle.classed : particle.known;
 }
+inline LandmarkMap& map_of(Particle& particle, const Sighting& sighting) {
+  return sighting.slot == kUnknown ? particle.classed : particle.known;
+}
+
+/// The landmark in a particle's map that a target points at.
 inline const Landmark& landmark_of(const Particle& particle, const Sighting& sighting, const Target& target) {
-  return (sighting.slot == kUnknown ? particle.classed
-                                    : particle.known)[static_cast<std::size_t>(target.landmark)];
+  return map_of(particle, sighting)[static_cast<std::size_t>(target.landmark)];
 }
 
 }  // namespace stereobench::slam

@@ -10,7 +10,8 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kPatience = 5;  ///< contradictions in a row before they are taken seriously
+constexpr double kSearchMargin = 4.0;  ///< by how much a squared distance may exceed its first order
+constexpr int kPatience = 5;           ///< contradictions in a row before they are taken seriously
 constexpr double kSlip =
     3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
 constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
@@ -35,6 +36,16 @@ Eigen::Matrix3d bend_covariance(const PoseBelief& belief) {
   const Eigen::Matrix3d& p = belief.covariance;
   const double bend_m2 = p(2, 2) * (p(0, 0) + p(1, 1));
   return Eigen::Vector3d(bend_m2, bend_m2, 0.0).asDiagonal();
+}
+
+/// How uncertain the place is that a sighting points at: the trace of its covariance, to first order.
+double place_variance(const PoseBelief& belief, const Observation& observation) {
+  const double range_m = observation.range_bearing.x();
+  const double direction_rad = belief.mean.heading_rad + observation.range_bearing.y();
+  const Eigen::Matrix3d& p = belief.covariance;
+  const double turn_and_shift = p(1, 2) * std::cos(direction_rad) - p(0, 2) * std::sin(direction_rad);
+  return p(0, 0) + p(1, 1) + 2.0 * range_m * turn_and_shift + observation.noise(0, 0) +
+         range_m * range_m * (p(2, 2) + observation.noise(1, 1));
 }
 
 /// A sighting's surprise, measured by what was expected.
@@ -121,16 +132,20 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
                                             const Sighting& sighting, int index, FilterCounters& counters) {
   const Observation& observation = sighting.observation;
   const Eigen::Vector2d place = locate(predicted.mean, observation.range_bearing);
-  for (std::size_t j = 0; j < particle.classed.size(); ++j) {
-    const Landmark& landmark = particle.classed[j];
-    if (landmark.colour_class != sighting.colour_class) continue;
+  const double variance_m2 = place_variance(predicted, observation);
+  const auto may_match = [&](const LandmarkBounds& bounds) {
+    const double gated_m2 = kSearchMargin * gate_ * (variance_m2 + bounds.largest_variance_m2);
+    return bounds.places_m.squaredExteriorDistance(place) <= std::max(gated_m2, near_m_ * near_m_);
+  };
+  particle.classed.visit(may_match, [&](std::size_t j, const Landmark& landmark) {
+    if (landmark.colour_class != sighting.colour_class) return;
     long& repairs = counters.covariance_repairs;
     const Surprise surprise(model_.expect(predicted, landmark.belief, observation.noise, repairs),
                             observation, repairs);
     const bool gated = !(surprise.squared_length <= gate_);
-    if (gated && !((place - landmark.belief.mean).norm() < near_m_)) continue;
+    if (gated && !((place - landmark.belief.mean).norm() < near_m_)) return;
     candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
-  }
+  });
 }
 
 /// @param refusing the posterior that refuses some of the matches

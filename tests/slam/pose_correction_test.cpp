@@ -1,6 +1,9 @@
 // What one particle makes of a frame: likelihood, gate, contradictions, and whose sighting it is.
 #include "slam/pose_correction.h"
 
+#include <functional>
+#include <limits>
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -21,6 +24,14 @@ class Corrections : public ::testing::Test {
 
   void know(const Eigen::Vector2d& place, int uses = 5) {
     particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, uses, 0});
+  }
+  void know_well(const Eigen::Vector2d& place) {
+    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, kUnknown, 5, 0});
+  }
+  void change(std::size_t slot, const std::function<void(Landmark&)>& by) {
+    Landmark landmark = particle_.known[slot];
+    by(landmark);
+    particle_.known.replace(slot, landmark);
   }
   void know_colour(const Eigen::Vector2d& place, int colour) {
     particle_.classed.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, colour, 5, 0});
@@ -133,8 +144,7 @@ TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
   this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
   const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}};
   for (const Eigen::Vector2d& place : places) {
-    this->know(place);
-    this->particle_.known.back().belief.covariance *= 1e-2;
+    this->know_well(place);
   }
   const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
   std::vector<Sighting> frame;
@@ -171,8 +181,7 @@ TYPED_TEST(Corrections, OneOutlierIsLikelierThanSlip) {
   const Eigen::Vector2d pivot(3.0, 1.0);
   const Eigen::Vector2d place(2.0, -2.0);
   for (const Eigen::Vector2d& known : {pivot, place}) {
-    this->know(known);
-    this->particle_.known.back().belief.covariance *= 1e-2;
+    this->know_well(known);
   }
   for (const double squared_deviations : {22.0, 49.0}) {
     const double turn_rad = std::sqrt(squared_deviations * 1e-4 / (1.0 + pivot.squaredNorm()));
@@ -200,6 +209,44 @@ TYPED_TEST(Corrections, AnUncertainHeadingExcusesTheWay) {
   EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
 }
 
+// A map of a thousand landmarks, searched through its bounds, and the same search done one by one. Catches a
+// search that is narrower than the gate.
+TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
+  RandomStream random(5, Stream::kWorld);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector2d place(20.0 * random.uniform(), 20.0 * random.uniform());
+    const double sd_m = 0.3 * random.uniform();
+    this->particle_.classed.push_back({{place, sd_m * sd_m * Eigen::Matrix2d::Identity()}, i % 3, 5, 0});
+  }
+  int found = 0;
+  for (int look = 0; look < 300; ++look) {
+    const double sd_rad = 0.5 * random.uniform();
+    const Pose mean{20.0 * random.uniform(), 20.0 * random.uniform(), 6.0 * random.uniform()};
+    this->predicted_ = {mean, Eigen::Vector3d(0.01, 0.02, sd_rad * sd_rad).asDiagonal()};
+    const Eigen::Vector2d seen(8.0 * random.uniform(), wrap_angle(6.0 * random.uniform()));
+    const Sighting sighting{{seen, Eigen::Vector2d(0.01, 0.01).asDiagonal()}, kUnknown, look % 3};
+    Target expected;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < 1000; ++j) {
+      const Landmark& landmark = this->particle_.classed[j];
+      long repairs = 0;
+      const Innovation innovation =
+          TypeParam().expect(this->predicted_, landmark.belief, sighting.observation.noise, repairs);
+      const Eigen::Vector2d off = sighting_residual(seen, innovation.expected);
+      const double squared = off.dot(innovation.covariance.inverse() * off);
+      const double cost = squared + std::log(innovation.covariance.determinant());
+      if (landmark.colour_class != sighting.colour_class || !(squared <= 18.4206807439524) || cost >= least)
+        continue;
+      least = cost;
+      expected = {Fate::kUse, static_cast<int>(j)};
+    }
+    this->correct({sighting});
+    ASSERT_EQ(this->targets_[0].landmark, expected.landmark) << look;
+    found += expected.landmark >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 150);
+}
+
 TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
   this->config_.gate_probability = 1.0;
   this->know({3.0, 1.0});
@@ -211,7 +258,7 @@ TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
 TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVouchedFor) {
   this->know({3.0, 1.0});
   this->know({3.0, -1.0});
-  this->particle_.known[1].refusals = 10;
+  this->change(1, [](Landmark& landmark) { landmark.refusals = 10; });
   this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
   EXPECT_EQ(this->targets_[1].fate, Fate::kMove);
@@ -219,11 +266,11 @@ TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVou
 
 TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
   this->know({3.0, 1.0});
-  this->particle_.known[0].refusals = 10;
+  this->change(0, [](Landmark& landmark) { landmark.refusals = 10; });
   const Posterior pulled = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
   EXPECT_GT(displacement(pulled.pose.mean, this->predicted_.mean).norm(), 0.5);
-  this->particle_.known[0].uses = 1;
+  this->change(0, [](Landmark& landmark) { landmark.uses = 1; });
   this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kMove);
 }

@@ -70,13 +70,17 @@ TEST(Normalise, MakesVanishedWeightsEqualAndSaysSo) {
 }
 
 // A public implementation lets all copies share one landmark array. Catches a map that is referred to, not
-// owned.
-TEST(Particle, CopiesShareNothing) {
+// owned, by a copy or by a descendant.
+TEST(Particle, NeitherCopiesNorDescendantsChangeEachOthersMaps) {
   Particle original;
-  original.known = {Landmark{{{1.0, 2.0}, Eigen::Matrix2d::Zero()}}};
+  original.known.push_back({{{1.0, 2.0}, Eigen::Matrix2d::Zero()}});
   Particle copy = original;
-  copy.known[0].belief.mean.x() = 9.0;
+  Particle descendant = original.descendant();
+  copy.known.replace(0, {{{9.0, 2.0}, Eigen::Matrix2d::Zero()}});
+  descendant.known.replace(0, {{{8.0, 2.0}, Eigen::Matrix2d::Zero()}});
   EXPECT_EQ(original.known[0].belief.mean.x(), 1.0);
+  EXPECT_EQ(copy.known[0].belief.mean.x(), 9.0);
+  EXPECT_EQ(descendant.known[0].belief.mean.x(), 8.0);
 }
 
 // Catches a mean of headings taken as numbers: the mean of 3.1 and -3.1 is pi, not 0.
