@@ -1,8 +1,11 @@
 #include "renderer/backend.h"
 
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "renderer/gl.h"
 #include "renderer/renderer.h"
@@ -15,10 +18,13 @@ namespace {
 constexpr double kBallAhead_m = 1.5;
 
 worlds::World test_world() {
+  using worlds::Material;
   worlds::World world;
-  world.floor = worlds::Material::kPlain;
   world.balls.push_back({.centre_m = {kBallAhead_m, 0.0, 0.3}, .radius_m = 0.1, .colour = 0});
-  world.walls.push_back({.from_m = {3.0, 5.0}, .to_m = {3.0, -5.0}, .material = worlds::Material::kPlain});
+  world.walls = {{.from_m = {3.0, 1.2}, .to_m = {3.0, -1.2}, .material = Material::kBricks},
+                 {.from_m = {0.0, 1.2}, .to_m = {3.0, 1.2}, .material = Material::kPlaster},
+                 {.from_m = {0.0, -1.2}, .to_m = {3.0, -1.2}, .material = Material::kWood},
+                 {.from_m = {2.6, 0.9}, .to_m = {2.6, -0.3}, .height_m = 0.2, .material = Material::kPlain}};
   world.light = {.towards_light = {-1.0, 0.0, 0.0}, .ambient = 0.5, .diffuse = 0.5};
   return world;
 }
@@ -50,21 +56,58 @@ std::string eye_complaint(const EyeFrame& frame, const vision::StereoRig& rig, v
   return {};
 }
 
-}  // namespace
-
-BackendInfo backend_info() {
-  const Context context;
-  const Gl gl(context);
-  return {"osmesa", gl_string(gl, GL_VERSION), gl_string(gl, GL_RENDERER), gl_string(gl, GL_VENDOR)};
-}
-
-std::string test_frame_complaint() {
-  const vision::StereoRig rig = test_rig();
-  const StereoFrame frame = Renderer(test_world(), rig).render({});
+std::string frame_complaint(const StereoFrame& frame, const vision::StereoRig& rig) {
   const std::string left = eye_complaint(frame.left, rig, vision::Eye::kLeft);
   if (!left.empty()) return "left eye: " + left;
   const std::string right = eye_complaint(frame.right, rig, vision::Eye::kRight);
   return right.empty() ? std::string() : "right eye: " + right;
+}
+
+/// FNV-1a, 64 bits: the same wherever it is computed, unlike std::hash.
+/// (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, The FNV Non-Cryptographic Hash Algorithm.)
+std::uint64_t hash_of(const StereoFrame& frame) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const EyeFrame* eye : {&frame.left, &frame.right}) {
+    for (const cv::Mat& picture : {eye->colour, eye->ball_id, eye->depth_m}) {
+      for (const std::uint8_t* byte = picture.datastart; byte != picture.dataend; ++byte) {
+        hash = (hash ^ *byte) * 1099511628211U;
+      }
+    }
+  }
+  return hash;
+}
+
+}  // namespace
+
+const char* name_of(Backend backend) {
+  constexpr std::array<const char*, kBackends.size()> kNames = {"osmesa", "egl", "egl-gpu"};
+  return kNames.at(static_cast<std::size_t>(backend));
+}
+
+Backend backend_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Backend backend : kBackends) {
+    if (name == name_of(backend)) return backend;
+    names.emplace_back(name_of(backend));
+  }
+  throw std::runtime_error(
+      fmt::format("no back end is called '{}'; there are {}", name, fmt::join(names, ", ")));
+}
+
+BackendInfo backend_info(Backend backend) {
+  const auto context = make_context(backend);
+  const Gl gl(*context);
+  return {gl_string(gl, GL_VERSION), gl_string(gl, GL_RENDERER), gl_string(gl, GL_VENDOR)};
+}
+
+TestFrame render_test_frame(Backend backend) {
+  const vision::StereoRig rig = test_rig();
+  const StereoFrame frame = Renderer(test_world(), rig, backend).render({});
+  return {frame_complaint(frame, rig), hash_of(frame)};
+}
+
+std::string fingerprint(const BackendInfo& info, const TestFrame& frame) {
+  return fmt::format("{}, {}, frame {:016x}", info.gl_version, info.gl_renderer, frame.hash);
 }
 
 }  // namespace stereobench::renderer

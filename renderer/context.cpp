@@ -1,17 +1,21 @@
 #include "renderer/context.h"
 
-#include <array>
 #include <cstdlib>
 #include <stdexcept>
 
-#include <GL/osmesa.h>
 #include <fmt/core.h>
+
+#include "renderer/context_egl.h"
+#include "renderer/context_osmesa.h"
 
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kWindow_px = 4;  // OSMesa demands a window to draw to; pictures go to framebuffer objects
 constexpr long kWidestVector_bits = 256;
+
+/// Where this thread's GL calls go. Two copies of Mesa share one such pointer (in libglapi) without each
+/// knowing of the other, so a context is unbound before another library's is bound.
+thread_local const Context* current = nullptr;
 
 void refuse_wide_vectors() {
   const char* asked = std::getenv("LP_NATIVE_VECTOR_WIDTH");
@@ -22,57 +26,43 @@ void refuse_wide_vectors() {
       asked, kWidestVector_bits));
 }
 
-OSMesaContext create_context() {
-  constexpr std::array<int, 13> kAttributes = {OSMESA_FORMAT,
-                                               OSMESA_RGBA,
-                                               OSMESA_DEPTH_BITS,
-                                               0,
-                                               OSMESA_PROFILE,
-                                               OSMESA_CORE_PROFILE,
-                                               OSMESA_CONTEXT_MAJOR_VERSION,
-                                               4,
-                                               OSMESA_CONTEXT_MINOR_VERSION,
-                                               5,
-                                               0,
-                                               0,
-                                               0};
-  return OSMesaCreateContextAttribs(kAttributes.data(), nullptr);
+std::unique_ptr<Context> create_context(Backend backend) {
+  switch (backend) {
+    case Backend::kOsmesa:
+      return create_osmesa_context();
+    case Backend::kEgl:
+      return create_egl_context(EglDevice::kSoftware);
+    case Backend::kEglGpu:
+      return create_egl_context(EglDevice::kGraphicsCard);
+  }
+  throw std::invalid_argument("make_context: no such back end");
 }
 
 }  // namespace
 
-struct Context::Handle {
-  OSMesaContext context = nullptr;
-  std::array<unsigned char, std::size_t{kWindow_px} * kWindow_px * 4> window{};
-};
-
-void Context::Destroy::operator()(Handle* handle) const {
-  if (handle->context != nullptr) OSMesaDestroyContext(handle->context);
-  delete handle;
-}
-
-Context::Context() {
-  refuse_wide_vectors();
-  handle_.reset(new Handle);
-  handle_->context = create_context();
-  if (handle_->context == nullptr) {
-    throw std::runtime_error(
-        "renderer: OSMesa has no OpenGL 4.5 core profile; install libosmesa6 22.3 or newer");
-  }
-  make_current();
-}
-
 void Context::make_current() const {
-  if (OSMesaMakeCurrent(handle_->context, handle_->window.data(), GL_UNSIGNED_BYTE, kWindow_px, kWindow_px) !=
-      GL_TRUE) {
-    throw std::runtime_error("renderer: OSMesa cannot make its context current");
-  }
+  if (current != nullptr && current != this) current->leave();
+  current = this;
+  if (!bind()) throw std::runtime_error("renderer: the OpenGL context cannot be made current");
+}
+
+void Context::leave() const {
+  if (current != this) return;
+  unbind();
+  current = nullptr;
 }
 
 Context::Procedure Context::procedure(const char* name) const {
-  const Procedure found = OSMesaGetProcAddress(name);
+  const Procedure found = find(name);
   if (found == nullptr) throw std::runtime_error(fmt::format("renderer: this OpenGL has no {}", name));
   return found;
+}
+
+std::unique_ptr<Context> make_context(Backend backend) {
+  if (backend != Backend::kEglGpu) refuse_wide_vectors();
+  std::unique_ptr<Context> context = create_context(backend);
+  context->make_current();
+  return context;
 }
 
 }  // namespace stereobench::renderer

@@ -1,20 +1,22 @@
-/// A headless OpenGL context that draws in software, behind an interface that names no library.
+/// A headless OpenGL context, behind an interface that names no library.
 #pragma once
 
 #include <memory>
 
+#include "renderer/types.h"
+
 namespace stereobench::renderer {
 
-/// Owns a core-profile context (OpenGL 4.5, drawn by Mesa's llvmpipe through OSMesa). Several may live in one
-/// process; the one that was made current last is the one that GL calls go to. Move-only.
+/// A core-profile context (OpenGL 4.5). Several may live in one process, also of different back ends; the one
+/// that was made current last is the one that GL calls go to. Each belongs to the thread that made it.
 class Context {
  public:
   using Procedure = void (*)();
 
-  /// Creates the context and makes it current.
-  /// @throws std::runtime_error without OSMesa's OpenGL 4.5, or with LP_NATIVE_VECTOR_WIDTH above 256, which
-  ///   crashes the rasteriser
-  Context();
+  Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  virtual ~Context() = default;
 
   /// Directs GL calls of this thread to this context.
   void make_current() const;
@@ -24,12 +26,19 @@ class Context {
   /// @throws std::runtime_error when this GL does not have it
   Procedure procedure(const char* name) const;
 
+ protected:
+  /// Takes GL calls away from this context, if they go to it; what destructors begin with.
+  void leave() const;
+
  private:
-  struct Handle;
-  struct Destroy {
-    void operator()(Handle* handle) const;
-  };
-  std::unique_ptr<Handle, Destroy> handle_;
+  virtual bool bind() const = 0;
+  virtual void unbind() const = 0;
+  virtual Procedure find(const char* name) const = 0;
 };
+
+/// Creates a context and makes it current.
+/// @throws std::runtime_error when this machine has no such back end, or with LP_NATIVE_VECTOR_WIDTH above
+///   256, which crashes the rasteriser of those in software
+std::unique_ptr<Context> make_context(Backend backend);
 
 }  // namespace stereobench::renderer

@@ -60,15 +60,16 @@ void set_state(const Gl& gl, const worlds::World& world) {
 
 struct Renderer::Parts {
   vision::StereoRig rig;
-  Context context;
+  std::unique_ptr<Context> context;
   Gl gl;
   Framebuffer framebuffer;
   SurfacePainter surfaces;
   BallPainter balls;
 
-  Parts(const worlds::World& world, const vision::StereoRig& asked)
+  Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
       : rig(checked(asked)),
-        gl(context),
+        context(make_context(backend)),
+        gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
         surfaces(gl, checked(world)),
         balls(gl, world) {
@@ -76,7 +77,7 @@ struct Renderer::Parts {
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
-  ~Parts() { context.make_current(); }  // what is deleted next belongs to it
+  ~Parts() { context->make_current(); }  // what is deleted next belongs to it
 
   void draw(const EyeView& view) {
     gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
@@ -85,8 +86,8 @@ struct Renderer::Parts {
   }
 };
 
-Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig)
-    : parts_(std::make_unique<Parts>(world, rig)) {}
+Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
+    : parts_(std::make_unique<Parts>(world, rig, backend)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
@@ -97,7 +98,7 @@ StereoFrame Renderer::render(const slam::Pose& world_from_robot) {
           "Renderer::render: the pose is not finite");
   const EyeView left = eye_view(parts_->rig, vision::Eye::kLeft, world_from_robot);
   const EyeView right = eye_view(parts_->rig, vision::Eye::kRight, world_from_robot);
-  parts_->context.make_current();
+  parts_->context->make_current();
   parts_->framebuffer.bind();
   parts_->gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   parts_->draw(left);

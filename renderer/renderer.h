@@ -1,5 +1,4 @@
-/// Renders what a stereo rig sees of a world, with the truth behind each pixel, in software and without a
-/// screen.
+/// Renders what a stereo rig sees of a world, with the truth behind each pixel, without a screen.
 #pragma once
 
 #include <memory>
@@ -12,14 +11,14 @@
 namespace stereobench::renderer {
 
 /// Owns a GL context and everything of the world that GL must know. Move-only; several may live in one
-/// process, but only one thread at a time may use any of them: more speed takes more processes.
+/// process, each used by the thread that made it: more speed takes more processes.
 class Renderer {
  public:
   /// @throws std::runtime_error when there is no GL to render with or a mesh file cannot be read
   /// @throws std::invalid_argument when the rig cannot be computed with, or a ball, wall, mesh or light of
   /// the
   ///   world is not finite, has no size, or there are more than 254 balls
-  Renderer(const worlds::World& world, const vision::StereoRig& rig);
+  Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa);
   ~Renderer();
   Renderer(Renderer&& other) noexcept;
   Renderer& operator=(Renderer&& other) noexcept;

@@ -7,6 +7,13 @@
 
 namespace stereobench::renderer {
 
+/// Which OpenGL draws. The two in software are the same rasteriser of the same Mesa: their pixels are equal.
+enum class Backend {
+  kOsmesa,  ///< Mesa's llvmpipe as a library: what everything is compared with
+  kEgl,     ///< llvmpipe behind EGL, which outlives OSMesa: Mesa 25.1 dropped it
+  kEglGpu   ///< the first graphics card that EGL has
+};
+
 /// One eye's picture with its truth, all of the rig's width and height.
 struct EyeFrame {
   cv::Mat colour;   ///< CV_8UC3, BGR, linear light, anti-aliased, noise-free

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "renderer/backend.h"
 #include "slam/filter.h"
 #include "worlds/seeds.h"
 
@@ -19,6 +20,14 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     return worlds::parse_seeds(text);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
+  }
+}
+
+renderer::Backend parse_backend(const std::string& name) {
+  try {
+    return renderer::backend_named(name);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("--backend: {}", error.what()));
   }
 }
 
@@ -67,6 +76,16 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
                   "change a line of the scenario, e.g. --set camera.noise_sd_levels=4; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_backend_option(CLI::App& command, renderer::Backend& backend) {
+  command
+      .add_option_function<std::string>(
+          "--backend", [&backend](const std::string& name) { backend = parse_backend(name); },
+          "what renders: osmesa, egl (the same software and pixels through EGL) or egl-gpu (a graphics card; "
+          "other pixels)")
+      ->type_name("NAME")
+      ->default_str(renderer::name_of(backend));
 }
 
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name) {

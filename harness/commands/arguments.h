@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "renderer/types.h"
+
 namespace stereobench::harness {
 
 /// Options that every command which runs filters takes; empty means "as the scenario says".
@@ -31,6 +33,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments);
 
 /// Adds --set KEY=VALUE, a change of the scenario.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// Adds --backend, what renders.
+void add_backend_option(CLI::App& command, renderer::Backend& backend);
 
 /// Where results go: --out, or out/<name>.
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name);

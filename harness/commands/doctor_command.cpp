@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
 
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "renderer/backend.h"
 
@@ -32,7 +33,7 @@ std::string cpu_features() {
   return found.empty() ? " none of note" : found;
 }
 
-int examine() {
+int examine(renderer::Backend backend) {
   fmt::print("stereobench {}\n", STEREOBENCH_VERSION);
   fmt::print("CPU         {},{}\n", cpu_line("model name"), cpu_features());
   fmt::print("libraries   OpenCV {}, Eigen {}.{}.{}, GLM {}.{}.{}, assimp {}.{}.{}, nlohmann-json {}.{}.{}\n",
@@ -40,11 +41,13 @@ int examine() {
              GLM_VERSION_MINOR, GLM_VERSION_PATCH, aiGetVersionMajor(), aiGetVersionMinor(),
              aiGetVersionPatch(), NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
              NLOHMANN_JSON_VERSION_PATCH);
-  const renderer::BackendInfo backend = renderer::backend_info();
-  fmt::print("GL          {}: OpenGL {}, {}\n", backend.backend, backend.gl_version, backend.gl_renderer);
-  const std::string complaint = renderer::test_frame_complaint();
-  fmt::print("test frame  {}\n", complaint.empty() ? "as expected" : "NOT as expected: " + complaint);
-  return complaint.empty() ? kPassed : kBadInput;
+  const renderer::BackendInfo gl = renderer::backend_info(backend);
+  fmt::print("GL          {}: OpenGL {}, {}\n", renderer::name_of(backend), gl.gl_version, gl.gl_renderer);
+  const renderer::TestFrame frame = renderer::render_test_frame(backend);
+  const bool right = frame.complaint.empty();
+  fmt::print("test frame  {}\n", right ? "as expected" : "NOT as expected: " + frame.complaint);
+  fmt::print("fingerprint {}\n", renderer::fingerprint(gl, frame));
+  return right ? kPassed : kBadInput;
 }
 
 }  // namespace
@@ -52,8 +55,14 @@ int examine() {
 void add_doctor_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("doctor", "say what it runs on and whether a test frame renders as expected");
-  command->footer("Exits with 2 when there is no GL to render with, or the test frame is wrong.");
-  command->callback([&action] { action = examine; });
+  auto backend = std::make_shared<renderer::Backend>(renderer::Backend::kOsmesa);
+  add_backend_option(*command, *backend);
+  command->footer(
+      "The fingerprint names the pixels that are rendered here: where two are equal, pictures can be "
+      "compared "
+      "byte for byte.\n"
+      "Exits with 2 when there is no GL to render with, or the test frame is wrong.");
+  command->callback([backend, &action] { action = [backend] { return examine(*backend); }; });
 }
 
 }  // namespace stereobench::harness

@@ -12,6 +12,7 @@
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
 #include "harness/run/recording.h"
+#include "renderer/backend.h"
 #include "worlds/scenario.h"
 
 namespace stereobench::harness {
@@ -21,11 +22,12 @@ struct RenderArguments {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;
   std::uint64_t seed = 0;
+  renderer::Backend backend = renderer::Backend::kOsmesa;
   std::filesystem::path out;
 };
 
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
-/// own text, what was changed of it, the seed and the program's version.
+/// own text, what was changed of it, the seed, what renders and the program's version.
 std::string identity_of(const RenderArguments& arguments) {
   std::ostringstream text;
   text << std::ifstream(arguments.scenario, std::ios::binary).rdbuf();
@@ -33,6 +35,7 @@ std::string identity_of(const RenderArguments& arguments) {
                                            {"stereobench", STEREOBENCH_VERSION},
                                            {"seed", arguments.seed},
                                            {"set", arguments.overrides},
+                                           {"backend", renderer::name_of(arguments.backend)},
                                            {"scenario", text.str()}};
   return identity.dump(2) + "\n";
 }
@@ -49,7 +52,8 @@ int render(const RenderArguments& arguments) {
   Progress progress("render " + scenario.name, 1.0);
   const Recording recording = record(scenario, arguments.seed,
                                      {.on_look = [&](const Look& look) { dataset.write(look); },
-                                      .on_progress = [&](double done) { progress.show(done); }});
+                                      .on_progress = [&](double done) { progress.show(done); }},
+                                     arguments.backend);
   dataset.finish(worlds::world_for_seed(scenario, arguments.seed), scenario.rig, recording.log);
   fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name,
              recording.log.steps.size(), (out / "").string());
@@ -67,6 +71,7 @@ void add_render_command(CLI::App& program, Action& action) {
   command->add_option("--seed", arguments->seed, "of the world and the noise")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  add_backend_option(*command, arguments->backend);
   command->add_option("--out,-o", arguments->out, "folder for the data set (default: out/<name>_dataset)");
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "

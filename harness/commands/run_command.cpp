@@ -24,9 +24,9 @@ int run(const ScenarioArguments& arguments) {
   prepare_output_folder(out);
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : scenario.seeds)
-    tasks.push_back({&scenario, seed, seed == scenario.seeds.front() ? kSnapshots : 0});
+    tasks.push_back({&scenario, seed, seed == scenario.seeds.front() ? kSnapshots : 0, arguments.backend});
   const auto drives = drive_seeds(tasks, arguments.run.jobs, "run " + scenario.name);
-  const RunResult result = assemble(scenario.name, backend_of(scenario), drives);
+  const RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
   write_run(out, result, drives, scenario.world.walls);
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));

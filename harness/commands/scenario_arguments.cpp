@@ -11,6 +11,7 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("scenario", arguments.scenario, "scenario file (YAML)")->required();
   add_set_option(command, arguments.overrides);
   add_run_options(command, arguments.run);
+  add_backend_option(command, arguments.backend);
 }
 
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
@@ -27,8 +28,8 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   return scenario;
 }
 
-std::string backend_of(const worlds::Scenario& scenario) {
-  return scenario.sensor == worlds::SensorKind::kStereo ? renderer::backend_info().backend : "none";
+std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend) {
+  return scenario.sensor == worlds::SensorKind::kStereo ? renderer::name_of(backend) : "none";
 }
 
 }  // namespace stereobench::harness

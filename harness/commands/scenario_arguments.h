@@ -14,9 +14,10 @@ struct ScenarioArguments {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;  ///< "key.path=value"
   RunArguments run;
+  renderer::Backend backend = renderer::Backend::kOsmesa;
 };
 
-/// Adds SCENARIO, --set and the options of a run.
+/// Adds SCENARIO, --set, --backend and the options of a run.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Reads the scenario and lets the command line have the last word on filters, particles and seeds.
@@ -24,7 +25,7 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
                                const std::vector<std::string>& more_overrides = {});
 
-/// What renders a scenario's pictures: "osmesa", or "none" for a sensor without pixels.
-std::string backend_of(const worlds::Scenario& scenario);
+/// What run.json says of who rendered: the back end's name, or "none" for a sensor without pixels.
+std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend);
 
 }  // namespace stereobench::harness

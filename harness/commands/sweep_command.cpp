@@ -15,10 +15,10 @@ struct SweepArguments {
   std::vector<std::string> variations;
 };
 
-std::vector<DriveTask> tasks_of(const std::vector<worlds::Scenario>& scenarios) {
+std::vector<DriveTask> tasks_of(const std::vector<worlds::Scenario>& scenarios, renderer::Backend backend) {
   std::vector<DriveTask> tasks;
   for (const worlds::Scenario& scenario : scenarios)
-    for (const std::uint64_t seed : scenario.seeds) tasks.push_back({&scenario, seed, 0});
+    for (const std::uint64_t seed : scenario.seeds) tasks.push_back({&scenario, seed, 0, backend});
   return tasks;
 }
 
@@ -41,11 +41,14 @@ int run_sweep(const SweepArguments& arguments) {
   sweep.name = scenarios.front().name;
   const std::filesystem::path out = output_folder(arguments.scenario.run, sweep.name + "_sweep");
   prepare_output_folder(out);
-  const auto drives = drive_seeds(tasks_of(scenarios), arguments.scenario.run.jobs, "sweep " + sweep.name);
+  const renderer::Backend backend = arguments.scenario.backend;
+  const auto drives =
+      drive_seeds(tasks_of(scenarios, backend), arguments.scenario.run.jobs, "sweep " + sweep.name);
   std::span<const SeedDrive> rest = drives;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::size_t seeds = scenarios[i].seeds.size();
-    sweep.cells.push_back(assemble_cell(sweep.name, backend_of(scenarios[i]), cells[i], rest.first(seeds)));
+    sweep.cells.push_back(
+        assemble_cell(sweep.name, rendered_by(scenarios[i], backend), cells[i], rest.first(seeds)));
     rest = rest.subspan(seeds);
   }
   write_sweep(out, sweep, drives);

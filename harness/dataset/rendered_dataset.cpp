@@ -60,9 +60,10 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, std::string ident
   prepare_output_folder(folder_);
   for (const char* marker : {kFinished, kUnfinished})
     if (std::filesystem::exists(folder_ / marker) && read_whole(folder_ / marker) != identity_)
-      throw std::runtime_error(fmt::format(
-          "{}: holds a data set of another scenario, seed or version; choose another folder or remove it",
-          (folder_ / marker).string()));
+      throw std::runtime_error(
+          fmt::format("{}: holds a data set of another scenario, seed, back end or version; choose another "
+                      "folder or remove it",
+                      (folder_ / marker).string()));
   for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
     prepare_output_folder(folder_ / part);
   if (!std::filesystem::exists(folder_ / kFinished)) write_file_atomically(folder_ / kUnfinished, identity_);

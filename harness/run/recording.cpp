@@ -46,8 +46,9 @@ Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world,
 /// Renders, exposes, observes and scores each step's pair; lives as long as the drive.
 class StereoSense {
  public:
-  StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed)
-      : scenario_(scenario), world_(world), seed_(seed), renderer_(world, scenario.rig) {
+  StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
+              renderer::Backend backend)
+      : scenario_(scenario), world_(world), seed_(seed), renderer_(world, scenario.rig, backend) {
     settings_.ball_radius_m = world.balls.empty() ? settings_.ball_radius_m : world.balls.front().radius_m;
     settings_.noise_sd_levels = scenario.camera.noise_sd_levels;
   }
@@ -108,7 +109,8 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
 
 }  // namespace
 
-Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners) {
+Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
+                 renderer::Backend backend) {
   Recording recording;
   const worlds::World world = worlds::world_for_seed(scenario, seed);
   recording.log.landmarks = landmarks_of(world);
@@ -117,7 +119,7 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
     drive(scenario, seed, oracle_sense(scenario, world, seed), recording.log, listeners.on_progress);
     return recording;
   }
-  StereoSense stereo(scenario, world, seed);
+  StereoSense stereo(scenario, world, seed, backend);
   const auto look = [&](std::size_t index, const slam::Pose& pose) {
     return stereo.look(index, pose, listeners.on_look);
   };

@@ -43,8 +43,10 @@ struct Recording {
 /// sensed by the oracle), and the odometry is measured with its noise.
 /// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
 /// @param listeners told of each look (sensors with pixels only) and of the progress
+/// @param backend what renders, for a sensor with pixels
 /// @return the log with truth, and how vision scored
-/// @throws std::runtime_error when there is no GL or a mesh cannot be read
-Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners);
+/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
+Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
+                 renderer::Backend backend = renderer::Backend::kOsmesa);
 
 }  // namespace stereobench::harness

@@ -25,7 +25,7 @@ struct FilterResult {
 struct RunResult {
   std::string name;  ///< of the scenario or the log
   std::vector<std::uint64_t> seeds;
-  std::string backend;                ///< what rendered: "osmesa", or "none"
+  std::string backend;                ///< what rendered, e.g. "osmesa", or "none"
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
   std::optional<double> odometry_delay_s;  ///< that a recorded log's odometry was moved by

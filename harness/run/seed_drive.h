@@ -27,11 +27,12 @@ struct SeedDrive {
   std::vector<Snapshot> snapshots;
 };
 
-/// A seed to drive, and how many pictures of it to keep.
+/// A seed to drive, what renders it, and how many pictures of it to keep.
 struct DriveTask {
   const worlds::Scenario* scenario = nullptr;
   std::uint64_t seed = 0;
   std::size_t snapshots = 0;  ///< evenly spread over the path
+  renderer::Backend backend = renderer::Backend::kOsmesa;
 };
 
 /// The settings that a scenario gives its filters.

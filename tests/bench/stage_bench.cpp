@@ -1,10 +1,12 @@
 /// The stages that touch pixels, on one core, as times and as multiples of copying the same pair of images.
 #include <chrono>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
+#include "renderer/backend.h"
 #include "renderer/expose.h"
 #include "renderer/renderer.h"
 #include "vision/observe.h"
@@ -14,6 +16,8 @@ namespace stereobench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kLastBackend = static_cast<int>(renderer::kBackends.size()) - 1;
 
 /// A world as it is rendered from one place.
 struct Scene {
@@ -46,8 +50,10 @@ Scene eighteen_balls() {
 
 /// A rendered pair and what copying it costs.
 struct Bench {
-  explicit Bench(Scene shown)
-      : scene(std::move(shown)), renderer(scene.world, scene.rig), frame(renderer.render(scene.pose)) {}
+  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa)
+      : scene(std::move(shown)),
+        renderer(scene.world, scene.rig, backend),
+        frame(renderer.render(scene.pose)) {}
 
   /// Times `stage`, and the copy right after it, so that both see the same machine.
   template <typename Stage>
@@ -75,9 +81,16 @@ struct Bench {
   cv::Mat left, right;
 };
 
+/// The argument is an index into kBackends; one that this machine does not have is skipped.
 void render_pair(benchmark::State& state, const Scene& scene) {
-  Bench bench(scene);
-  bench.run(state, [&] { benchmark::DoNotOptimize(bench.renderer.render(scene.pose)); });
+  const renderer::Backend backend = renderer::kBackends.at(static_cast<std::size_t>(state.range(0)));
+  state.SetLabel(renderer::name_of(backend));
+  try {
+    Bench bench(scene, backend);
+    bench.run(state, [&] { benchmark::DoNotOptimize(bench.renderer.render(scene.pose)); });
+  } catch (const std::runtime_error& error) {
+    state.SkipWithError(error.what());
+  }
 }
 
 void expose_pair(benchmark::State& state, const Scene& scene, double noise_sd_levels) {
@@ -101,9 +114,9 @@ void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_l
 #define STEREOBENCH_STAGE(function, ...) \
   BENCHMARK_CAPTURE(function, __VA_ARGS__)->Unit(benchmark::kMillisecond)->UseManualTime()
 
-STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls());
-STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"));
-STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"));
+STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls())->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"))->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), 2.0);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_2, eighteen_balls(), 2.0);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_8, eighteen_balls(), 8.0);

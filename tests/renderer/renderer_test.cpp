@@ -4,31 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/backend.h"
+#include "tests/renderer/frames.h"
 #include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer {
 namespace {
 
-using testing::HasSubstr;
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && a.isContinuous() && b.isContinuous() &&
-         std::equal(a.datastart, a.dataend, b.datastart);
-}
-
-bool same(const EyeFrame& a, const EyeFrame& b) {
-  return same(a.colour, b.colour) && same(a.ball_id, b.ball_id) && same(a.depth_m, b.depth_m);
-}
-
-bool same(const StereoFrame& a, const StereoFrame& b) {
-  return same(a.left, b.left) && same(a.right, b.right);
-}
+using test::same;
 
 /// Mean place of a ball's pixels.
 cv::Point2d place(const EyeFrame& frame, int id) {
@@ -152,23 +137,6 @@ TEST(Renderer, RefusesWorldsRigsAndPosesThatMeanNothing) {
   rig.camera.focal_px = 0.0;
   EXPECT_THROW(Renderer({}, rig), std::invalid_argument);
   EXPECT_THROW(Renderer({}, test::small_rig()).render({NAN, 0.0, 0.0}), std::invalid_argument);
-}
-
-TEST(Backend, SaysWhatItIsAndRendersItsTestFrame) {
-  const BackendInfo info = backend_info();
-  EXPECT_EQ(info.backend, "osmesa");
-  EXPECT_THAT(info.gl_version, HasSubstr("Mesa"));
-  EXPECT_THAT(info.gl_renderer, HasSubstr("llvmpipe"));
-  EXPECT_FALSE(info.gl_vendor.empty());
-  EXPECT_EQ(test_frame_complaint(), "");
-}
-
-TEST(Backend, RefusesVectorsThatCrashTheRasteriser) {
-  ::setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
-  EXPECT_THAT([] { backend_info(); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr("LP_NATIVE_VECTOR_WIDTH=512")));
-  ::unsetenv("LP_NATIVE_VECTOR_WIDTH");
-  EXPECT_NO_THROW(backend_info());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ void redirect(int file, const std::filesystem::path& path) {
 
 }  // namespace
 
-Outcome run_stereobench(const std::vector<std::string>& arguments) {
+Outcome run_stereobench(const std::vector<std::string>& arguments, Environment environment) {
   const ScratchFolder scratch;
   std::vector<std::string> words = {STEREOBENCH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -30,6 +30,7 @@ Outcome run_stereobench(const std::vector<std::string>& arguments) {
   if (pid == 0) {
     redirect(STDOUT_FILENO, scratch.path() / "out");
     redirect(STDERR_FILENO, scratch.path() / "err");
+    for (std::string& variable : environment) ::putenv(variable.data());
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

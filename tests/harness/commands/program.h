@@ -13,8 +13,11 @@ struct Outcome {
   std::string err;
 };
 
+/// Variables that a program is given beside those it inherits: "NAME=value".
+using Environment = std::vector<std::string>;
+
 /// Runs `stereobench` with arguments and waits for it; its output is not a terminal.
-Outcome run_stereobench(const std::vector<std::string>& arguments);
+Outcome run_stereobench(const std::vector<std::string>& arguments, Environment environment = {});
 
 /// The path of a shipped scenario.
 std::string scenario_path(const std::string& name);

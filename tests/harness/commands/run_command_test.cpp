@@ -136,7 +136,7 @@ TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
   EXPECT_EQ(std::filesystem::last_write_time(kept), kept_time);
   const Outcome other = run_stereobench(with(render, {"--seed", "7"}));
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed or version"));
+  EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed, back end or version"));
 }
 
 // Mutation: seeds that are shifted from cell to cell.

@@ -1,0 +1,100 @@
+#include "tests/renderer/frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "renderer/backend.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/random_scene.h"
+
+namespace stereobench::renderer::test {
+namespace {
+
+template <typename Frame>
+auto pictures_of(Frame& frame) {
+  return std::array{&frame.left.colour,  &frame.left.ball_id,  &frame.left.depth_m,
+                    &frame.right.colour, &frame.right.ball_id, &frame.right.depth_m};
+}
+
+bool is_other_colour(const cv::Vec3b& a, const cv::Vec3b& b) {
+  return cv::norm(cv::Vec3i(a) - cv::Vec3i(b), cv::NORM_INF) > 1.0;
+}
+
+bool is_other_depth(float a, float b) {
+  return a != b && !(std::abs(double{a} - double{b}) <= 1e-5 * std::min(double{a}, double{b}));
+}
+
+Difference difference(const EyeFrame& a, const EyeFrame& b) {
+  Difference result{.ids = cv::countNonZero(a.ball_id != b.ball_id)};
+  for (int row = 0; row < a.colour.rows; ++row) {
+    for (int column = 0; column < a.colour.cols; ++column) {
+      const cv::Point at(column, row);
+      result.colours += is_other_colour(a.colour.at<cv::Vec3b>(at), b.colour.at<cv::Vec3b>(at)) ? 1 : 0;
+      result.depths += is_other_depth(a.depth_m.at<float>(at), b.depth_m.at<float>(at)) ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+StereoFrame blank_frame() {
+  const vision::Intrinsics camera = small_rig().camera;
+  const cv::Size size(camera.width_px, camera.height_px);
+  const auto eye = [&] { return EyeFrame{{size, CV_8UC3}, {size, CV_8UC1}, {size, CV_32FC1}}; };
+  return {eye(), eye()};
+}
+
+bool read(StereoFrame& frame, std::FILE* file) {
+  bool whole = true;
+  for (cv::Mat* picture : pictures_of(frame)) {
+    whole =
+        whole && std::fread(picture->data, picture->elemSize(), picture->total(), file) == picture->total();
+  }
+  return whole;
+}
+
+}  // namespace
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && a.isContinuous() && b.isContinuous() &&
+         std::equal(a.datastart, a.dataend, b.datastart);
+}
+
+bool same(const StereoFrame& a, const StereoFrame& b) {
+  const auto of_a = pictures_of(a);
+  const auto of_b = pictures_of(b);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(),
+                    [](const cv::Mat* x, const cv::Mat* y) { return same(*x, *y); });
+}
+
+Difference difference(const StereoFrame& a, const StereoFrame& b) {
+  const Difference left = difference(a.left, b.left);
+  const Difference right = difference(a.right, b.right);
+  return {left.ids + right.ids, left.colours + right.colours, left.depths + right.depths};
+}
+
+StereoFrame room_frame(std::uint64_t room, Backend backend) {
+  return Renderer(random_room(room), small_rig(), backend).render(random_pose(room));
+}
+
+std::vector<StereoFrame> frames_of_process(const std::string& environment, Backend backend, int rooms) {
+  const std::string command =
+      fmt::format("env {} '{}' {} {}", environment, STEREOBENCH_FRAME_WRITER, name_of(backend), rooms);
+  std::FILE* const output = ::popen(command.c_str(), "r");
+  if (output == nullptr) throw std::runtime_error("cannot run: " + command);
+  std::vector<StereoFrame> frames;
+  for (StereoFrame frame = blank_frame(); read(frame, output); frame = blank_frame()) frames.push_back(frame);
+  if (::pclose(output) != 0 || std::ssize(frames) != rooms) throw std::runtime_error("failed: " + command);
+  return frames;
+}
+
+void write(const StereoFrame& frame, std::FILE* file) {
+  for (const cv::Mat* picture : pictures_of(frame)) {
+    std::fwrite(picture->data, picture->elemSize(), picture->total(), file);
+  }
+}
+
+}  // namespace stereobench::renderer::test
