@@ -66,12 +66,14 @@ void add_sweep_command(CLI::App& program, Action& action) {
   command
       ->add_option("--vary", arguments->variations,
                    "a line of the scenario and its values, e.g. --vary camera.noise_sd_levels=0,1,2,4,8; may "
-                   "be repeated")
+                   "be repeated; lines that vary together: --vary KEY1:KEY2=A1:A2,B1:B2")
       ->type_name("KEY=A,B,C")
       ->allow_extra_args(false)
       ->required();
   command->footer(
-      "Every cell sees the same worlds and odometry, so that cells differ in what is varied alone.\n"
+      "Every cell sees the same worlds and odometry, so that cells differ in what is varied alone. Filters "
+      "are\n"
+      "compared seed by seed, p by Wilcoxon's signed ranks.\n"
       "Writes sweep.png (detection error and ATE against the first --vary), sweep.csv and sweep.json.\n\n"
       "Example: stereobench sweep assets/scenarios/ball_circle.yaml --vary camera.noise_sd_levels=0,1,2,4,8 "
       "--seeds 0..9");

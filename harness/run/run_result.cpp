@@ -13,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
+constexpr const char* kBaseline = "dead_reckoning";
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -28,8 +29,7 @@ Json summary_json(const Summary& summary) {
 /// How many times better than dead reckoning a filter's mean ATE is; null without dead reckoning.
 Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) {
   for (const FilterResult& filter : result.filters)
-    if (filter.filter == "dead_reckoning")
-      return number(summary.ate_rms_m.mean / filter.summary.ate_rms_m.mean);
+    if (filter.filter == kBaseline) return number(summary.ate_rms_m.mean / filter.summary.ate_rms_m.mean);
   return nullptr;
 }
 
@@ -54,6 +54,32 @@ Json filter_json(const RunResult& result, const FilterSummary& summary) {
             {"spurious", summary.landmarks_spurious}}},
           {"anees", summary_json(summary.anees)},
           {"failures", summary.failures}};
+}
+
+std::vector<double> ate_of(const FilterResult& filter) {
+  std::vector<double> errors;
+  for (const FilterScore& score : filter.scores) errors.push_back(score.trajectory.ate_rms_m);
+  return errors;
+}
+
+std::vector<Comparison> compare(const std::vector<FilterResult>& filters) {
+  std::vector<Comparison> comparisons;
+  for (std::size_t i = 0; i < filters.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (filters[i].filter != kBaseline && filters[j].filter != kBaseline)
+        comparisons.push_back(
+            {filters[i].filter, filters[j].filter, compare_paired(ate_of(filters[i]), ate_of(filters[j]))});
+  return comparisons;
+}
+
+Json comparisons_json(const std::vector<Comparison>& comparisons) {
+  Json list = Json::array();
+  for (const Comparison& comparison : comparisons)
+    list.push_back({{"filter", comparison.filter},
+                    {"minus", comparison.other},
+                    {"ate_rms_m", summary_json(comparison.ate_m.difference)},
+                    {"p_wilcoxon", number(comparison.ate_m.p_value)}});
+  return list;
 }
 
 Json vision_json(const std::optional<VisionScore>& vision) {
@@ -109,6 +135,7 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
   }
   for (std::size_t i = 0; i < result.filters.size(); ++i)
     result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles);
+  result.comparisons = compare(result.filters);
   return result;
 }
 
@@ -123,6 +150,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
                {"vision", vision_json(result.vision)}};
   if (result.odometry_delay_s) json["log"] = {{"odometry_delay_s", *result.odometry_delay_s}};
   json["filters"] = std::move(filters);
+  json["comparisons"] = comparisons_json(result.comparisons);
   return json;
 }
 

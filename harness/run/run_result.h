@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/run/seed_drive.h"
+#include "harness/scoring/paired.h"
 #include "harness/scoring/score.h"
 
 namespace stereobench::harness {
@@ -21,6 +22,13 @@ struct FilterResult {
   FilterSummary summary;
 };
 
+/// One filter beside another on the same seeds.
+struct Comparison {
+  std::string filter;
+  std::string other;
+  PairedDifference ate_m;  ///< ATE of the filter minus that of the other
+};
+
 /// What a run gave.
 struct RunResult {
   std::string name;  ///< of the scenario or the log
@@ -28,6 +36,7 @@ struct RunResult {
   std::string backend;                ///< what rendered, e.g. "osmesa", or "none"
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
+  std::vector<Comparison> comparisons;     ///< each filter with those before it, dead reckoning aside
   std::optional<double> odometry_delay_s;  ///< that a recorded log's odometry was moved by
 };
 

@@ -11,6 +11,7 @@ namespace stereobench::harness {
 
 namespace {
 
+constexpr std::size_t kFirstStep = 2;
 constexpr double kSmallestEigenvalue = 1e-9;  // of a correlation matrix, whose eigenvalues sum to at most 3
 
 }  // namespace
@@ -42,7 +43,7 @@ std::optional<double> normalised_error(const slam::Pose& estimate, const Eigen::
 std::vector<std::optional<double>> normalised_errors(const FilterRun& run, const MeasurementLog& log) {
   std::vector<std::optional<double>> errors(log.steps.size());
   const std::size_t recorded = std::min({run.poses.size(), run.covariances.size(), log.steps.size()});
-  for (std::size_t i = 1; i < recorded; ++i) {
+  for (std::size_t i = kFirstStep; i < recorded; ++i) {
     if (!log.steps[i].truth) continue;
     errors[i] = normalised_error(run.poses[i], run.covariances[i], *log.steps[i].truth);
   }

@@ -17,8 +17,10 @@ std::optional<double> normalised_error(const slam::Pose& estimate, const Eigen::
                                        const slam::Pose& truth);
 
 /// The normalised error of each step of a run.
-/// @return as many as the log has steps; none at the first step, where the start is given, and where
-///   there is no truth or no covariance
+/// @return as many as the log has steps; none at the first step, where the start is given, nor at the second:
+///   after one control from an exact start two noises spread over three states, and what the second order of
+///   their product adds across has no variance to be measured by; and none where there is no truth or no
+///   covariance
 std::vector<std::optional<double>> normalised_errors(const FilterRun& run, const MeasurementLog& log);
 
 /// The average over seeds of the normalised error, step by step (ANEES).

@@ -21,6 +21,12 @@ std::string with_interval(const Summary& summary, double scale) {
                      format_number(scale * summary.half_width, 2));
 }
 
+/// How much one filter is worse than another, and whether that may be chance.
+std::string with_p_value(const PairedDifference& pair) {
+  if (pair.difference.count < 2) return "-";
+  return fmt::format("{} (p {})", with_interval(pair.difference, 1.0), format_number(pair.p_value, 2));
+}
+
 /// The cells that differ in the first variation only, one group for each combination of the others.
 std::vector<std::vector<const SweepCell*>> groups_of(const SweepResult& sweep) {
   const std::size_t groups = sweep.cells.size() / sweep.variations.front().values.size();
@@ -32,12 +38,13 @@ std::vector<std::vector<const SweepCell*>> groups_of(const SweepResult& sweep) {
 std::string title_of(const SweepResult& sweep, const SweepCell& cell) {
   std::string title = fmt::format("{}, {} seeds", sweep.name, cell.result.seeds.size());
   for (std::size_t i = 1; i < sweep.variations.size(); ++i)
-    title += fmt::format(", {} = {}", sweep.variations[i].key, cell.values[i]);
+    title += fmt::format(", {} = {}", sweep.variations[i].name(), cell.values[i]);
   return title;
 }
 
 std::string picture_of(const SweepResult& sweep, const std::vector<const SweepCell*>& cells) {
-  SweepPicture picture{.title = title_of(sweep, *cells.front()), .parameter = sweep.variations.front().key};
+  SweepPicture picture{.title = title_of(sweep, *cells.front()),
+                       .parameter = sweep.variations.front().name()};
   SweepCurve range{.name = "range rms [mm]", .values = {}};
   SweepCurve bearing{.name = "bearing rms [mrad]", .values = {}};
   for (const FilterResult& filter : cells.front()->result.filters)
@@ -69,10 +76,12 @@ SweepCell assemble_cell(const std::string& name, const std::string& backend, con
 
 std::string sweep_table(const SweepResult& sweep) {
   AlignedTable table;
-  for (const Variation& variation : sweep.variations) table.header.push_back(variation.key);
+  for (const Variation& variation : sweep.variations) table.header.push_back(variation.name());
   table.header.insert(table.header.end(), {"recall", "range rms [mm]", "bearing rms [mrad]"});
   for (const FilterResult& filter : sweep.cells.front().result.filters)
     table.header.push_back(filter.filter + " ATE [m]");
+  for (const Comparison& comparison : sweep.cells.front().result.comparisons)
+    table.header.push_back(fmt::format("{} - {} [m]", comparison.filter, comparison.other));
   for (const SweepCell& cell : sweep.cells) {
     std::vector<std::string> row = cell.values;
     row.push_back(cell.result.vision ? format_number(cell.result.vision->recall()) : "-");
@@ -80,6 +89,8 @@ std::string sweep_table(const SweepResult& sweep) {
     row.push_back(with_interval(cell.bearing_rms_rad, 1e3));
     for (const FilterResult& filter : cell.result.filters)
       row.push_back(with_interval(filter.summary.ate_rms_m, 1.0));
+    for (const Comparison& comparison : cell.result.comparisons)
+      row.push_back(with_p_value(comparison.ate_m));
     table.rows.push_back(std::move(row));
   }
   return plain_text(table);
@@ -87,14 +98,15 @@ std::string sweep_table(const SweepResult& sweep) {
 
 std::string sweep_csv(const SweepResult& sweep) {
   std::string csv;
-  for (const Variation& variation : sweep.variations) csv += variation.key + ",";
+  for (const Variation& variation : sweep.variations)
+    for (const std::string& key : variation.keys) csv += key + ",";
   csv += "filter,seeds,ate_rms_m,ate_ci95_m,landmark_rms_m,failures,recall,range_rms_m,bearing_rms_rad\n";
   for (const SweepCell& cell : sweep.cells)
     for (const FilterResult& filter : cell.result.filters) {
       const FilterSummary& s = filter.summary;
-      csv += fmt::format("{},{},{},{},{},{},{}", fmt::join(cell.values, ","), filter.filter,
-                         cell.result.seeds.size(), s.ate_rms_m.mean, s.ate_rms_m.half_width,
-                         s.landmark_rms_m.mean, s.failures);
+      for (const Setting& setting : settings_of(sweep.variations, cell.values)) csv += setting.value + ",";
+      csv += fmt::format("{},{},{},{},{},{}", filter.filter, cell.result.seeds.size(), s.ate_rms_m.mean,
+                         s.ate_rms_m.half_width, s.landmark_rms_m.mean, s.failures);
       if (cell.result.vision)
         csv += fmt::format(",{},{},{}\n", cell.result.vision->recall(), cell.range_rms_m.mean,
                            cell.bearing_rms_rad.mean);
@@ -108,8 +120,8 @@ nlohmann::ordered_json sweep_json(const SweepResult& sweep) {
   nlohmann::ordered_json cells = nlohmann::ordered_json::array();
   for (const SweepCell& cell : sweep.cells) {
     nlohmann::ordered_json values;
-    for (std::size_t i = 0; i < sweep.variations.size(); ++i)
-      values[sweep.variations[i].key] = cell.values[i];
+    for (const Setting& setting : settings_of(sweep.variations, cell.values))
+      values[setting.key] = setting.value;
     cells.push_back({{"values", std::move(values)}, {"run", run_json(cell.result)}});
   }
   return {{"schema", 1}, {"scenario", sweep.name}, {"cells", std::move(cells)}};

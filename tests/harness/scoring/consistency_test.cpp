@@ -80,20 +80,21 @@ TEST(NormalisedError, IsNothingWithoutACovariance) {
   EXPECT_FALSE(normalised_error({std::nan(""), 1, 1}, Eigen::Matrix3d::Identity(), {}).has_value());
 }
 
-// Mutation: scoring the first step, where the start is given and P is zero or meaningless.
-TEST(NormalisedErrors, SkipTheFirstStepAndThoseWithoutTruth) {
+// Mutation: scoring the first steps, where the start is given and P is zero, and where one control was too few.
+TEST(NormalisedErrors, SkipTheFirstTwoStepsAndThoseWithoutTruth) {
   MeasurementLog log;
-  log.steps.resize(4);
-  for (const std::size_t i : {0U, 1U, 3U}) log.steps[i].truth = slam::Pose{};
+  log.steps.resize(5);
+  for (const std::size_t i : {0U, 1U, 2U, 4U}) log.steps[i].truth = slam::Pose{};
   FilterRun run;
-  run.poses.assign(4, slam::Pose{0.0, 3.0, 0.0});
-  run.covariances.assign(4, Eigen::Matrix3d::Identity());
+  run.poses.assign(5, slam::Pose{0.0, 3.0, 0.0});
+  run.covariances.assign(5, Eigen::Matrix3d::Identity());
   const auto errors = normalised_errors(run, log);
-  ASSERT_EQ(errors.size(), 4U);
+  ASSERT_EQ(errors.size(), 5U);
   EXPECT_FALSE(errors[0].has_value());
-  EXPECT_FALSE(errors[2].has_value());
-  EXPECT_DOUBLE_EQ(errors[1].value(), 3.0);
-  EXPECT_DOUBLE_EQ(errors[3].value(), 3.0);
+  EXPECT_FALSE(errors[1].has_value());
+  EXPECT_DOUBLE_EQ(errors[2].value(), 3.0);
+  EXPECT_FALSE(errors[3].has_value());
+  EXPECT_DOUBLE_EQ(errors[4].value(), 3.0);
 }
 
 TEST(AverageOverSeeds, IsStepByStepOverThoseThatHaveAValue) {

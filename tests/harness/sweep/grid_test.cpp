@@ -13,7 +13,7 @@ using testing::ThrowsMessage;
 
 // Mutation: the first one fastest.
 TEST(Grid, TheLastVariationMovesFastest) {
-  const std::vector<Variation> variations = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}};
+  const std::vector<Variation> variations = {{{"a"}, {"1", "2"}}, {{"b"}, {"x", "y", "z"}}};
   EXPECT_THAT(grid(variations), ElementsAre(Cell{"1", "x"}, Cell{"1", "y"}, Cell{"1", "z"}, Cell{"2", "x"},
                                             Cell{"2", "y"}, Cell{"2", "z"}));
 }
@@ -22,7 +22,7 @@ TEST(Grid, TheLastVariationMovesFastest) {
 TEST(Grid, HasEachCombinationOnce) {
   for (std::size_t first = 1; first <= 4; ++first)
     for (std::size_t second = 1; second <= 4; ++second) {
-      std::vector<Variation> variations = {{"a", {}}, {"b", {}}, {"c", {"0", "1"}}};
+      std::vector<Variation> variations = {{{"a"}, {}}, {{"b"}, {}}, {{"c"}, {"0", "1"}}};
       for (std::size_t i = 0; i < first; ++i) variations[0].values.push_back(std::to_string(i));
       for (std::size_t i = 0; i < second; ++i) variations[1].values.push_back(std::to_string(i));
       const std::vector<Cell> cells = grid(variations);
@@ -39,22 +39,35 @@ TEST(Grid, OfNothingIsTheScenarioItself) {
 // Mutation: letting a key stand twice.
 TEST(Grid, HasALimitAndEachKeyOnce) {
   const std::vector<std::string> hundred(100, "1");
-  EXPECT_EQ(grid({{"a", hundred}, {"b", hundred}}).size(), 10'000U);
-  EXPECT_THROW(grid({{"a", hundred}, {"b", hundred}, {"c", {"1", "2"}}}), std::runtime_error);
+  EXPECT_EQ(grid({{{"a"}, hundred}, {{"b"}, hundred}}).size(), 10'000U);
+  EXPECT_THROW(grid({{{"a"}, hundred}, {{"b"}, hundred}, {{"c"}, {"1", "2"}}}), std::runtime_error);
   EXPECT_THAT(([] {
-                grid({{"a", {"1"}}, {"a", {"2"}}});
+                grid({{{"a"}, {"1"}}, {{"a"}, {"2"}}});
               }),
               ThrowsMessage<std::runtime_error>(HasSubstr("a is varied twice")));
 }
 
 TEST(Grid, ACellOverridesEachKeyWithItsOwnValue) {
-  EXPECT_THAT(overrides_of({{"path.laps", {"1", "2"}}, {"particles", {"10"}}}, {"2", "10"}),
+  EXPECT_THAT(overrides_of({{{"path.laps"}, {"1", "2"}}, {{"particles"}, {"10"}}}, {"2", "10"}),
               ElementsAre("path.laps=2", "particles=10"));
+}
+
+// Mutation: each key with the whole value.
+TEST(Grid, LinesThatVaryTogetherEachTakeTheirPart) {
+  const Variation noise = parse_variation("oracle.range_sd_m:oracle.bearing_sd_deg=0.1:1,0.3:3");
+  EXPECT_EQ(noise.name(), "oracle.range_sd_m:oracle.bearing_sd_deg");
+  EXPECT_EQ(grid({noise}).size(), 2U);
+  EXPECT_THAT(overrides_of({noise}, {"0.3:3"}),
+              ElementsAre("oracle.range_sd_m=0.3", "oracle.bearing_sd_deg=3"));
+}
+
+TEST(ParseVariation, ASingleKeyTakesColonsAsTheyAre) {
+  EXPECT_THAT(overrides_of({parse_variation("a=x:y")}, {"x:y"}), ElementsAre("a=x:y"));
 }
 
 TEST(ParseVariation, KeepsValuesAsTheyWereWritten) {
   const Variation variation = parse_variation("camera.noise_sd_levels=0,1.50,-2e1,x=y");
-  EXPECT_EQ(variation.key, "camera.noise_sd_levels");
+  EXPECT_THAT(variation.keys, ElementsAre("camera.noise_sd_levels"));
   EXPECT_THAT(variation.values, ElementsAre("0", "1.50", "-2e1", "x=y"));
 }
 
