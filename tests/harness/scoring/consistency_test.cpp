@@ -80,7 +80,8 @@ TEST(NormalisedError, IsNothingWithoutACovariance) {
   EXPECT_FALSE(normalised_error({std::nan(""), 1, 1}, Eigen::Matrix3d::Identity(), {}).has_value());
 }
 
-// Mutation: scoring the first steps, where the start is given and P is zero, and where one control was too few.
+// Mutation: scoring the first steps, where the start is given and P is zero, and where one control was too
+// few.
 TEST(NormalisedErrors, SkipTheFirstTwoStepsAndThoseWithoutTruth) {
   MeasurementLog log;
   log.steps.resize(5);
