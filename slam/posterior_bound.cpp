@@ -29,7 +29,7 @@ Eigen::Matrix3d lever(const Pose& from, const Pose& to) {
 
 /// W with W' W = C' S^+ C, for a semidefinite S and a C that vanishes where S does.
 Eigen::MatrixXd whitened(const Eigen::MatrixXd& c, const Eigen::MatrixXd& s) {
-  constexpr double kVanishing = 1e-14;  // of correlations, in which metres and radians are alike
+  constexpr double kVanishing = 1e-12;  // of correlations, in which metres and radians are alike
   const Eigen::VectorXd scale =
       (s.diagonal().array() > 0.0).select(s.diagonal().array().rsqrt(), 0.0).matrix();
   const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * s * scale.asDiagonal());

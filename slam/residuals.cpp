@@ -33,9 +33,11 @@ Eigen::Matrix3d chord_by_end(double direction_rad, const Eigen::Vector3d& motion
   return slope;
 }
 
+/// W with W C W' = I.
 template <int kSize>
-auto lower(const Eigen::Matrix<double, kSize, kSize>& root) {
-  return root.template triangularView<Eigen::Lower>();
+Eigen::Matrix<double, kSize, kSize> whitener(const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  const Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> factor(covariance);
+  return factor.matrixL().solve(Eigen::Matrix<double, kSize, kSize>::Identity());
 }
 
 }  // namespace
@@ -48,38 +50,30 @@ MotionResidual::MotionResidual(const PoseBelief& start_from_end) {
   const double missing_m2 =
       kMissingShare * kMissingShare * (covariance(0, 0) + covariance(1, 1)) + kLeast_m * kLeast_m;
   covariance.diagonal() += Eigen::Vector3d(missing_m2, missing_m2, kLeast_rad * kLeast_rad);
-  root_ = Eigen::LLT<Eigen::Matrix3d>(covariance).matrixL();
+  whitener_ = whitener<3>(covariance);
 }
 
 MotionResidual::Value MotionResidual::at(const Pose& from, const Pose& to) const {
   const double turn_rad = mean_.z() + wrap_angle(to.heading_rad - from.heading_rad - mean_.z());
   const Eigen::Vector3d motion = chord(from, to, turn_rad);
-  Value value;
-  value.residual = motion - mean_;
-  value.by_to = chord_by_end(from.heading_rad + 0.5 * turn_rad, motion);
-  value.by_from = -value.by_to;
-  value.by_from.block<2, 1>(0, 2) = value.by_to.block<2, 1>(0, 2);  // both turn the middle by half
-  lower(root_).solveInPlace(value.residual);
-  lower(root_).solveInPlace(value.by_to);
-  lower(root_).solveInPlace(value.by_from);
-  return value;
+  const Eigen::Matrix3d by_to = chord_by_end(from.heading_rad + 0.5 * turn_rad, motion);
+  Eigen::Matrix3d by_from = -by_to;
+  by_from.block<2, 1>(0, 2) = by_to.block<2, 1>(0, 2);  // both turn the middle by half
+  return {whitener_ * (motion - mean_), whitener_ * by_from, whitener_ * by_to};
 }
 
 SightingResidual::SightingResidual(const Observation& observation) : seen_(observation.range_bearing) {
   Eigen::Matrix2d covariance = observation.noise;
   covariance.diagonal() += Eigen::Vector2d(kLeast_m, kLeast_rad).cwiseAbs2();
-  root_ = Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL();
+  whitener_ = whitener<2>(covariance);
 }
 
 SightingResidual::Value SightingResidual::at(const Pose& robot, const Eigen::Vector2d& landmark) const {
-  Value value;
-  value.residual = sighting_residual(predict_sighting(robot, landmark), seen_);
-  value.by_landmark = sighting_by_landmark(robot, landmark);
-  value.by_pose << -value.by_landmark, Eigen::Vector2d(0.0, -1.0);
-  lower(root_).solveInPlace(value.residual);
-  lower(root_).solveInPlace(value.by_landmark);
-  lower(root_).solveInPlace(value.by_pose);
-  return value;
+  const Eigen::Matrix2d by_landmark = sighting_by_landmark(robot, landmark);
+  Eigen::Matrix<double, 2, 3> by_pose;
+  by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
+  return {whitener_ * sighting_residual(predict_sighting(robot, landmark), seen_), whitener_ * by_pose,
+          whitener_ * by_landmark};
 }
 
 }  // namespace stereobench::slam

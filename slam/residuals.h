@@ -33,8 +33,8 @@ class MotionResidual {
   Value at(const Pose& from, const Pose& to) const;
 
  private:
-  Eigen::Vector3d mean_;  ///< along, across, turn
-  Eigen::Matrix3d root_;  ///< lower triangular
+  Eigen::Vector3d mean_;      ///< along, across, turn
+  Eigen::Matrix3d whitener_;  ///< W with W C W' = I
 };
 
 /// A sighting: how far it lies from what should have been seen, in standard deviations.
@@ -54,7 +54,7 @@ class SightingResidual {
 
  private:
   Eigen::Vector2d seen_;
-  Eigen::Matrix2d root_;  ///< lower triangular
+  Eigen::Matrix2d whitener_;
 };
 
 }  // namespace stereobench::slam

@@ -139,7 +139,7 @@ TEST_P(BoundLaw, AFrameHasNoOrder) {
 TEST(PosteriorBound, APerfectSensorLeavesNothingUncertain) {
   const Course course(1);
   PosteriorBound bound(course.noise, course.start, kCoursePlaces);
-  const std::vector<TrueSighting> frame = {{0, {}}, {1, {}}, {2, {}}};
+  const std::vector<TrueSighting> frame = {{.landmark = 0}, {.landmark = 1}, {.landmark = 2}};
   bound.look(frame);
   for (const DenseStep& step : course.steps) {
     for (const Control& control : step.controls) bound.move(control);
