@@ -45,4 +45,16 @@ struct FilterRun {
   std::string failure;  ///< why, and at which step; empty when it did not fail
 };
 
+/// The least covariances that any filter's estimates over a log can have.
+struct BoundRun {
+  std::vector<Eigen::Matrix3d> poses;      ///< of (x, y, heading), one a step
+  std::vector<Eigen::Matrix2d> landmarks;  ///< in the end, of those that were seen
+};
+
+/// What filters are held against, beside the truth.
+struct References {
+  std::optional<BoundRun> bound;  ///< where the true controls are known
+  FilterRun batch;                ///< the whole log at once; its covariances are zero
+};
+
 }  // namespace stereobench::harness

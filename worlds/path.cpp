@@ -17,6 +17,7 @@ using slam::Pose;
 
 constexpr double kSliver_s = 1e-9;  ///< pieces of time shorter than the stamps resolve are not driven
 constexpr double kMostSteps = 100000.0;
+constexpr double kMostReadings = 1000000.0;
 
 void require_positive(double value, const char* what) {
   if (!std::isfinite(value) || value <= 0.0) {
@@ -46,13 +47,27 @@ std::vector<Control> take(std::vector<Control>& pieces, std::size_t& next, doubl
   return taken;
 }
 
+/// Cuts the controls of a step where the odometry is read within it.
+std::vector<Control> cut_at_readings(std::vector<Control> controls, double odometry_s) {
+  if (odometry_s == 0.0) return controls;
+  std::vector<Control> cut;
+  for (std::size_t next = 0; next < controls.size();) {
+    const std::vector<Control> reading = take(controls, next, odometry_s);
+    cut.insert(cut.end(), reading.begin(), reading.end());
+  }
+  return cut;
+}
+
 /// Cuts a drive into steps; their poses follow from the controls.
-GroundTruth drive(const Pose& start, std::vector<Control> pieces, double step_s) {
+GroundTruth drive(const Pose& start, std::vector<Control> pieces, double step_s, double odometry_s) {
   const double total_s = duration_s(pieces);
   require_positive(step_s, "step_s");
   if (!(total_s / step_s <= kMostSteps)) {
     throw std::invalid_argument(
         fmt::format("expected at most {} steps (got {:.0f})", kMostSteps, total_s / step_s));
+  }
+  if (odometry_s != 0.0 && !(odometry_s > kSliver_s && total_s / odometry_s <= kMostReadings)) {
+    throw std::invalid_argument(fmt::format("expected at most {} readings of the odometry", kMostReadings));
   }
   GroundTruth path = {{0, start, {}}};
   std::size_t next = 0;
@@ -60,7 +75,7 @@ GroundTruth drive(const Pose& start, std::vector<Control> pieces, double step_s)
     PathStep step;
     const double until_s = std::min(static_cast<double>(k) * step_s, total_s);
     step.stamp_ns = std::llround(until_s * 1e9);
-    step.controls = take(pieces, next, step_s);
+    step.controls = cut_at_readings(take(pieces, next, step_s), odometry_s);
     if (step.controls.empty()) break;
     step.pose = path.back().pose;
     for (const Control& control : step.controls) step.pose = slam::advance(step.pose, control);
@@ -151,7 +166,7 @@ GroundTruth drive_circle(const CirclePath& path) {
   require_positive(path.laps, "laps");
   const double turn_rate_radps = path.speed_mps / path.radius_m;
   const double duration_s = path.laps * 2.0 * std::numbers::pi / turn_rate_radps;
-  return drive(path.start, {{path.speed_mps, turn_rate_radps, duration_s}}, path.step_s);
+  return drive(path.start, {{path.speed_mps, turn_rate_radps, duration_s}}, path.step_s, path.odometry_s);
 }
 
 GroundTruth drive_polyline(const PolylinePath& path) {
@@ -161,7 +176,8 @@ GroundTruth drive_polyline(const PolylinePath& path) {
   const Eigen::Vector2d start_m = path.points_m[0] + corners[0].tangent_m * along;
   std::vector<Control> pieces = pieces_of(path, corners);
   if (path.overlap_m > 0.0) pieces = with_overlap(std::move(pieces), path.overlap_m / path.speed_mps);
-  return drive({start_m.x(), start_m.y(), heading_of(along)}, std::move(pieces), path.step_s);
+  return drive({start_m.x(), start_m.y(), heading_of(along)}, std::move(pieces), path.step_s,
+               path.odometry_s);
 }
 
 double length_m(const GroundTruth& path) {

@@ -16,8 +16,8 @@ constexpr Interval kStep_s = {1e-3, 1e3};
 constexpr Interval kNoise = {0.0, 100.0};
 
 GroundTruth read_circle(const YamlValue& value) {
-  const YamlMap map(value,
-                    {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s"});
+  const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s",
+                            "odometry_s"});
   CirclePath path;
   if (const auto start = map.find("start_m")) {
     const Eigen::Vector2d start_m = read_vector<2>(*start, kPlace_m);
@@ -28,12 +28,13 @@ GroundTruth read_circle(const YamlValue& value) {
   path.speed_mps = map.number("speed_mps", kSpeed_mps);
   path.laps = map.number("laps", {1e-3, 1e3}, 1.0);
   path.step_s = map.number("step_s", kStep_s);
+  path.odometry_s = map.number("odometry_s", kStep_s, 0.0);
   return drive_circle(path);
 }
 
 GroundTruth read_polyline(const YamlValue& value) {
-  const YamlMap map(value,
-                    {"kind", "points_m", "closed", "corner_radius_m", "overlap_m", "speed_mps", "step_s"});
+  const YamlMap map(value, {"kind", "points_m", "closed", "corner_radius_m", "overlap_m", "speed_mps",
+                            "step_s", "odometry_s"});
   PolylinePath path;
   for (const YamlValue& point : map.at("points_m").list(2, 1000)) {
     path.points_m.push_back(read_vector<2>(point, kPlace_m));
@@ -43,6 +44,7 @@ GroundTruth read_polyline(const YamlValue& value) {
   path.overlap_m = map.number("overlap_m", {0.0, 1e4}, 0.0);
   path.speed_mps = map.number("speed_mps", kSpeed_mps);
   path.step_s = map.number("step_s", kStep_s);
+  path.odometry_s = map.number("odometry_s", kStep_s, 0.0);
   return drive_polyline(path);
 }
 
@@ -50,7 +52,7 @@ GroundTruth read_polyline(const YamlValue& value) {
 
 GroundTruth read_path(const YamlValue& value) {
   const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "laps", "points_m", "closed",
-                            "corner_radius_m", "overlap_m", "speed_mps", "step_s"});
+                            "corner_radius_m", "overlap_m", "speed_mps", "step_s", "odometry_s"});
   constexpr std::array<std::string_view, 2> kKinds = {"circle", "polyline"};
   const bool circle = map.at("kind").choice(kKinds) == 0;
   try {

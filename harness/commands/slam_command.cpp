@@ -10,6 +10,7 @@
 #include "harness/run/run_result.h"
 #include "harness/run/seed_drive.h"
 #include "harness/run/serialise.h"
+#include "harness/scoring/references.h"
 
 namespace stereobench::harness {
 namespace {
@@ -45,12 +46,15 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
     report(1.0);
     return to_bytes(drive);
   };
+  const References references{.batch =
+                                  replay_batch(log, arguments.config)};  // draws nothing: seeds are alike
   Progress progress("slam", static_cast<double>(run.seeds.size()));
   std::vector<SeedDrive> drives;
   for (const std::string& answer :
        run_in_processes(run.seeds.size(), run.jobs, replay_seed, [&](double done) { progress.show(done); })) {
     drives.push_back(seed_drive_from_bytes(answer));
     drives.back().recording.log = log;
+    drives.back().references = references;
   }
   return drives;
 }

@@ -16,10 +16,11 @@ namespace {
 constexpr int kWidth_px = 1000;
 constexpr int kHeight_px = 480;
 constexpr Box kPlot = {76.0, 42.0, 740.0, 386.0};
+constexpr Stroke kBoundStroke = {kBlack, 1.8, Dash::kDotted};
 
-/// Mean, least and greatest error at each instant; NaN where no run has one.
+/// Rms, least and greatest error over the runs at each instant; NaN where no run has one.
 struct Summary {
-  std::vector<double> mean_m;
+  std::vector<double> rms_at_m;
   std::vector<double> least_m;
   std::vector<double> greatest_m;
   double rms_m = 0.0;
@@ -61,7 +62,7 @@ Summary summarise(const ErrorCurves& curves, std::size_t instants) {
   for (std::size_t i = 0; i < instants; ++i) {
     const std::vector<double> errors_m = errors_at(curves, i);
     const auto [least, greatest] = std::minmax_element(errors_m.begin(), errors_m.end());
-    summary.mean_m.push_back(mean_of(errors_m));
+    summary.rms_at_m.push_back(rms_of(errors_m));
     summary.least_m.push_back(errors_m.empty() ? kNone : *least);
     summary.greatest_m.push_back(errors_m.empty() ? kNone : *greatest);
   }
@@ -69,9 +70,10 @@ Summary summarise(const ErrorCurves& curves, std::size_t instants) {
   return summary;
 }
 
-Axis error_axis(const std::vector<Summary>& summaries) {
+Axis error_axis(const std::vector<Summary>& summaries, const std::vector<double>& bound_m) {
   std::vector<double> sizes_m;
-  std::vector<double> ends_m;
+  std::vector<double> ends_m = bound_m;
+  if (!bound_m.empty()) sizes_m.push_back(rms_of(bound_m));
   for (const Summary& summary : summaries) {
     sizes_m.push_back(summary.rms_m);
     ends_m.insert(ends_m.end(), summary.least_m.begin(), summary.least_m.end());
@@ -91,7 +93,7 @@ void lift(std::vector<double>& errors_m, double floor_m) {
 }
 
 void lift(Summary& summary, double floor_m) {
-  lift(summary.mean_m, floor_m);
+  lift(summary.rms_at_m, floor_m);
   lift(summary.least_m, floor_m);
   lift(summary.greatest_m, floor_m);
 }
@@ -112,11 +114,11 @@ void draw_band(Canvas& canvas, const Axes& axes, const std::vector<double>& time
   canvas.fill(corners, colour);
 }
 
-void draw_mean(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s, const Summary& summary,
-               const Stroke& stroke) {
+void draw_curve(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s,
+                const std::vector<double>& errors_m, const Stroke& stroke) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    points.push_back(axes.to_pixel(time_s[i], summary.mean_m[i]));
+  for (std::size_t i = 0; i < std::min(time_s.size(), errors_m.size()); ++i) {
+    points.push_back(axes.to_pixel(time_s[i], errors_m[i]));
   }
   canvas.draw_line(points, stroke);
 }
@@ -127,7 +129,7 @@ void draw_curves(Canvas& canvas, const Axes& axes, const ErrorPicture& picture,
     draw_band(canvas, axes, picture.time_s, summaries[i], filter_stroke(picture.filters[i].filter).colour);
   }
   for (std::size_t i = 0; i < summaries.size(); ++i) {
-    draw_mean(canvas, axes, picture.time_s, summaries[i], filter_stroke(picture.filters[i].filter));
+    draw_curve(canvas, axes, picture.time_s, summaries[i].rms_at_m, filter_stroke(picture.filters[i].filter));
   }
 }
 
@@ -139,6 +141,8 @@ std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vecto
                        fmt::format("rms {} m", format_number(summaries[i].rms_m)), Mark::kLine,
                        filter_stroke(curves.filter)});
   }
+  if (!picture.bound_m.empty())
+    entries.push_back({"Cramer-Rao bound", "of the rms over runs", Mark::kLine, kBoundStroke});
   return entries;
 }
 
@@ -155,7 +159,7 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   for (const ErrorCurves& curves : picture.filters) {
     summaries.push_back(summarise(curves, picture.time_s.size()));
   }
-  const Axis vertical = error_axis(summaries);
+  const Axis vertical = error_axis(summaries, picture.bound_m);
   for (Summary& summary : summaries) lift(summary, 0.9 * vertical.range.low);
   const Axes axes({"time [s]", range_of(picture.time_s, Scale::kLinear, 0.0)}, vertical, kPlot);
 
@@ -163,6 +167,7 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   axes.draw(canvas);
   canvas.clip_to(kPlot);
   draw_curves(canvas, axes, picture, summaries);
+  draw_curve(canvas, axes, picture.time_s, picture.bound_m, kBoundStroke);
   canvas.clip_to({});
   draw_legend(canvas, {kPlot.left_px + kPlot.width_px + 18.0, kPlot.top_px}, legend_of(picture, summaries));
   canvas.write({kPlot.left_px, 0.5 * kPlot.top_px}, picture.title, {.size_px = 15.0, .bold = true});

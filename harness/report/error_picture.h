@@ -16,13 +16,14 @@ struct ErrorPicture {
   std::string title;
   std::vector<double> time_s;
   std::vector<ErrorCurves> filters;
+  std::vector<double> bound_m;  ///< the least rms error at each instant; empty when it is not known
 };
 
 /// @return the mean over runs of each run's rms error over time; NaN when no error is finite
 double mean_rms_m(const ErrorCurves& curves);
 
-/// Draws each filter's mean error over its runs, a band from the least to the greatest, and in the legend
-/// their mean rms. The error axis is logarithmic when those
+/// Draws each filter's rms error over its runs, a band from the least to the greatest, the least rms that is
+/// possible, and in the legend the mean over runs of each run's rms. The error axis is logarithmic when those
 /// are more than a factor of 12 apart.
 /// @return the bytes of a PNG file; errors that are not finite are left out
 std::string draw_error_picture(const ErrorPicture& picture);

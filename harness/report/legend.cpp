@@ -11,11 +11,10 @@ namespace {
 
 constexpr Colour kVermillion = {0.835, 0.369, 0.0, 1.0};
 constexpr Colour kBlue = {0.0, 0.447, 0.698, 1.0};
-// For filters that are not our own; vermillion and blue are taken.
-constexpr std::array<Colour, 4> kOtherColours = {{{0.0, 0.620, 0.451, 1.0},
-                                                  {0.800, 0.475, 0.655, 1.0},
-                                                  {0.902, 0.624, 0.0, 1.0},
-                                                  {0.337, 0.706, 0.914, 1.0}}};
+constexpr Colour kGreen = {0.0, 0.620, 0.451, 1.0};
+// For filters that are not our own; vermillion, blue and green are taken.
+constexpr std::array<Colour, 3> kOtherColours = {
+    {{0.800, 0.475, 0.655, 1.0}, {0.902, 0.624, 0.0, 1.0}, {0.337, 0.706, 0.914, 1.0}}};
 constexpr double kMarkWidth_px = 30.0;
 constexpr TextStyle kText = {.size_px = 13.0};
 constexpr TextStyle kDetail = {.size_px = 11.5, .colour = {0.35, 0.35, 0.35, 1.0}};
@@ -61,6 +60,7 @@ Stroke filter_stroke(const std::string& filter) {
   if (filter == "dead_reckoning") return {kGrey, 1.6, Dash::kDashed};
   if (filter == "fastslam2") return {kVermillion, 1.8};
   if (filter == "ufastslam") return {kBlue, 1.8};
+  if (filter == "batch") return {kGreen, 1.8};
   return {kOtherColours[hash_of(filter) % kOtherColours.size()], 1.8};
 }
 
@@ -68,6 +68,7 @@ std::string filter_title(const std::string& filter) {
   if (filter == "dead_reckoning") return "dead reckoning";
   if (filter == "fastslam2") return "FastSLAM 2.0";
   if (filter == "ufastslam") return "UFastSLAM";
+  if (filter == "batch") return "whole log at once";
   return filter;
 }
 

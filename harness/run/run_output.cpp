@@ -21,6 +21,8 @@ std::string map_of(const RunResult& result, const SeedDrive& drive, const std::v
     if (step.truth) picture.true_path.push_back(*step.truth);
   for (const FilterRun& run : drive.runs)
     picture.estimates.push_back({run.filter, run.poses, run.last.landmarks});
+  const FilterRun& batch = drive.references.batch;
+  if (!batch.failed) picture.estimates.push_back({batch.filter, batch.poses, {}});
   return draw_map_picture(picture);
 }
 
@@ -31,6 +33,19 @@ std::vector<double> position_errors(const FilterRun& run, const MeasurementLog& 
       errors[k] =
           std::hypot(run.poses[k].x_m - log.steps[k].truth->x_m, run.poses[k].y_m - log.steps[k].truth->y_m);
   return errors;
+}
+
+/// The bound's rms over the seeds at each step; empty where there is none.
+std::vector<double> bound_of(std::span<const SeedDrive> drives) {
+  if (!drives.front().references.bound) return {};
+  std::vector<double> bound_m;
+  for (std::size_t k = 0; k < drives.front().references.bound->poses.size(); ++k) {
+    double sum_m2 = 0.0;
+    for (const SeedDrive& drive : drives)
+      sum_m2 += drive.references.bound->poses[k].topLeftCorner<2, 2>().trace();
+    bound_m.push_back(std::sqrt(sum_m2 / static_cast<double>(drives.size())));
+  }
+  return bound_m;
 }
 
 std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives) {
@@ -44,6 +59,7 @@ std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives
       curves.error_m_by_run.push_back(position_errors(drive.runs[i], drive.recording.log));
     picture.filters.push_back(std::move(curves));
   }
+  picture.bound_m = bound_of(drives);
   return draw_error_picture(picture);
 }
 

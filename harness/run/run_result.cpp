@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 constexpr const char* kBaseline = "dead_reckoning";
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -33,7 +34,29 @@ Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) 
   return nullptr;
 }
 
-Json filter_json(const RunResult& result, const FilterSummary& summary) {
+/// One part of the bound over the seeds.
+Summary over_seeds(const std::vector<BoundScore>& bounds, double BoundScore::*part) {
+  std::vector<double> values;
+  for (const BoundScore& bound : bounds) values.push_back(bound.*part);
+  return summarise(values);
+}
+
+Json bound_json(const std::vector<BoundScore>& bounds) {
+  return {{"pose_rms_m", summary_json(over_seeds(bounds, &BoundScore::pose_rms_m))},
+          {"heading_rms_rad", summary_json(over_seeds(bounds, &BoundScore::heading_rms_rad))},
+          {"landmark_rms_m", summary_json(over_seeds(bounds, &BoundScore::landmark_rms_m))}};
+}
+
+Json batch_json(const FilterSummary& summary) {
+  return {{"ate_rms_m", summary_json(summary.ate_rms_m)},
+          {"ate_aligned_rms_m", summary_json(summary.ate_aligned_rms_m)},
+          {"landmark_rms_m", summary_json(summary.landmark_rms_m)},
+          {"landmark_aligned_rms_m", summary_json(summary.landmark_aligned_rms_m)},
+          {"failures", summary.failures}};
+}
+
+Json filter_json(const RunResult& result, const FilterResult& filter) {
+  const FilterSummary& summary = filter.summary;
   return {{"particles", summary.particles},
           {"ate_rms_m", summary_json(summary.ate_rms_m)},
           {"ate_max_m", summary_json(summary.ate_max_m)},
@@ -41,6 +64,7 @@ Json filter_json(const RunResult& result, const FilterSummary& summary) {
           {"ate_aligned_median_m", number(summary.ate_aligned_median_m)},
           {"ate_aligned_at_sightings_rms_m", summary_json(summary.ate_aligned_at_sightings_rms_m)},
           {"ate_over_dead_reckoning", over_dead_reckoning(result, summary)},
+          {"efficiency", number(efficiency(filter.scores, result.bounds))},
           {"heading_rms_rad", summary_json(summary.heading_rms_rad)},
           {"rpe_rms_m", summary_json(summary.rpe_rms_m)},
           {"final_drift", summary_json(summary.final_drift)},
@@ -118,11 +142,40 @@ void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, con
   csv += k < nees.size() && nees[k] ? fmt::format(",{}\n", *nees[k]) : std::string(",\n");
 }
 
+/// A line of the table that people see.
+std::vector<std::string> row_of(const FilterResult& filter, const std::string& particles, double efficiency) {
+  const FilterSummary& s = filter.summary;
+  return {filter.filter,
+          particles,
+          format_mean_sd(s.ate_rms_m.mean, s.ate_rms_m.sd),
+          format_number(s.ate_rms_m.max),
+          format_number(s.ate_aligned_rms_m.mean),
+          format_number(kDegrees * s.heading_rms_rad.mean),
+          format_number(s.landmark_rms_m.mean),
+          format_number(s.anees.mean),
+          format_number(efficiency),
+          fmt::format("{}", s.failures)};
+}
+
+std::vector<std::string> bound_row(const std::vector<BoundScore>& bounds) {
+  const Summary pose = over_seeds(bounds, &BoundScore::pose_rms_m);  // of most worlds the same for each seed
+  return {"bound",
+          "-",
+          format_number(pose.mean),
+          format_number(pose.max),
+          "-",
+          format_number(kDegrees * over_seeds(bounds, &BoundScore::heading_rms_rad).mean),
+          format_number(over_seeds(bounds, &BoundScore::landmark_rms_m).mean),
+          "-",
+          "1",
+          "-"};
+}
+
 }  // namespace
 
 RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives) {
   if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
-  RunResult result{.name = name, .backend = backend};
+  RunResult result{.name = name, .backend = backend, .batch = {.filter = "batch"}};
   for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
   for (const SeedDrive& drive : drives) {
     if (drive.runs.size() != result.filters.size())
@@ -132,7 +185,10 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
     if (drive.recording.vision) *result.vision += *drive.recording.vision;
     for (std::size_t i = 0; i < drive.runs.size(); ++i)
       result.filters[i].scores.push_back(score(drive.runs[i], drive.recording.log));
+    result.batch.scores.push_back(score(drive.references.batch, drive.recording.log));
+    if (drive.references.bound) result.bounds.push_back(score(*drive.references.bound));
   }
+  result.batch.summary = summarise(result.batch.scores, 1);
   for (std::size_t i = 0; i < result.filters.size(); ++i)
     result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles);
   result.comparisons = compare(result.filters);
@@ -141,14 +197,15 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
 
 nlohmann::ordered_json run_json(const RunResult& result) {
   Json filters = Json::object();
-  for (const FilterResult& filter : result.filters)
-    filters[filter.filter] = filter_json(result, filter.summary);
+  for (const FilterResult& filter : result.filters) filters[filter.filter] = filter_json(result, filter);
   Json json = {{"schema", kSchema},
                {"scenario", result.name},
                {"seeds", result.seeds},
                {"renderer", {{"backend", result.backend}}},
                {"vision", vision_json(result.vision)}};
   if (result.odometry_delay_s) json["log"] = {{"odometry_delay_s", *result.odometry_delay_s}};
+  json["bound"] = bound_json(result.bounds);
+  json["batch"] = batch_json(result.batch.summary);
   json["filters"] = std::move(filters);
   json["comparisons"] = comparisons_json(result.comparisons);
   return json;
@@ -175,16 +232,12 @@ nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
 
 std::string result_table(const RunResult& result) {
   AlignedTable table{.header = {"filter", "particles", "ATE rms [m]", "worst seed [m]", "aligned [m]",
-                                "heading [deg]", "landmarks [m]", "ANEES", "failures"}};
-  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-  for (const FilterResult& filter : result.filters) {
-    const FilterSummary& s = filter.summary;
-    table.rows.push_back(
-        {filter.filter, fmt::format("{}", s.particles), format_mean_sd(s.ate_rms_m.mean, s.ate_rms_m.sd),
-         format_number(s.ate_rms_m.max), format_number(s.ate_aligned_rms_m.mean),
-         format_number(kDegrees * s.heading_rms_rad.mean), format_number(s.landmark_rms_m.mean),
-         format_number(s.anees.mean), fmt::format("{}", s.failures)});
-  }
+                                "heading [deg]", "landmarks [m]", "ANEES", "ATE / bound", "failures"}};
+  for (const FilterResult& filter : result.filters)
+    table.rows.push_back(row_of(filter, fmt::format("{}", filter.summary.particles),
+                                efficiency(filter.scores, result.bounds)));
+  table.rows.push_back(row_of(result.batch, "-", std::nan("")));
+  if (!result.bounds.empty()) table.rows.push_back(bound_row(result.bounds));
   std::string text;
   if (result.vision)
     text += fmt::format(

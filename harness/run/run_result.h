@@ -11,6 +11,7 @@
 
 #include "harness/run/seed_drive.h"
 #include "harness/scoring/paired.h"
+#include "harness/scoring/references.h"
 #include "harness/scoring/score.h"
 
 namespace stereobench::harness {
@@ -37,11 +38,13 @@ struct RunResult {
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
   std::vector<Comparison> comparisons;     ///< each filter with those before it, dead reckoning aside
+  FilterResult batch;                      ///< the whole log at once
+  std::vector<BoundScore> bounds;          ///< one a seed; none where the true controls are not known
   std::optional<double> odometry_delay_s;  ///< that a recorded log's odometry was moved by
 };
 
-/// Scores each filter's runs against their logs.
-/// @param drives one a seed, all with the same filters in the same order
+/// Scores each filter's runs against their logs and references.
+/// @param drives one a seed, all with the same filters in the same order, and all with a bound or none
 /// @throws std::invalid_argument when there is no drive, or they differ in their filters
 RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives);
 

@@ -7,6 +7,7 @@
 #include "harness/run/progress.h"
 #include "harness/run/serialise.h"
 #include "harness/run/stopwatch.h"
+#include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
 
 namespace stereobench::harness {
@@ -17,6 +18,16 @@ bool is_snapshot_step(std::size_t step, std::size_t count, std::size_t steps) {
   for (std::size_t i = 0; i < count; ++i)
     if (step == i * steps / count) return true;
   return false;
+}
+
+References replay_references(const Recording& recording, const worlds::Scenario& scenario, Timing& timing) {
+  Stopwatch watch(timing);
+  References references;
+  references.bound = watch.time(
+      "reference.bound", [&] { return replay_bound(recording.log, scenario.path, scenario.odometry_noise); });
+  references.batch =
+      watch.time("reference.batch", [&] { return replay_batch(recording.log, filter_config(scenario)); });
+  return references;
 }
 
 }  // namespace
@@ -49,6 +60,7 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   drive.recording = record(*task.scenario, task.seed, listeners, task.backend);
   drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),
                               task.seed, drive.recording.timing);
+  drive.references = replay_references(drive.recording, *task.scenario, drive.recording.timing);
   return drive;
 }
 

@@ -19,11 +19,13 @@ struct Snapshot {
   std::string png;
 };
 
-/// What one seed gave: the drive, and each filter's run over it, in the scenario's order of filters.
+/// What one seed gave: the drive, each filter's run over it, in the scenario's order of filters, and what
+/// they are held against.
 struct SeedDrive {
   std::uint64_t seed = 0;
   Recording recording;
   std::vector<FilterRun> runs;
+  References references;
   std::vector<Snapshot> snapshots;
 };
 
@@ -44,7 +46,7 @@ slam::FilterConfig filter_config(const worlds::Scenario& scenario);
 std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vector<std::string>& filters,
                                       const slam::FilterConfig& config, std::uint64_t seed, Timing& timing);
 
-/// Drives a seed: the world is rendered once and replayed for each filter.
+/// Drives a seed: the world is rendered once and replayed for each filter and reference.
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress);
 
 /// Drives many seeds in `jobs` processes at a time, with a progress line for people.

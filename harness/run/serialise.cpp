@@ -43,6 +43,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, pos
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, steps, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, failed,
                                    failure)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, landmarks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
                                    normalised_errors)
@@ -70,6 +72,7 @@ std::string to_bytes(const SeedDrive& drive) {
   return bytes_of({{"seed", drive.seed},
                    {"recording", drive.recording},
                    {"runs", drive.runs},
+                   {"references", drive.references},
                    {"snapshots", std::move(snapshots)}});
 }
 
@@ -79,6 +82,7 @@ SeedDrive seed_drive_from_bytes(std::string_view bytes) {
   json.at("seed").get_to(drive.seed);
   json.at("recording").get_to(drive.recording);
   json.at("runs").get_to(drive.runs);
+  json.at("references").get_to(drive.references);
   for (const nlohmann::json& snapshot : json.at("snapshots")) {
     const auto& png = snapshot.at("png").get_binary();
     drive.snapshots.push_back({snapshot.at("step").get<std::size_t>(), {png.begin(), png.end()}});

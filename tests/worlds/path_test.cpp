@@ -140,12 +140,49 @@ TEST(OpenPolyline, FollowsItsEdgesWithoutAKink) {
   EXPECT_NEAR(drive.back().pose.heading_rad, std::atan2(11, -4), 1e-7);
 }
 
+// However often the odometry is read, the robot drives as it did; a reading spans its time, but where a
+// straight meets an arc and at the end of a step. Catches: time lost or driven twice at a reading, readings
+// that count from the start of a piece and not of the step.
+TEST(Drive, ReadingTheOdometryOftenMovesNothing) {
+  PolylinePath polyline = rectangle();
+  const GroundTruth once = drive_polyline(polyline);
+  for (const double odometry_s : {0.0625, 0.07, 0.5, 3.0}) {
+    polyline.odometry_s = odometry_s;
+    const GroundTruth often = drive_polyline(polyline);
+    ASSERT_EQ(often.size(), once.size());
+    const double readings = std::ceil(0.5 / odometry_s);
+    for (std::size_t k = 1; k < once.size(); ++k) {
+      EXPECT_TRUE(distance_m(often[k].pose, once[k].pose) < 1e-9) << k;
+      EXPECT_NEAR(duration_s(often[k]), duration_s(once[k]), 1e-9);
+      for (const slam::Control& control : often[k].controls) EXPECT_LE(control.duration_s, odometry_s + 1e-9);
+      if (k + 1 < once.size()) {
+        EXPECT_NEAR(static_cast<double>(often[k].controls.size()),
+                    readings + static_cast<double>(once[k].controls.size() - 1), 1e-9);
+      }
+    }
+  }
+}
+
+// Catches: poses that do not follow from the readings.
+TEST(Drive, ReadingsLeadFromPoseToPose) {
+  const GroundTruth path = drive_circle({{0.3, -2.0, 0.4}, 1.0, 0.3, 1.5, 0.8, 0.1});
+  slam::Pose pose = path.front().pose;
+  for (const PathStep& step : path) {
+    for (const slam::Control& control : step.controls) pose = slam::advance(pose, control);
+    EXPECT_EQ(pose.x_m, step.pose.x_m);
+    EXPECT_EQ(pose.heading_rad, step.pose.heading_rad);
+  }
+  EXPECT_EQ(path[1].controls.size(), 8U);
+}
+
 TEST(Drive, RefusesWhatCannotBeDriven) {
   EXPECT_THROW(drive_circle({{}, 0.0, 1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(drive_circle({{}, 1, -1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(drive_circle({{}, 1, 1, std::numeric_limits<double>::quiet_NaN(), 1}), std::invalid_argument);
   EXPECT_THROW(drive_circle({{}, 1, 1, 1, 0}), std::invalid_argument);
   EXPECT_THROW(drive_circle({{}, 1, 1, 1, 1e-9}), std::invalid_argument);
+  for (const double odometry_s : {-0.1, 1e-12, 1e-6, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(drive_circle({{}, 1, 1, 1, 1, odometry_s}), std::invalid_argument);
   PolylinePath path = rectangle();
   path.corner_radius_m = 3.1;
   EXPECT_THROW(drive_polyline(path), std::invalid_argument);

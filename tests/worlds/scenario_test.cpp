@@ -82,6 +82,16 @@ TEST(Scenario, OverridesReplaceWhatTheFileSaysAndAddWhatItLeavesOut) {
   EXPECT_EQ(scenario.believed_odometry_noise.v_per_v, 0.5);
 }
 
+TEST(Scenario, ReadsHowOftenTheOdometryIsRead) {
+  EXPECT_EQ(read_small().path.at(1).controls.size(), 1U);
+  EXPECT_EQ(read_small({"path.odometry_s=0.125"}).path.at(1).controls.size(), 4U);
+  EXPECT_EQ(read_small({"path={kind: polyline, points_m: [[0, 0], [9, 0]], corner_radius_m: 1, speed_mps: 1, "
+                        "step_s: 0.2, odometry_s: 0.025}"})
+                .path.at(1)
+                .controls.size(),
+            8U);
+}
+
 // Catches: a belief that stays at the file's noise when the true noise is overridden.
 TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
   const Scenario scenario = read_small({"odometry_noise.v_per_v=0.02"});

@@ -60,7 +60,12 @@ TEST(RunCommand, RunJsonHasTheKeysThatStay) {
     EXPECT_TRUE(filter["heading_rms_rad"]["mean"].is_number());
     EXPECT_TRUE(filter["anees"]["mean"].is_number());
     EXPECT_TRUE(filter["landmark_rms_m"].contains("mean"));
+    EXPECT_TRUE(filter["efficiency"].is_number());
   }
+  for (const char* part : {"pose_rms_m", "heading_rms_rad", "landmark_rms_m"})
+    EXPECT_TRUE(json["bound"][part]["mean"].is_number()) << part;
+  for (const char* part : {"ate_rms_m", "ate_aligned_rms_m", "landmark_rms_m", "landmark_aligned_rms_m"})
+    EXPECT_TRUE(json["batch"][part]["mean"].is_number()) << part;
 }
 
 TEST(RunCommand, PipedOutputHasNoProgress) {
@@ -114,6 +119,8 @@ TEST(RenderCommand, ReplayedDataSetScoresAsTheRunDid) {
                                        "--seeds", "1", "--filters", "dead_reckoning"},
                                       "run.json"));
   const auto slam = nlohmann::json::parse(bytes_of(scratch.path() / "out" / "run.json"));
+  EXPECT_TRUE(slam["bound"]["pose_rms_m"]["mean"].is_null()) << "a recorded log has no true controls";
+  EXPECT_NEAR(slam["batch"]["ate_rms_m"]["mean"].get<double>(), run["batch"]["ate_rms_m"]["mean"], 2e-4);
   const char* const path = "/filters/dead_reckoning/ate_rms_m/mean";
   EXPECT_NEAR(slam.at(nlohmann::json::json_pointer(path)).get<double>(),
               run.at(nlohmann::json::json_pointer(path)).get<double>(), 1e-7);

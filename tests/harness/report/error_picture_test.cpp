@@ -42,9 +42,9 @@ TEST(ReportErrors, EqualRatiosAreEqualDistancesWhenSizesDiffer) {
               row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
 }
 
-// The mean of 1 and 3 is drawn at 2, the band reaches from 1 to 3.
-// Catches: the median or the last run for the mean; a band of one run.
-TEST(ReportErrors, MeanAndBandAreThoseOfTheRuns) {
+// The rms of 1 and 3 is drawn at the root of 5, the band reaches from 1 to 3.
+// Catches: the mean, the median or the last run for the rms; a band of one run.
+TEST(ReportErrors, RmsAndBandAreThoseOfTheRuns) {
   ErrorCurves runs = constant("ufastslam", 1.0);
   runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), 3.0));
   runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), kNaN));
@@ -52,11 +52,32 @@ TEST(ReportErrors, MeanAndBandAreThoseOfTheRuns) {
   const cv::Mat image = decoded(draw_error_picture(picture));
   const double row_of_2 = row_of(image, "fastslam2");
   const double row_of_3 = row_of(image, "mine");
+  EXPECT_NEAR(row_of(image, "ufastslam"), row_of_2 + (std::sqrt(5.0) - 2.0) * (row_of_3 - row_of_2), 1.5);
   const auto is_white = [&](double row) { return image.at<cv::Vec3b>(static_cast<int>(row), 330)[2] > 250; };
   EXPECT_FALSE(is_white(row_of_3 + 6.0));
   EXPECT_TRUE(is_white(row_of_3 - 6.0));
   EXPECT_FALSE(is_white(2.0 * row_of_2 - row_of_3 - 6.0));
   EXPECT_TRUE(is_white(2.0 * row_of_2 - row_of_3 + 6.0));
+}
+
+/// The row of the bound's dots; axes and letters are dark, too, but not in the middle of the plot.
+double row_of_bound(const cv::Mat& image) {
+  return mean_of(pixels_of(image(cv::Rect(300, 50, 500, 374)), kBlack, 60.0)).y_px + 50.0;
+}
+
+// Catches: a bound that is not drawn, or that does not count for the axis.
+TEST(ReportErrors, TheBoundIsACurveAmongThem) {
+  ErrorPicture picture = {"", kTime_s, {constant("fastslam2", 2.0), constant("ufastslam", 3.0)}};
+  picture.bound_m = std::vector<double>(kTime_s.size(), 1.0);
+  const cv::Mat image = decoded(draw_error_picture(picture));
+  EXPECT_NEAR(row_of_bound(image) - row_of(image, "fastslam2"),
+              row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
+  picture.bound_m.assign(kTime_s.size(), 0.1);
+  picture.bound_m.front() = 0.0;  // a start that is known: nowhere on a logarithmic axis
+  const cv::Mat logarithmic = decoded(draw_error_picture(picture));
+  const double decade = row_of_bound(logarithmic) - row_of(logarithmic, "fastslam2");
+  EXPECT_NEAR((row_of(logarithmic, "fastslam2") - row_of(logarithmic, "ufastslam")) / decade,
+              std::log(1.5) / std::log(20.0), 0.05);
 }
 
 // Catches: the rms of the mean curve, or over all runs at once, in place of the mean of the runs' rms.
@@ -72,6 +93,7 @@ TEST(ReportErrors, NothingAndNonsenseAreCharts) {
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {constant("ufastslam", 0.0)}})).empty());
   EXPECT_FALSE(decoded(draw_error_picture({"", {0.0}, {constant("ufastslam", 1.0)}})).empty());
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {{"fastslam2", {{0.1}}}}})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {}, {0.1, kNaN}})).empty());
 }
 
 TEST(ReportErrors, TheSameErrorsAreTheSameBytes) {

@@ -1,6 +1,7 @@
 #include "harness/run/run_result.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -10,9 +11,12 @@
 namespace stereobench::harness {
 namespace {
 
-/// A drive along x of some steps; dead reckoning is `slip_m` beside it, the other filter a quarter of that.
+/// A drive along x of some steps; dead reckoning is `slip_m` beside it, the other filter a quarter of that,
+/// the batch an eighth. The bound has a position rms of 0.01 m.
 SeedDrive drive_of(std::uint64_t seed, std::size_t steps, double slip_m) {
   SeedDrive drive{.seed = seed};
+  drive.references.batch.filter = "batch";
+  drive.references.bound.emplace();
   for (const char* filter : {"dead_reckoning", "ufastslam"})
     drive.runs.push_back({.filter = filter, .particles = 5, .seed = seed});
   for (std::size_t k = 0; k < steps; ++k) {
@@ -23,6 +27,9 @@ SeedDrive drive_of(std::uint64_t seed, std::size_t steps, double slip_m) {
       run.poses.push_back({x_m, run.filter == "ufastslam" ? slip_m / 4.0 : slip_m, 0.0});
       run.covariances.push_back(Eigen::Matrix3d::Identity());
     }
+    drive.references.batch.poses.push_back({x_m, slip_m / 8.0, 0.0});
+    drive.references.batch.covariances.push_back(Eigen::Matrix3d::Zero());
+    drive.references.bound->poses.push_back(Eigen::Vector3d(0.00005, 0.00005, 0.04).asDiagonal());
   }
   return drive;
 }
@@ -38,8 +45,8 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result);
-  EXPECT_EQ(keys_of(json),
-            (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "vision", "filters"}));
+  EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "vision",
+                                                  "bound", "batch", "filters"}));
   EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
@@ -54,6 +61,41 @@ TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
   EXPECT_DOUBLE_EQ(json["filters"]["ufastslam"]["ate_rms_m"]["mean"], 0.15);
   EXPECT_DOUBLE_EQ(json["filters"]["ufastslam"]["ate_over_dead_reckoning"], 0.25);
   EXPECT_EQ(json["filters"]["ufastslam"]["failures"], 0);
+}
+
+// Mutations: the batch's error among the filters; a bound's heading for its position; the ratio upside down.
+TEST(RunResult, FiltersAreHeldAgainstTheBoundAndTheBatch) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  const auto json = run_json(assemble("name", "none", drives));
+  EXPECT_DOUBLE_EQ(json["bound"]["pose_rms_m"]["mean"], 0.01);
+  EXPECT_DOUBLE_EQ(json["bound"]["heading_rms_rad"]["max"], 0.2);
+  EXPECT_DOUBLE_EQ(json["batch"]["ate_rms_m"]["mean"], 0.075);
+  EXPECT_EQ(json["batch"]["failures"], 0);
+  EXPECT_FALSE(json["filters"].contains("batch"));
+  EXPECT_NEAR(json["filters"]["ufastslam"]["efficiency"], 0.25 * std::sqrt((0.16 + 0.64) / 2.0) / 0.01, 1e-9);
+}
+
+// Mutation: leaving out the keys, which gates may name.
+TEST(RunResult, WithoutABoundItAndTheEfficiencyAreNull) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  for (SeedDrive& drive : drives) drive.references.bound.reset();
+  const RunResult result = assemble("name", "none", drives);
+  const auto json = run_json(result);
+  for (const char* part : {"pose_rms_m", "heading_rms_rad", "landmark_rms_m"})
+    EXPECT_TRUE(json["bound"].at(part).at("mean").is_null());
+  EXPECT_TRUE(json["filters"]["ufastslam"].at("efficiency").is_null());
+  EXPECT_EQ(result_table(result).find("\nbound "), std::string::npos);
+}
+
+TEST(RunResult, TheTableEndsWithTheBatchAndTheBound) {
+  const std::string table = result_table(assemble("name", "none", std::vector{drive_of(3, 4, 0.4)}));
+  const std::size_t batch = table.find("\nbatch ");
+  const std::size_t bound = table.find("\nbound ");
+  EXPECT_NE(batch, std::string::npos);
+  EXPECT_NE(bound, std::string::npos);
+  EXPECT_LT(table.find("\nufastslam "), batch);
+  EXPECT_LT(batch, bound);
+  EXPECT_NE(table.find("0.01", bound), std::string::npos);
 }
 
 // JSON knows neither NaN nor infinity. Mutation: writing 0 for them.

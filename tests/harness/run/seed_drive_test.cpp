@@ -104,6 +104,22 @@ TEST(Record, ProgressGrowsToOne) {
   EXPECT_EQ(last, 1.0);
 }
 
+// The bound is that of the odometry's real noise, whatever the filters believe; the batch believes what they
+// do. Mutation: either one told the other's.
+TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
+  const worlds::Scenario honest = short_drive();
+  worlds::Scenario deceived = honest;
+  deceived.believed_odometry_noise.v_constant_mps *= 5.0;
+  const References one = drive_seed({&honest, 3, 0}, [](double) {}).references;
+  const References two = drive_seed({&deceived, 3, 0}, [](double) {}).references;
+  ASSERT_EQ(one.bound.value().poses.size(), honest.path.size());
+  EXPECT_EQ(one.bound->landmarks.size(), 3U);
+  EXPECT_EQ(one.bound->poses.back(), two.bound.value().poses.back());
+  EXPECT_EQ(one.batch.poses.size(), honest.path.size());
+  EXPECT_NE(one.batch.poses.back().x_m, two.batch.poses.back().x_m);
+  EXPECT_FALSE(one.batch.failed);
+}
+
 // Mutations: filters seeded by the worker's process, or all alike.
 TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
   const worlds::Scenario scenario = short_drive();

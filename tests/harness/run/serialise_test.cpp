@@ -70,6 +70,9 @@ TEST(Serialise, CarriesADriveWithAndWithoutTruthAndPixels) {
   drive.recording.log.steps = {{.stamp_ns = 1'248'272'263'273'000'001, .odometry = {{0.1, 0.2, 0.3}}},
                                {.stamp_ns = 2, .truth = slam::Pose{4.0, 5.0, 6.0}}};
   drive.recording.log.landmarks = {{1, 2, {3.0, 4.0}}};
+  drive.references.batch = run_at(0.3);
+  drive.references.bound.emplace().poses = {Eigen::Matrix3d::Identity(), 0.1 * Eigen::Matrix3d::Identity()};
+  drive.references.bound->landmarks = {0.2 * Eigen::Matrix2d::Identity()};
   drive.snapshots = {{12, std::string("\x89PNG\0\xff", 6)}};
   SeedDrive back = seed_drive_from_bytes(to_bytes(drive));
   EXPECT_EQ(back.seed, 9U);
@@ -80,10 +83,15 @@ TEST(Serialise, CarriesADriveWithAndWithoutTruthAndPixels) {
   EXPECT_EQ(back.recording.log.steps.at(1).truth.value().y_m, 5.0);
   EXPECT_EQ(back.recording.log.landmarks.at(0).position_m.y(), 4.0);
   EXPECT_EQ(back.snapshots.at(0).png, drive.snapshots[0].png);
+  EXPECT_EQ(back.references.batch.poses.at(0).x_m, 0.3);
+  EXPECT_EQ(back.references.bound.value().poses.at(1)(2, 2), 0.1);
+  EXPECT_EQ(back.references.bound->landmarks.at(0)(1, 1), 0.2);
   EXPECT_FALSE(back.recording.vision);
+  drive.references.bound.reset();
   drive.recording.vision.emplace().repeated = 3;
   back = seed_drive_from_bytes(to_bytes(drive));
   EXPECT_EQ(back.recording.vision.value().repeated, 3);
+  EXPECT_FALSE(back.references.bound);
 }
 
 }  // namespace

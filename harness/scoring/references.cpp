@@ -1,0 +1,93 @@
+#include "harness/scoring/references.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "slam/batch.h"
+#include "slam/measurement.h"
+#include "slam/posterior_bound.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// The index of the landmark that a sighting is of; kUnknown when there is no such landmark.
+int landmark_of(const slam::RangeBearing& sighting, const slam::Pose& truth,
+                std::span<const LandmarkTruth> landmarks) {
+  const Eigen::Vector2d place_m = slam::locate(truth, {sighting.range_m, sighting.bearing_rad});
+  int nearest = slam::kUnknown;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const bool named = sighting.landmark_id != slam::kUnknown;
+    if (named && sighting.landmark_id == landmarks[i].landmark_id) return static_cast<int>(i);
+    const double distance_m = (landmarks[i].position_m - place_m).norm();
+    if (named || sighting.colour_class != landmarks[i].colour_class || distance_m >= nearest_m) continue;
+    nearest = static_cast<int>(i);
+    nearest_m = distance_m;
+  }
+  return nearest;
+}
+
+template <typename Matrix, typename Size>
+double rms(const std::vector<Matrix>& covariances, Size size_squared) {
+  double sum = 0.0;
+  for (const Matrix& covariance : covariances) sum += size_squared(covariance);
+  return std::sqrt(sum / static_cast<double>(covariances.size()));  // 0 / 0: nothing has no size
+}
+
+}  // namespace
+
+BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path,
+                      const slam::OdometryNoise& noise) {
+  if (path.size() != log.steps.size())
+    throw std::invalid_argument("replay_bound: expected one step of the path for each step of the log");
+  std::vector<Eigen::Vector2d> places;
+  for (const LandmarkTruth& landmark : log.landmarks) places.push_back(landmark.position_m);
+  slam::PosteriorBound bound(noise, log.start, places);
+  BoundRun run;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    for (const slam::Control& control : path[k].controls) bound.move(control);
+    std::vector<slam::TrueSighting> frame;
+    for (const slam::RangeBearing& sighting : log.steps[k].measurements) {
+      const int landmark = landmark_of(sighting, path[k].pose, log.landmarks);
+      if (landmark != slam::kUnknown) frame.push_back({landmark, sighting.covariance});
+    }
+    bound.look(frame);
+    run.poses.push_back(bound.pose().covariance);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (const auto covariance = bound.landmark(static_cast<int>(i))) run.landmarks.push_back(*covariance);
+  return run;
+}
+
+FilterRun replay_batch(const MeasurementLog& log, const slam::FilterConfig& config) {
+  std::vector<slam::BatchStep> steps;
+  for (const LogStep& step : log.steps) steps.push_back({step.odometry, step.measurements});
+  const slam::BatchEstimate batch = slam::estimate_batch(config, log.start, steps);
+  FilterRun run{.filter = "batch", .poses = batch.path};
+  run.covariances.assign(batch.path.size(), Eigen::Matrix3d::Zero());
+  run.last.landmarks = batch.landmarks;
+  if (!batch.path.empty()) run.last.pose = batch.path.back();
+  run.failed = !batch.converged;
+  if (run.failed) run.failure = "the search did not converge";
+  return run;
+}
+
+BoundScore score(const BoundRun& run) {
+  return {rms(run.poses, [](const Eigen::Matrix3d& p) { return p(0, 0) + p(1, 1); }),
+          rms(run.poses, [](const Eigen::Matrix3d& p) { return p(2, 2); }),
+          rms(run.landmarks, [](const Eigen::Matrix2d& p) { return p.trace(); })};
+}
+
+double efficiency(std::span<const FilterScore> scores, std::span<const BoundScore> bounds) {
+  double errors_m2 = 0.0;
+  double least_m2 = 0.0;
+  for (std::size_t i = 0; i < std::min(scores.size(), bounds.size()); ++i) {
+    if (scores[i].failed) continue;
+    errors_m2 += scores[i].trajectory.ate_rms_m * scores[i].trajectory.ate_rms_m;
+    least_m2 += bounds[i].pose_rms_m * bounds[i].pose_rms_m;
+  }
+  return std::sqrt(errors_m2 / least_m2);  // 0 / 0: nothing to compare
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,45 @@
+/// What the filters' errors are compared with: the least that is possible, and what the whole log at once
+/// gives.
+#pragma once
+
+#include <span>
+
+#include "harness/scoring/score.h"
+#include "harness/types.h"
+#include "slam/filter_config.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Drives the posterior Cramer-Rao bound over a generated log. Each sighting is taken at its word: with the
+/// covariance that it states, and of the landmark that it names or, where it names a colour only, of the one
+/// of its colour nearest to where it was seen from. Knowing identities is more than such a filter has, so it
+/// remains a bound.
+/// @param path the truth behind the log: poses and exact controls
+/// @param noise what the odometry really has
+/// @throws std::invalid_argument when the path has not one step for each step of the log
+BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path,
+                      const slam::OdometryNoise& noise);
+
+/// Fits path and map to the whole log (slam::estimate_batch).
+/// @return a run named "batch" without covariances; `failed` when the search did not converge
+/// @throws std::invalid_argument when a setting or the start is out of range
+FilterRun replay_batch(const MeasurementLog& log, const slam::FilterConfig& config);
+
+/// What the bound says of one log; NaN where there is nothing to say it of.
+struct BoundScore {
+  double pose_rms_m = 0.0;  ///< over the steps: root of the mean trace of the position's covariance
+  double heading_rms_rad = 0.0;
+  double landmark_rms_m = 0.0;  ///< over the landmarks that were seen, in the end
+};
+
+BoundScore score(const BoundRun& run);
+
+/// How many times the least possible a filter's error is: the root of its mean squared position error over
+/// seeds and steps, over that of the bound. 1 is the best there is; runs that failed are left out on both
+/// sides.
+/// @param scores and bounds one a seed; no bounds where there is none
+/// @return NaN when there is nothing to compare
+double efficiency(std::span<const FilterScore> scores, std::span<const BoundScore> bounds);
+
+}  // namespace stereobench::harness
