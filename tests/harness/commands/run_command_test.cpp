@@ -153,7 +153,9 @@ TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
                                            "--vary", "camera.noise_sd_levels=0,4", "--seeds", "0..1",
                                            "--particles", "20", "--out", scratch.path().string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(bytes_of(scratch.path() / "sweep.json"));
+  auto json = nlohmann::json::parse(bytes_of(scratch.path() / "sweep.json"));
+  for (auto& cell : json["cells"])  // the bound depends on the sensor
+    cell["run"]["filters"]["dead_reckoning"].erase("efficiency");
   const auto& quiet = json["cells"][0]["run"];
   const auto& noisy = json["cells"][1]["run"];
   EXPECT_EQ(quiet["filters"]["dead_reckoning"], noisy["filters"]["dead_reckoning"]);
@@ -173,7 +175,8 @@ TEST_P(ShippedScenario, KeepsItsGates) {
   EXPECT_THAT(outcome.out, HasSubstr("gates hold"));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::Values("ball_circle", "corridor", "open_field"));
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
+                         testing::Values("ball_circle", "corridor", "open_field", "room"));
 
 struct RealLog {
   const char* folder;

@@ -46,7 +46,7 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result);
   EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "vision",
-                                                  "bound", "batch", "filters"}));
+                                                  "bound", "batch", "filters", "comparisons"}));
   EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);

@@ -23,7 +23,7 @@ TEST(Wilcoxon, CountsAllSigns) {
     double observed = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       std::size_t rank = 1;
-      for (const double other : differences) rank += std::abs(other) < std::abs(differences[i]) ? 1 : 0;
+      for (const double other : differences) rank += std::abs(other) < std::abs(differences[i]) ? 1U : 0U;
       rank_of.push_back(rank);
       if (differences[i] > 0.0) observed += static_cast<double>(rank);
     }
