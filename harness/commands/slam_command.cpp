@@ -10,6 +10,7 @@
 #include "harness/run/run_result.h"
 #include "harness/run/seed_drive.h"
 #include "harness/run/serialise.h"
+#include "harness/run/stopwatch.h"
 #include "harness/scoring/references.h"
 
 namespace stereobench::harness {
@@ -46,8 +47,10 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
     report(1.0);
     return to_bytes(drive);
   };
-  const References references{.batch =
-                                  replay_batch(log, arguments.config)};  // draws nothing: seeds are alike
+  Timing timing;
+  References references;  // the batch draws nothing, so that one serves all seeds
+  references.batch =
+      Stopwatch(timing).time("reference.batch", [&] { return replay_batch(log, arguments.config); });
   Progress progress("slam", static_cast<double>(run.seeds.size()));
   std::vector<SeedDrive> drives;
   for (const std::string& answer :
@@ -56,6 +59,7 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
     drives.back().recording.log = log;
     drives.back().references = references;
   }
+  drives.front().recording.timing.merge(timing);
   return drives;
 }
 
