@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "slam/filter.h"
+#include "slam/filter_names.h"
 #include "worlds/seeds.h"
 
 namespace stereobench::harness {

@@ -16,6 +16,12 @@ namespace {
 struct DeadReckoningName {
   static constexpr const char* kName = "dead_reckoning";
 };
+struct EkfName {
+  static constexpr const char* kName = "ekf";
+};
+struct FastSlam1Name {
+  static constexpr const char* kName = "fastslam1";
+};
 struct FastSlam2Name {
   static constexpr const char* kName = "fastslam2";
 };
@@ -30,12 +36,12 @@ class EveryFilter : public ::testing::Test {
     return make_filter(Name::kName, config, start, seed);
   }
 };
-using AllNames = ::testing::Types<DeadReckoningName, FastSlam2Name, UFastSlamName>;
+using AllNames = ::testing::Types<DeadReckoningName, EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
 TYPED_TEST_SUITE(EveryFilter, AllNames);
 
 template <class Name>
 class MappingFilter : public EveryFilter<Name> {};
-using MappingNames = ::testing::Types<FastSlam2Name, UFastSlamName>;
+using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
 TYPED_TEST_SUITE(MappingFilter, MappingNames);
 
 FilterConfig config_for(const Drive& world, int particles = 30) {
@@ -277,10 +283,10 @@ TYPED_TEST(MappingFilter, PassesOverOutliers) {
 TEST(MakeFilter, KnowsItsNamesAndRefusesTheRest) {
   for (const std::string& name : filter_names()) EXPECT_NO_THROW(make_filter(name, {}, {}, 0));
   try {
-    make_filter("ekf", {}, {}, 0);
+    make_filter("kalman", {}, {}, 0);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("dead_reckoning, fastslam2, ufastslam"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam"));
   }
 }
 
