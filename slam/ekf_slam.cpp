@@ -35,10 +35,17 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
   correct_one_by_one(decided);
   if (counters_.gated_measurements > gated_before) {
     predicted.covariance.move_pose(Eigen::Matrix3d::Identity(), bend_covariance(motion));
-    if (auto fitted = fit_at_once(predicted, decided)) {
-      belief_ = *std::move(fitted);
-      counters_.gated_measurements = gated_before;
-      for (const std::size_t k : decided.order) decided.targets[k].fate = Fate::kUse;
+    const long refused = counters_.gated_measurements - gated_before;
+    Decided again = decided;
+    for (const std::size_t k : again.order) again.targets[k].fate = Fate::kUse;
+    std::swap(belief_, predicted);
+    counters_.gated_measurements = gated_before;
+    correct_one_by_one(again);
+    if (counters_.gated_measurements - gated_before < refused) {
+      decided = again;
+    } else {
+      belief_ = predicted;
+      counters_.gated_measurements = gated_before + refused;
     }
   }
   for (const std::size_t k : decided.order) learn(decided.targets[k], frame[k]);

@@ -40,9 +40,10 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
   by_pose.col(2) << 0.0, -1.0;
   Innovation innovation;
   innovation.expected = predict_sighting(belief.mean, landmark.mean);
-  innovation.cross = belief.covariance * by_pose.transpose();
-  innovation.covariance =
-      by_pose * innovation.cross + by_landmark * landmark.covariance * by_landmark.transpose() + noise;
+  innovation.cross.noalias() = belief.covariance * by_pose.transpose();
+  innovation.covariance.noalias() = by_pose * innovation.cross;
+  innovation.covariance.noalias() += by_landmark * landmark.covariance * by_landmark.transpose();
+  innovation.covariance += noise;
   return innovation;
 }
 
