@@ -14,6 +14,12 @@ Eigen::Vector3d displacement(const Pose& to, const Pose& from) {
   return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.heading_rad - from.heading_rad)};
 }
 
+Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point) {
+  Eigen::Matrix<double, 2, 3> slope = Eigen::Matrix<double, 2, 3>::Identity();
+  slope.col(2) << -(point.y() - pose.y_m), point.x() - pose.x_m;
+  return slope;
+}
+
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now) {
   const double c = std::cos(world_from_start.heading_rad);
   const double s = std::sin(world_from_start.heading_rad);
@@ -25,10 +31,9 @@ PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now
 
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now) {
   PoseBelief now = follow(world_from_start.mean, start_from_now);
-  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
-  lever(0, 2) = -(now.mean.y_m - world_from_start.mean.y_m);
-  lever(1, 2) = now.mean.x_m - world_from_start.mean.x_m;
-  now.covariance += lever * world_from_start.covariance * lever.transpose();
+  Eigen::Matrix3d by_start = Eigen::Matrix3d::Identity();
+  by_start.topRows<2>() = lever(world_from_start.mean, {now.mean.x_m, now.mean.y_m});
+  now.covariance += by_start * world_from_start.covariance * by_start.transpose();
   return now;
 }
 

@@ -38,6 +38,12 @@ Pose displace(const Pose& pose, const Eigen::Vector3d& step);
 /// The vector (dx, dy, dheading) from one pose to another, the heading wrapped.
 Eigen::Vector3d displacement(const Pose& to, const Pose& from);
 
+/// How a small error of a pose (x, y, heading) shifts a point that is fixed to the robot.
+///
+/// @param pose world_from_robot
+/// @param point in the world
+Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point);
+
 /// Puts a relative motion behind a pose that is known exactly.
 ///
 /// Rotating and shifting a Gaussian is linear, so this loses nothing: motion in the plane does not depend on

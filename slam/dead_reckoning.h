@@ -17,6 +17,7 @@ class DeadReckoning {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const { return estimate(); }
+  int particle_count() const { return 1; }
 
  private:
   OdometryNoise noise_;

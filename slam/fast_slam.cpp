@@ -30,9 +30,12 @@ bool has_neighbour(const LandmarkMap& map, const Landmark& landmark, double near
 }  // namespace
 
 template <class Model>
-FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed)
+FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
+                          Proposal proposal)
     : config_(config),
+      proposal_(proposal),
       model_(config.unscented),
+      reader_(config),
       correction_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
@@ -53,40 +56,16 @@ void FastSlam<Model>::predict(const Control& control) {
 
 template <class Model>
 void FastSlam<Model>::update(std::span<const RangeBearing> sightings) {
-  const std::vector<Sighting> frame = read(sightings);
+  const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
   if (frame.empty()) return;
   const bool believed = correct(frame);
   if (believed) {
+    if (proposal_ == Proposal::kMotion) draw_from_motion(frame);
     reweigh();
     if (effective_ < config_.resample_below * static_cast<double>(particles_.size())) resample();
     draw_poses();
   }
   for (std::size_t i = 0; i < particles_.size(); ++i) update_map(i, frame);
-}
-
-template <class Model>
-std::vector<Sighting> FastSlam<Model>::read(std::span<const RangeBearing> sightings) {
-  std::vector<Sighting> frame;
-  frame.reserve(sightings.size());
-  const Eigen::Vector2d floor(config_.range_floor_m, config_.bearing_floor_rad);
-  for (const RangeBearing& seen : sightings) {
-    if (!is_valid(seen)) {
-      ++counters_.rejected_inputs;
-      continue;
-    }
-    Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
-    observation.noise.diagonal() += floor.cwiseAbs2();
-    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
-  }
-  return frame;
-}
-
-template <class Model>
-int FastSlam<Model>::slot_for(const RangeBearing& sighting) {
-  const int next = static_cast<int>(first_sightings_.size());
-  const auto [found, is_new] = slot_of_id_.emplace(sighting.landmark_id, next);
-  if (is_new) first_sightings_.push_back(sighting);
-  return found->second;
 }
 
 template <class Model>
@@ -106,6 +85,19 @@ bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
   return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
     return target.fate != Fate::kRefuse && target.fate != Fate::kIgnore;
   });
+}
+
+/// Draws each pose from the odometry, and weighs it by what was believed of the frame.
+template <class Model>
+void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
+  long& repairs = counters_.covariance_repairs;
+  const Eigen::Matrix3d root = semidefinite_root<3>(motion_.covariance, repairs);
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    if (posteriors_[i].pulled) continue;
+    const Pose drawn = compose(particles_[i].pose, displace(motion_.mean, root * normals()));
+    posteriors_[i] = {{drawn, Eigen::Matrix3d::Zero()},
+                      correction_.log_likelihood(particles_[i], drawn, frame, targets_of(i), repairs)};
+  }
 }
 
 template <class Model>
@@ -135,12 +127,19 @@ template <class Model>
 void FastSlam<Model>::draw_poses() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const PoseBelief& belief = posteriors_[i].pose;
+    particles_[i].pose = belief.mean;
+    if (proposal_ == Proposal::kMotion && !posteriors_[i].pulled) continue;
     const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, counters_.covariance_repairs);
-    Eigen::Vector3d normals;
-    for (double& normal : normals) normal = random_.normal();
-    particles_[i].pose = displace(belief.mean, root * normals);
+    particles_[i].pose = displace(belief.mean, root * normals());
   }
   motion_ = {};
+}
+
+template <class Model>
+Eigen::Vector3d FastSlam<Model>::normals() {
+  Eigen::Vector3d drawn;
+  for (double& normal : drawn) normal = random_.normal();
+  return drawn;
 }
 
 template <class Model>
@@ -198,7 +197,7 @@ Estimate FastSlam<Model>::estimate() const {
   const Particle& reported = particles_[static_cast<std::size_t>(heaviest)];
   for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
     const LandmarkBelief mixed = mixed_landmark(particles_, log_weights_, slot);
-    const RangeBearing& first = first_sightings_[slot];
+    const RangeBearing& first = reader_.first_sighting(slot);
     estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance});
   }
   for (std::size_t i = 0; i < reported.classed.size(); ++i) {

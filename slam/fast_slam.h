@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
 #include "slam/belief.h"
 #include "slam/filter_config.h"
+#include "slam/frame_reader.h"
 #include "slam/linearised.h"
 #include "slam/particle.h"
 #include "slam/pose_correction.h"
@@ -16,10 +16,19 @@
 
 namespace stereobench::slam {
 
-/// FastSLAM with the optimal proposal, for any model of moments.
+/// What a particle's pose is drawn from.
+enum class Proposal {
+  kMotion,     ///< the odometry alone, before the frame is looked at: FastSLAM 1.0
+  kPosterior,  ///< odometry and frame together: FastSLAM 2.0 and UFastSLAM
+};
+
+/// FastSLAM for any model of moments and either proposal.
 ///
-/// FastSLAM 2.0 and UFastSLAM are this one filter. They differ in Model only: how moments go through a
-/// control, what a landmark should look like from an uncertain pose, and how a landmark is refined and found.
+/// FastSLAM 2.0 and UFastSLAM differ in Model only: how moments go through a control, what a landmark should
+/// look like from an uncertain pose, and how a landmark is refined and found. FastSLAM 1.0 (Montemerlo et
+/// al., AAAI 2002) is the same filter again, with poses drawn before they are corrected: a drawn pose has no
+/// covariance, so sightings do not move it, and what they should look like is uncertain by landmark and
+/// sensor alone, S = H Sigma H' + R.
 ///
 /// Each update draws every particle's pose once, which leaves it without uncertainty; until the next update
 /// all particles are given the same controls. Motion in the plane does not depend on where it happens, so the
@@ -29,42 +38,44 @@ namespace stereobench::slam {
 ///
 /// An update corrects each particle's pose by the landmarks it knows (PoseCorrection), resamples if need be,
 /// draws the poses, and then refines the landmarks that were seen and adds new ones, given the pose drawn.
-/// The weights depend on nothing that is drawn in the update, so resampling can go first: copies then draw
-/// poses of their own.
+/// With the posterior as proposal the weights depend on nothing that is drawn in the update, so resampling
+/// can go first: copies then draw poses of their own. With FastSLAM 1.0 copies part at the next control.
 template <class Model>
 class FastSlam {
  public:
-  FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed);
+  FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
+           Proposal proposal = Proposal::kPosterior);
 
   void predict(const Control& control);
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const;
+  int particle_count() const { return static_cast<int>(particles_.size()); }
 
  private:
-  std::vector<Sighting> read(std::span<const RangeBearing> sightings);
-  int slot_for(const RangeBearing& sighting);
   std::span<Target> targets_of(std::size_t particle);
   bool correct(std::span<const Sighting> frame);
+  void draw_from_motion(std::span<const Sighting> frame);
   void reweigh();
   void resample();
   void draw_poses();
+  Eigen::Vector3d normals();
   void update_map(std::size_t particle, std::span<const Sighting> frame);
   void learn(Particle& particle, const Sighting& sighting, const Target& target);
   void add(Particle& particle, const Sighting& sighting);
 
   FilterConfig config_;
+  Proposal proposal_;
   Model model_;
+  FrameReader reader_;
   PoseCorrection<Model> correction_;
   RandomStream random_;
   std::vector<Particle> particles_;
-  std::vector<double> log_weights_;            ///< normalised
-  std::vector<Posterior> posteriors_;          ///< of the update in progress, by particle
-  std::vector<Target> targets_;                ///< of the update in progress, particle by particle
-  std::map<int, int> slot_of_id_;              ///< where a known landmark is kept in every particle
-  std::vector<RangeBearing> first_sightings_;  ///< by slot: identity and colour of known landmarks
-  PoseBelief motion_;                          ///< since the last update, in the robot's frame of that time
-  PoseBelief belief_;                          ///< at the last update, over all particles
+  std::vector<double> log_weights_;    ///< normalised
+  std::vector<Posterior> posteriors_;  ///< of the update in progress, by particle
+  std::vector<Target> targets_;        ///< of the update in progress, particle by particle
+  PoseBelief motion_;                  ///< since the last update, in the robot's frame of that time
+  PoseBelief belief_;                  ///< at the last update, over all particles
   double effective_;
   FilterCounters counters_;
 };
@@ -72,7 +83,7 @@ class FastSlam {
 extern template class FastSlam<Linearised>;
 extern template class FastSlam<Unscented>;
 
-using FastSlam2 = FastSlam<Linearised>;
-using UFastSlam = FastSlam<Unscented>;
+using LinearisedFastSlam = FastSlam<Linearised>;
+using UnscentedFastSlam = FastSlam<Unscented>;
 
 }  // namespace stereobench::slam

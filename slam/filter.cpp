@@ -37,18 +37,16 @@ void check(const FilterConfig& config) {
 
 }  // namespace
 
-std::vector<std::string> filter_names() {
-  return {"dead_reckoning", "fastslam2", "ufastslam"};
-}
-
 Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start,
                    std::uint64_t seed) {
   check(config);
   require(std::isfinite(start.x_m) && std::isfinite(start.y_m) && std::isfinite(start.heading_rad),
           "the start pose must be finite");
   if (name == "dead_reckoning") return DeadReckoning(config, start);
-  if (name == "fastslam2") return FastSlam2(config, start, seed);
-  if (name == "ufastslam") return UFastSlam(config, start, seed);
+  if (name == "ekf") return EkfSlam(config, start);
+  if (name == "fastslam1") return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
+  if (name == "fastslam2") return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
+  if (name == "ufastslam") return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
   std::string known;
   for (const std::string& filter : filter_names()) known += (known.empty() ? "" : ", ") + filter;
   throw std::invalid_argument("make_filter: no filter '" + name + "'; there are " + known);
@@ -64,6 +62,10 @@ void update(Filter& filter, std::span<const RangeBearing> sightings) {
 
 Estimate estimate(const Filter& filter) {
   return std::visit([](const auto& some) { return some.estimate(); }, filter);
+}
+
+int particle_count(const Filter& filter) {
+  return std::visit([](const auto& some) { return some.particle_count(); }, filter);
 }
 
 Estimate estimate_without_map(const Filter& filter) {

@@ -5,20 +5,18 @@
 #include <span>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "slam/dead_reckoning.h"
+#include "slam/ekf_slam.h"
 #include "slam/fast_slam.h"
 #include "slam/filter_config.h"
+#include "slam/filter_names.h"
 #include "slam/types.h"
 
 namespace stereobench::slam {
 
 /// A filter is a value: a copy goes its own way and shares nothing with the original.
-using Filter = std::variant<DeadReckoning, FastSlam2, UFastSlam>;
-
-/// @return the names that make_filter knows: dead_reckoning, fastslam2, ufastslam
-std::vector<std::string> filter_names();
+using Filter = std::variant<DeadReckoning, EkfSlam, LinearisedFastSlam, UnscentedFastSlam>;
 
 /// Starts a filter at a known pose with an empty map.
 ///
@@ -39,6 +37,9 @@ void update(Filter& filter, std::span<const RangeBearing> sightings);
 
 /// @return what the filter believes now: pose, map and what it had to mend so far
 Estimate estimate(const Filter& filter);
+
+/// @return how many particles a filter has; 1 for those that are one Gaussian
+int particle_count(const Filter& filter);
 
 /// @return the same without its map, at a cost that does not depend on the map
 Estimate estimate_without_map(const Filter& filter);

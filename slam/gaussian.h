@@ -90,6 +90,15 @@ class Factor2 {
     return quotient;
   }
 
+  /// @return A L^-T for a matrix A with two columns, S = L L': what it yields times its transpose is A S^-1
+  /// A'
+  template <int kRows>
+  Eigen::Matrix<double, kRows, 2> whiten(Eigen::Matrix<double, kRows, 2> a) const {
+    a.col(1) = (a.col(1) - slope_ * a.col(0)) / std::sqrt(second_);
+    a.col(0) /= std::sqrt(first_);
+    return a;
+  }
+
  private:
   static constexpr double kSmallest = 1e-200;
   double first_, slope_, second_;

@@ -36,7 +36,8 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
                               const Eigen::Matrix2d& noise, long&) const {
   const Eigen::Matrix2d by_landmark = sighting_by_landmark(belief.mean, landmark.mean);
   Eigen::Matrix<double, 2, 3> by_pose;
-  by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
+  by_pose.leftCols<2>() = -by_landmark;
+  by_pose.col(2) << 0.0, -1.0;
   Innovation innovation;
   innovation.expected = predict_sighting(belief.mean, landmark.mean);
   innovation.cross = belief.covariance * by_pose.transpose();

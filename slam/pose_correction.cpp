@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/contradiction.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 
@@ -11,31 +12,13 @@ namespace stereobench::slam {
 namespace {
 
 constexpr double kSearchMargin = 4.0;  ///< by how much a squared distance may exceed its first order
-constexpr int kPatience = 5;           ///< contradictions in a row before they are taken seriously
 constexpr double kSlip =
     3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
-constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
 
 bool is_finite(const Posterior& posterior) {
   const Pose& pose = posterior.pose.mean;
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad) &&
          posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
-}
-
-/// The covariance of a drift that explains why a landmark was seen this far from where it should have been.
-Eigen::Matrix3d drift_covariance(const PoseBelief& belief, const LandmarkBelief& landmark,
-                                 const Observation& observation) {
-  constexpr double kHeadingPerMetre_rad = 0.1;
-  const double off_m2 = (locate(belief.mean, observation.range_bearing) - landmark.mean).squaredNorm();
-  return Eigen::Vector3d(off_m2, off_m2, kHeadingPerMetre_rad * kHeadingPerMetre_rad * off_m2).asDiagonal();
-}
-
-/// What a prediction of first order leaves out: an error of the heading turns an error of the way. Twice of
-/// it, for the tails.
-Eigen::Matrix3d bend_covariance(const PoseBelief& belief) {
-  const Eigen::Matrix3d& p = belief.covariance;
-  const double bend_m2 = p(2, 2) * (p(0, 0) + p(1, 1));
-  return Eigen::Vector3d(bend_m2, bend_m2, 0.0).asDiagonal();
 }
 
 /// How uncertain the place is that a sighting points at: the trace of its covariance, to first order.
@@ -109,6 +92,24 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   if (is_finite(posterior)) return posterior;
   ++counters.covariance_repairs;
   return {predicted, -std::numeric_limits<double>::infinity(), false};
+}
+
+template <class Model>
+double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pose& drawn,
+                                             std::span<const Sighting> frame, std::span<const Target> targets,
+                                             long& repairs) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    if (targets[k].landmark < 0) continue;
+    const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
+    const Observation& observation = frame[k].observation;
+    const Surprise surprise(
+        model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation.noise, repairs), observation,
+        repairs);
+    const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
+    sum -= 0.5 * (squared_length + surprise.factor.log_det_2_pi());
+  }
+  return sum;
 }
 
 template <class Model>
@@ -188,9 +189,11 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
     return Fate::kUse;
   }
   ++counters.gated_measurements;
-  const Fate fate = judge(landmark, sighting, posterior);
+  const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
+  const Fate fate = judge_contradiction({landmark.uses, landmark.refusals}, certain, posterior.vouched);
   if (fate == Fate::kUse) {
-    posterior.pose.covariance += drift_covariance(posterior.pose, landmark.belief, observation);
+    posterior.pulled = true;
+    posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);
     apply(Surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation,
                    repairs),
           posterior);
@@ -198,16 +201,6 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
     posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());
   }
   return fate;
-}
-
-template <class Model>
-Fate PoseCorrection<Model>::judge(const Landmark& landmark, const Sighting& sighting,
-                                  const Posterior& posterior) const {
-  const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
-  const bool persistent = landmark.refusals + 1 >= kPatience;
-  const bool pose_is_wrong = !posterior.vouched && (certain || landmark.uses >= kConfirmed);
-  if (pose_is_wrong && (certain || persistent)) return Fate::kUse;
-  return persistent ? Fate::kMove : Fate::kRefuse;
 }
 
 template class PoseCorrection<Linearised>;

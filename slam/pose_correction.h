@@ -27,7 +27,7 @@ namespace stereobench::slam {
 ///
 /// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
 /// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
-/// A landmark that is contradicted kPatience times in a row is no outlier: either the pose or the landmark is
+/// A landmark that is contradicted several times in a row is no outlier: either the pose or the landmark is
 /// wrong. When an older landmark has vouched for the pose in this frame, or the landmark itself was seen
 /// rarely, the landmark is found anew. Otherwise the pose has drifted, as at the end of a loop, and the
 /// filter was too sure of it: the covariance grows by the smallest drift that explains the sighting, and the
@@ -46,6 +46,13 @@ class PoseCorrection {
   Posterior correct(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
                     std::span<Target> targets, FilterCounters& counters);
 
+  /// The likelihood of the same frame from a pose that was drawn: each sighting that was used counts by its
+  /// innovation's density given that pose, each that was refused by the likelihood at the gate.
+  ///
+  /// @param targets as decided by correct()
+  double log_likelihood(const Particle& particle, const Pose& drawn, std::span<const Sighting> frame,
+                        std::span<const Target> targets, long& repairs) const;
+
  private:
   void associate(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
                  std::span<Target> targets, FilterCounters& counters);
@@ -56,7 +63,6 @@ class PoseCorrection {
   void order_by_age(std::span<const Target> targets);
   Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
            FilterCounters& counters) const;
-  Fate judge(const Landmark& landmark, const Sighting& sighting, const Posterior& posterior) const;
 
   Model model_;
   double gate_probability_;

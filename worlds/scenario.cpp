@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "slam/filter.h"
+#include "slam/filter_names.h"
 #include "slam/random.h"
 #include "worlds/scenario_checks.h"
 #include "worlds/scenario_parts.h"

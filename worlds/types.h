@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "slam/filter_names.h"
 #include "slam/types.h"
 #include "vision/types.h"
 
@@ -110,7 +111,7 @@ struct Scenario {
   CameraSensor camera;
   Identity identity = Identity::kKnown;
   double colour_spacing_m = 0.0;  ///< kColourClass: two balls of one colour are at least this far apart
-  std::vector<std::string> filters = {"dead_reckoning", "fastslam2", "ufastslam"};
+  std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
   std::vector<std::uint64_t> seeds = {0};
   std::vector<Gate> gates;

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "renderer/backend.h"
-#include "slam/filter.h"
+#include "slam/filter_names.h"
 #include "worlds/seeds.h"
 
 namespace stereobench::harness {

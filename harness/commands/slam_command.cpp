@@ -12,6 +12,7 @@
 #include "harness/run/serialise.h"
 #include "harness/run/stopwatch.h"
 #include "harness/scoring/references.h"
+#include "slam/filter_names.h"
 
 namespace stereobench::harness {
 namespace {
@@ -65,7 +66,7 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
 
 int run_slam(SlamArguments arguments) {
   RunArguments& run = arguments.run;
-  if (run.filters.empty()) run.filters = slam::filter_names();
+  if (run.filters.empty()) run.filters = slam::usual_filter_names();
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
   const RecordedLog recorded = read_log(arguments.log, arguments.log_says);

@@ -31,9 +31,9 @@ FilterRun replay(const MeasurementLog& log, const std::string& filter, const sla
                  std::uint64_t seed) {
   FilterRun run;
   run.filter = filter;
-  run.particles = filter == "dead_reckoning" ? 1 : config.particles;
   run.seed = seed;
   slam::Filter state = slam::make_filter(filter, config, log.start, seed);
+  run.particles = slam::particle_count(state);
   try {
     for (const LogStep& step : log.steps) {
       if (drive_step(state, step, run)) continue;

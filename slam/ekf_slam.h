@@ -1,0 +1,71 @@
+/// The extended Kalman filter over the pose and all landmarks at once.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/association.h"
+#include "slam/contradiction.h"
+#include "slam/filter_config.h"
+#include "slam/frame_reader.h"
+#include "slam/joint_belief.h"
+#include "slam/linearised.h"
+
+namespace stereobench::slam {
+
+/// EKF-SLAM (Smith, Self and Cheeseman, 1990): one Gaussian, in which the pose and every landmark are
+/// correlated with each other.
+///
+/// The motion since the last update is kept apart, in the robot's frame, as FastSlam does: motion in the
+/// plane does not depend on where it happens, and levers of motions add up, so putting it behind the pose in
+/// one go is the same as step by step. A prediction then touches no landmark.
+///
+/// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
+/// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
+/// sighting follow the rules of PoseCorrection.
+class EkfSlam {
+ public:
+  EkfSlam(const FilterConfig& config, const Pose& start);
+
+  void predict(const Control& control);
+  void update(std::span<const RangeBearing> sightings);
+  Estimate estimate() const;
+  Estimate estimate_without_map() const;
+  int particle_count() const { return 1; }
+
+ private:
+  /// What is known of a landmark besides its place.
+  struct Mapped {
+    int slot = kUnknown;
+    int colour_class = kUnknown;
+    TrackRecord record;
+  };
+  /// A frame beside what becomes of it.
+  struct Decided {
+    std::span<const Sighting> frame;
+    std::vector<Target> targets;
+    std::vector<std::size_t> order;  ///< of the sightings that correct the pose: oldest landmarks first
+  };
+
+  Decided associate(std::span<const Sighting> frame);
+  void find_candidates(const Sighting& sighting, int index, std::vector<Candidate>& candidates);
+  void correct_one_by_one(Decided& decided);
+  Fate use(int landmark, const Sighting& sighting, bool vouched);
+  std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
+  void learn(const Target& target, const Sighting& sighting);
+  void add(const Sighting& sighting);
+
+  FilterConfig config_;
+  double gate_;
+  double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
+  Linearised model_;
+  FrameReader reader_;
+  JointBelief belief_;  ///< at the last update
+  PoseBelief motion_;   ///< since the last update, in the robot's frame of that time
+  std::vector<Mapped> map_;
+  std::vector<int> landmark_of_slot_;
+  FilterCounters counters_;
+};
+
+}  // namespace stereobench::slam

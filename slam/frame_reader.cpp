@@ -1,0 +1,30 @@
+#include "slam/frame_reader.h"
+
+#include "slam/measurement.h"
+#include "slam/motion.h"
+
+namespace stereobench::slam {
+
+std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings, long& rejected) {
+  std::vector<Sighting> frame;
+  frame.reserve(sightings.size());
+  for (const RangeBearing& seen : sightings) {
+    if (!is_valid(seen)) {
+      ++rejected;
+      continue;
+    }
+    Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
+    observation.noise.diagonal() += floor_.cwiseAbs2();
+    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
+  }
+  return frame;
+}
+
+int FrameReader::slot_for(const RangeBearing& sighting) {
+  const int next = static_cast<int>(first_sightings_.size());
+  const auto [found, is_new] = slot_of_id_.emplace(sighting.landmark_id, next);
+  if (is_new) first_sightings_.push_back(sighting);
+  return found->second;
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,34 @@
+/// From sightings as they come in to a frame that a filter can use.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "slam/filter_config.h"
+#include "slam/particle.h"
+
+namespace stereobench::slam {
+
+/// Checks sightings, puts the floor under their noise, and numbers the identities in order of appearance.
+class FrameReader {
+ public:
+  explicit FrameReader(const FilterConfig& config) : floor_(config.range_floor_m, config.bearing_floor_rad) {}
+
+  /// @param sightings of one instant
+  /// @param rejected counts those that cannot be and are left out
+  /// @return the others, in their order, each with the slot of its identity
+  std::vector<Sighting> read(std::span<const RangeBearing> sightings, long& rejected);
+
+  /// @return what was seen when a slot was given out: identity and colour of its landmark
+  const RangeBearing& first_sighting(std::size_t slot) const { return first_sightings_[slot]; }
+
+ private:
+  int slot_for(const RangeBearing& sighting);
+
+  Eigen::Vector2d floor_;
+  std::map<int, int> slot_of_id_;
+  std::vector<RangeBearing> first_sightings_;  ///< by slot
+};
+
+}  // namespace stereobench::slam

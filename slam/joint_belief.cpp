@@ -1,0 +1,53 @@
+#include "slam/joint_belief.h"
+
+#include "slam/measurement.h"
+
+namespace stereobench::slam {
+
+void follow(JointBelief& belief, const PoseBelief& motion) {
+  const PoseBelief moved = follow(belief.pose, motion);
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
+  by_pose.topRows<2>() = lever(belief.pose, {moved.mean.x_m, moved.mean.y_m});
+  belief.covariance.move_pose(by_pose, moved.covariance);
+  belief.pose = moved.mean;
+}
+
+JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
+                       const Observation& observation, long& repairs) {
+  const auto j = static_cast<std::size_t>(landmark);
+  const Eigen::Matrix2d by_landmark = sighting_by_landmark(at.pose, at.landmarks[j]);
+  Eigen::Matrix<double, 2, 5> slope;
+  slope.leftCols<2>() = -by_landmark;
+  slope.col(2) << 0.0, -1.0;
+  slope.rightCols<2>() = by_landmark;
+  Eigen::Matrix<double, 5, 1> off;
+  off << displacement(belief.pose, at.pose), belief.landmarks[j] - at.landmarks[j];
+  const Eigen::Vector2d expected = predict_sighting(at.pose, at.landmarks[j]) + slope * off;
+  const Eigen::Matrix2d covariance =
+      slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() + observation.noise;
+  return {slope, Factor2(covariance, repairs), sighting_residual(observation.range_bearing, expected)};
+}
+
+void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs) {
+  const JointCovariance::Columns whitened =
+      seen.factor.whiten<Eigen::Dynamic>(belief.covariance.with_sighting(landmark, seen.slope));
+  const Eigen::VectorXd shift = whitened * seen.factor.whiten<1>(seen.residual.transpose()).transpose();
+  if (!shift.allFinite()) {
+    ++repairs;
+    return;
+  }
+  belief.pose = displace(belief.pose, shift.head<3>());
+  for (std::size_t j = 0; j < belief.landmarks.size(); ++j) {
+    belief.landmarks[j] += shift.segment<2>(JointCovariance::row_of(static_cast<int>(j)));
+  }
+  belief.covariance.subtract(whitened, repairs);
+}
+
+void place(JointBelief& belief, int landmark, const LandmarkBelief& found) {
+  const auto j = static_cast<std::size_t>(landmark);
+  if (j == belief.landmarks.size()) belief.landmarks.emplace_back();
+  belief.landmarks[j] = found.mean;
+  belief.covariance.place(landmark, lever(belief.pose, found.mean), found.covariance);
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,49 @@
+/// One Gaussian of the pose and all landmarks, and what motion and sightings do to it.
+#pragma once
+
+#include <vector>
+
+#include "slam/belief.h"
+#include "slam/gaussian.h"
+#include "slam/joint_covariance.h"
+
+namespace stereobench::slam {
+
+/// Where the robot and all landmarks are believed to be, with everything that ties them together.
+struct JointBelief {
+  Pose pose;
+  std::vector<Eigen::Vector2d> landmarks;  ///< m, in the world
+  JointCovariance covariance;
+};
+
+/// A sighting held against what its landmark should look like.
+struct JointSurprise {
+  Eigen::Matrix<double, 2, 5> slope;  ///< H: of (range, bearing) by (pose, landmark)
+  Factor2 factor;                     ///< of S = H P H' + R
+  Eigen::Vector2d residual;           ///< wrapped
+
+  double squared_length() const { return factor.squared_length(residual); }
+};
+
+/// Puts a motion behind the pose: O(n), for a landmark feels it through its covariance with the pose alone.
+///
+/// @param motion in the robot's frame before it
+void follow(JointBelief& belief, const PoseBelief& motion);
+
+/// Looks for a landmark where it should be.
+///
+/// @param at where the sighting is linearised: the belief itself, or a better guess of what it will become
+/// @param repairs counts covariances that had to be mended
+JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
+                       const Observation& observation, long& repairs);
+
+/// The Kalman update in gain form, O(n^2): K = P H' S^-1, so a singular P is nothing special.
+void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs);
+
+/// Takes a landmark for what is seen now: one that is new, or one whose place turned out to be wrong.
+///
+/// @param landmark index of a landmark, or one more than the last
+/// @param found where it is seen from the pose's mean, with the sensor's uncertainty
+void place(JointBelief& belief, int landmark, const LandmarkBelief& found);
+
+}  // namespace stereobench::slam

@@ -1,0 +1,56 @@
+/// The covariance of a pose and all landmarks together.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace stereobench::slam {
+
+/// Covariances of (x, y, heading) and of any number of landmarks (x, y), each with every other.
+///
+/// The lower triangle is kept row by row: a landmark found is two more rows at the end, symmetry cannot be
+/// lost, and a correction runs through memory once from front to back.
+class JointCovariance {
+ public:
+  /// By row of the state: its covariances with the two numbers of a sighting.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+  /// Where the coordinates of a landmark begin in the state.
+  static Eigen::Index row_of(int landmark) { return 3 + 2 * landmark; }
+
+  Eigen::Matrix3d pose() const;
+  Eigen::Matrix2d landmark(int index) const;
+
+  /// @return of (pose, landmark)
+  Eigen::Matrix<double, 5, 5> pose_and_landmark(int index) const;
+
+  /// The pose becomes by_pose * pose + noise, which no landmark feels: O(n).
+  void move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise);
+
+  /// A landmark becomes by_pose * pose + noise: O(n).
+  ///
+  /// @param index of a landmark that is forgotten, or one more than the last
+  void place(int index, const Eigen::Matrix<double, 2, 3>& by_pose, const Eigen::Matrix2d& noise);
+
+  /// P H' for a sighting with slopes by (pose, landmark), in O(n).
+  Columns with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope) const;
+
+  /// P - W W', in O(n^2) / 2.
+  ///
+  /// @param whitened W = P H' L^-T, where L L' is the sighting's covariance
+  /// @param repairs counts variances that came out below zero: they become zero, and so do their covariances
+  void subtract(const Columns& whitened, long& repairs);
+
+ private:
+  Eigen::Index size() const { return size_; }
+  double* row(Eigen::Index index) { return lower_.data() + index * (index + 1) / 2; }
+  const double* row(Eigen::Index index) const { return lower_.data() + index * (index + 1) / 2; }
+  double& at(Eigen::Index i, Eigen::Index j) { return i >= j ? row(i)[j] : row(j)[i]; }
+  double at(Eigen::Index i, Eigen::Index j) const { return i >= j ? row(i)[j] : row(j)[i]; }
+
+  Eigen::Index size_ = 3;
+  std::vector<double> lower_ = std::vector<double>(6, 0.0);
+};
+
+}  // namespace stereobench::slam
