@@ -278,36 +278,51 @@ TEST(EkfSlam, ALandmarkContradictedAgainAndAgainIsFoundAnew) {
   EXPECT_EQ(filter.estimate().counters.gated_measurements, 5);
 }
 
-// Ways that are known to 3 cm and turns to 3 deg, beside a sensor of a millimetre: what first order leaves
-// out is many times the sensor's noise, and sightings that are right look wrong one after the other. Catches
-// a frame that is not looked at again, and one that is linearised where it was predicted.
+// What is seen ahead from within a ring of landmarks, to a millimetre and a third of a milliradian.
+std::vector<RangeBearing> look_at_ring(const Pose& truth, RandomStream& noise) {
+  constexpr double kRange_sd_m = 1e-3, kBearing_sd_rad = 3e-4;
+  std::vector<RangeBearing> frame;
+  for (int i = 0; i < 18; ++i) {
+    const Eigen::Vector2d place = locate({0.0, 1.0, 0.0}, {2.0 + 0.7 * (i % 3), 2.0 * M_PI * i / 18});
+    const Eigen::Vector2d exact = predict_sighting(truth, place);
+    if (std::abs(exact.y()) > 0.5) continue;
+    const Eigen::Vector2d error(kRange_sd_m * noise.normal(), kBearing_sd_rad * noise.normal());
+    frame.push_back(known(exact + error, i, kRange_sd_m, kBearing_sd_rad));
+  }
+  return frame;
+}
+
+// Ways that are known to 10 cm and turns to 6 deg: what first order leaves out is many times the sensor's
+// noise, and sightings that are right look wrong one after the other. Without a second look at such frames
+// one in eight is refused and the path is off by 11 mm; when they are linearised where they were predicted,
+// one in fifty and 9 mm; when the bend of the way is not granted, one in twelve.
 TEST(EkfSlam, APreciseSensorBesideCoarseOdometryIsBelieved) {
-  Drive world;
-  world.side_m = 6.0;
-  world.step_s = 1.0;
-  world.range_sd_m = 1e-3;
-  world.bearing_sd_rad = 3e-4;
-  world.odometry_noise = {0.03, 0.0, 0.0, 0.05, 0.0, 0.0};
+  const OdometryNoise noise{0.1, 0.0, 0.0, 0.1, 0.0, 0.0};
   constexpr int kDrives = 20;
-  double end_m = 0.0;
-  long gated = 0;
+  constexpr int kSteps = 24;
+  double rms_m = 0.0;
+  double seen = 0.0;
+  double gated = 0.0;
   for (std::uint64_t seed = 0; seed < kDrives; ++seed) {
     RandomStream odometry(seed, Stream::kOdometry);
     RandomStream sensor(seed, Stream::kOracle);
-    EkfSlam filter({.odometry_noise = world.odometry_noise}, {});
+    EkfSlam filter({.odometry_noise = noise}, {});
     Pose truth;
-    filter.update(world.look(truth, sensor));
-    for (const Control& control : world.controls()) {
+    double squared_m2 = 0.0;
+    for (int step = 0; step < kSteps; ++step) {
+      const std::vector<RangeBearing> frame = look_at_ring(truth, sensor);
+      filter.update(frame);
+      seen += static_cast<double>(frame.size());
+      squared_m2 += displacement(truth, filter.estimate().pose).head<2>().squaredNorm() / kSteps;
+      const Control control{0.35, 0.35, 1.0};
       truth = advance(truth, control);
-      filter.predict(perturb(control, world.odometry_noise, odometry));
-      filter.update(world.look(truth, sensor));
+      filter.predict(perturb(control, noise, odometry));
     }
-    const Estimate last = filter.estimate();
-    end_m += displacement(truth, last.pose).head<2>().norm() / kDrives;
-    gated += last.counters.gated_measurements;
+    rms_m += std::sqrt(squared_m2) / kDrives;
+    gated += static_cast<double>(filter.estimate().counters.gated_measurements);
   }
-  EXPECT_LE(end_m, 0.005);
-  EXPECT_LE(gated, kDrives);
+  EXPECT_LE(gated, 0.012 * seen);
+  EXPECT_LE(rms_m, 0.008);
 }
 
 }  // namespace
