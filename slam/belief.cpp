@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "slam/motion.h"
 
 namespace stereobench::slam {
@@ -21,8 +22,7 @@ Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point
 }
 
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now) {
-  const double c = std::cos(world_from_start.heading_rad);
-  const double s = std::sin(world_from_start.heading_rad);
+  const auto [s, c] = sine_cosine(world_from_start.heading_rad);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() << c, -s, s, c;
   const Eigen::Matrix3d covariance = turn * start_from_now.covariance * turn.transpose();

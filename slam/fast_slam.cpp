@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/mixture.h"
@@ -39,7 +40,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       correction_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
-      log_weights_(particles_.size(), -std::log(static_cast<double>(config.particles))),
+      log_weights_(particles_.size(), -logarithm(static_cast<double>(config.particles))),
       posteriors_(particles_.size()),
       belief_{start, Eigen::Matrix3d::Zero()},
       effective_(static_cast<double>(config.particles)) {}
@@ -119,7 +120,7 @@ void FastSlam<Model>::resample() {
     posteriors_[i] = posteriors_[from];
     std::ranges::copy(targets_of(from), targets_of(i).begin());
   }
-  std::fill(log_weights_.begin(), log_weights_.end(), -std::log(static_cast<double>(particles_.size())));
+  std::fill(log_weights_.begin(), log_weights_.end(), -logarithm(static_cast<double>(particles_.size())));
   ++counters_.resamplings;
 }
 

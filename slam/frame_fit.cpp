@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 
@@ -58,7 +59,7 @@ FrameFit fit_frame(const PoseBelief& predicted, std::span<const Match> matches, 
   }
   const Eigen::LLT<Eigen::Matrix3d> factor(around.information);
   const Eigen::Matrix3d covariance = root * factor.solve(root.transpose());
-  const double log_det = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  const double log_det = 2.0 * logarithm(factor.matrixLLT().diagonal().prod());
   const double log_likelihood = -0.5 * (around.cost + around.log_det_2_pi + log_det);
   return {{{pose, 0.5 * (covariance + covariance.transpose())}, log_likelihood, true},
           u.squaredNorm(),

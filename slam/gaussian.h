@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "slam/elementary.h"
 #include "slam/random.h"
 
 namespace stereobench::slam {
@@ -78,7 +79,7 @@ class Factor2 {
   /// @return log det(2 pi S)
   double log_det_2_pi() const {
     constexpr double kLogTwoPi = 1.8378770664093454836;
-    return 2.0 * kLogTwoPi + std::log(first_) + std::log(second_);
+    return 2.0 * kLogTwoPi + logarithm(first_ * second_);
   }
 
   /// @return A S^-1 for a matrix A with two columns
@@ -100,13 +101,13 @@ class Factor2 {
   }
 
  private:
-  static constexpr double kSmallest = 1e-200;
+  static constexpr double kSmallest = 1e-150;  ///< whose square is not lost yet
   double first_, slope_, second_;
 };
 
 /// The quantile of the chi-square distribution with two degrees of freedom, -2 log(1 - p).
 inline double chi_square_2_quantile(double probability) {
-  return -2.0 * std::log1p(-probability);
+  return -2.0 * logarithm_of_one_plus(-probability);
 }
 
 /// The same for any number of degrees of freedom, by Wilson and Hilferty's cube: within 5 % from two on.

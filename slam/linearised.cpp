@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
@@ -13,12 +14,14 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
   const double dt = control.duration_s;
   const double half_turn = 0.5 * control.w_radps * dt;
   const double direction = belief.mean.heading_rad + half_turn;
-  const Eigen::Vector2d along(std::cos(direction), std::sin(direction));
+  const SineCosine heading = sine_cosine(direction);
+  const Eigen::Vector2d along(heading.cosine, heading.sine);
   const Eigen::Vector2d across(-along.y(), along.x());
   // chord = v dt sinc(h), h = w dt / 2; d sinc/dh = (cos h - sinc h) / h, about -h/3 for small h.
   const bool small = std::abs(half_turn) < 1e-4;
-  const double sinc = small ? 1.0 - half_turn * half_turn / 6.0 : std::sin(half_turn) / half_turn;
-  const double sinc_slope = small ? -half_turn / 3.0 : (std::cos(half_turn) - sinc) / half_turn;
+  const auto [s, c] = sine_cosine(half_turn);
+  const double sinc = small ? 1.0 - half_turn * half_turn / 6.0 : s / half_turn;
+  const double sinc_slope = small ? -half_turn / 3.0 : (c - sinc) / half_turn;
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
   by_pose(0, 2) = -(moved.mean.y_m - belief.mean.y_m);
   by_pose(1, 2) = moved.mean.x_m - belief.mean.x_m;
@@ -65,8 +68,7 @@ LandmarkBelief Linearised::found(const Pose& robot, const Observation& observati
   const double direction = robot.heading_rad + observation.range_bearing.y();
   // A range of 0 was noisy too: the bearing's lever is at least the range's own standard deviation.
   const double lever = std::max(observation.range_bearing.x(), std::sqrt(observation.noise(0, 0)));
-  const double c = std::cos(direction);
-  const double s = std::sin(direction);
+  const auto [s, c] = sine_cosine(direction);
   Eigen::Matrix2d slope;
   slope << c, -lever * s, s, lever * c;
   const Eigen::Matrix2d covariance = slope * observation.noise * slope.transpose();

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "slam/elementary.h"
 #include "slam/motion.h"
 #include "slam/types.h"
 
@@ -19,14 +20,14 @@ namespace stereobench::slam {
 inline Eigen::Vector2d predict_sighting(const Pose& robot, const Eigen::Vector2d& point_in_world) {
   const double dx = point_in_world.x() - robot.x_m;
   const double dy = point_in_world.y() - robot.y_m;
-  return {std::sqrt(dx * dx + dy * dy), wrap_angle(std::atan2(dy, dx) - robot.heading_rad)};
+  return {std::sqrt(dx * dx + dy * dy), wrap_angle(arc_tangent(dy, dx) - robot.heading_rad)};
 }
 
 /// The point in the world that is seen at a range and bearing: the inverse of predict_sighting.
 inline Eigen::Vector2d locate(const Pose& robot, const Eigen::Vector2d& range_bearing) {
   const double direction_rad = robot.heading_rad + range_bearing.y();
-  return {robot.x_m + range_bearing.x() * std::cos(direction_rad),
-          robot.y_m + range_bearing.x() * std::sin(direction_rad)};
+  const auto [s, c] = sine_cosine(direction_rad);
+  return {robot.x_m + range_bearing.x() * c, robot.y_m + range_bearing.x() * s};
 }
 
 /// d(range, bearing) / d(landmark x, y). From the landmark's own place the bearing has no slope: the range is

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/elementary.h"
+
 namespace stereobench::slam {
 namespace {
 
@@ -46,7 +48,7 @@ PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vecto
   Moments<3> moments;
   for (std::size_t i = 0; i < posteriors.size(); ++i) {
     const PoseBelief& belief = posteriors[i].pose;
-    moments.add(std::exp(log_weights[i]), displacement(belief.mean, reference), belief.covariance);
+    moments.add(exponential(log_weights[i]), displacement(belief.mean, reference), belief.covariance);
   }
   return {displace(reference, moments.mean()), moments.covariance()};
 }
@@ -57,7 +59,7 @@ LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std:
   Moments<2> moments;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const LandmarkBelief& belief = particles[i].known[slot].belief;
-    moments.add(std::exp(log_weights[i]), belief.mean - reference, belief.covariance);
+    moments.add(exponential(log_weights[i]), belief.mean - reference, belief.covariance);
   }
   return {reference + moments.mean(), moments.covariance()};
 }
@@ -69,7 +71,7 @@ LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles,
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Landmark* same = nearest(particles[i].classed, own, within_m);
     if (same == nullptr) continue;
-    moments.add(std::exp(log_weights[i]), same->belief.mean - own.belief.mean, same->belief.covariance);
+    moments.add(exponential(log_weights[i]), same->belief.mean - own.belief.mean, same->belief.covariance);
   }
   return {own.belief.mean + moments.mean(), moments.covariance()};
 }

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/elementary.h"
+
 namespace stereobench::slam {
 namespace {
 
 /// sin(x) / x, which is 1 - x^2/6 to the last bit where the quotient would lose it.
 double sinc(double x) {
-  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
+  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : sine_cosine(x).sine / x;
 }
 
 }  // namespace
@@ -24,21 +26,19 @@ Pose advance(const Pose& pose, const Control& control) {
   const double half_turn_rad = 0.5 * control.w_radps * control.duration_s;
   const double chord_m = control.v_mps * control.duration_s * sinc(half_turn_rad);
   const double direction_rad = pose.heading_rad + half_turn_rad;
-  return {pose.x_m + chord_m * std::cos(direction_rad), pose.y_m + chord_m * std::sin(direction_rad),
-          wrap_angle(pose.heading_rad + 2.0 * half_turn_rad)};
+  const auto [s, c] = sine_cosine(direction_rad);
+  return {pose.x_m + chord_m * c, pose.y_m + chord_m * s, wrap_angle(pose.heading_rad + 2.0 * half_turn_rad)};
 }
 
 Pose compose(const Pose& a_from_b, const Pose& b_from_c) {
-  const double c = std::cos(a_from_b.heading_rad);
-  const double s = std::sin(a_from_b.heading_rad);
+  const auto [s, c] = sine_cosine(a_from_b.heading_rad);
   return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
           a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
           wrap_angle(a_from_b.heading_rad + b_from_c.heading_rad)};
 }
 
 Pose inverse(const Pose& a_from_b) {
-  const double c = std::cos(a_from_b.heading_rad);
-  const double s = std::sin(a_from_b.heading_rad);
+  const auto [s, c] = sine_cosine(a_from_b.heading_rad);
   return {-c * a_from_b.x_m - s * a_from_b.y_m, s * a_from_b.x_m - c * a_from_b.y_m,
           wrap_angle(-a_from_b.heading_rad)};
 }

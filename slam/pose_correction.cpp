@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slam/contradiction.h"
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 
@@ -26,7 +27,8 @@ double place_variance(const PoseBelief& belief, const Observation& observation) 
   const double range_m = observation.range_bearing.x();
   const double direction_rad = belief.mean.heading_rad + observation.range_bearing.y();
   const Eigen::Matrix3d& p = belief.covariance;
-  const double turn_and_shift = p(1, 2) * std::cos(direction_rad) - p(0, 2) * std::sin(direction_rad);
+  const auto [s, c] = sine_cosine(direction_rad);
+  const double turn_and_shift = p(1, 2) * c - p(0, 2) * s;
   return p(0, 0) + p(1, 1) + 2.0 * range_m * turn_and_shift + observation.noise(0, 0) +
          range_m * range_m * (p(2, 2) + observation.noise(1, 1));
 }
@@ -160,7 +162,8 @@ std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& pre
   if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
   if (matches_.size() < 2) return std::nullopt;  // nobody else says so
   FrameFit slipped = fit_frame({predicted.mean, kSlip * kSlip * covariance}, matches_, repairs);
-  slipped.posterior.log_likelihood += std::log1p(-gate_probability_);  // so rarely is the odometry that wrong
+  slipped.posterior.log_likelihood +=
+      logarithm_of_one_plus(-gate_probability_);  // so rarely is the odometry that wrong
   if (!(slipped.prior_cost + slipped.sighting_cost <= limit)) return std::nullopt;
   if (!(slipped.posterior.log_likelihood > refusing.log_likelihood)) return std::nullopt;
   return slipped.posterior;

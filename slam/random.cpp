@@ -4,6 +4,8 @@
 
 #include <Random123/philox.h>
 
+#include "slam/elementary.h"
+
 namespace stereobench::slam {
 namespace {
 
@@ -60,7 +62,7 @@ double ratio(const Coefficients& up, const Coefficients& down, double x) {
 double normal_quantile(double probability) {
   const double offset = probability - 0.5;
   if (std::abs(offset) <= 0.425) return offset * ratio(kCentreUp, kCentreDown, 0.180625 - offset * offset);
-  const double tail = std::sqrt(-std::log(offset < 0.0 ? probability : 1.0 - probability));
+  const double tail = std::sqrt(-logarithm(offset < 0.0 ? probability : 1.0 - probability));
   const double size =
       tail <= 5.0 ? ratio(kTailUp, kTailDown, tail - 1.6) : ratio(kFarUp, kFarDown, tail - 5.0);
   return offset < 0.0 ? -size : size;

@@ -18,7 +18,7 @@ double normal_quantile(double probability);
 /// A sequence of random numbers from the counter-based generator Philox4x32-10 (Salmon et al., SC 2011).
 ///
 /// The key is the seed; the counter holds stream, index and position. Two streams never share a number, and
-/// equal arguments give equal numbers on every machine, up to the last bit of log() in the tails of normal().
+/// equal arguments give equal numbers on every machine.
 class RandomStream {
  public:
   /// @param seed any value; 0 is a seed like all others

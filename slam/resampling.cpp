@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/elementary.h"
+
 namespace stereobench::slam {
 
 bool normalise(std::vector<double>& log_weights) {
@@ -12,21 +14,22 @@ bool normalise(std::vector<double>& log_weights) {
     if (w > largest) largest = w;
   }
   if (!std::isfinite(largest)) {
-    std::fill(log_weights.begin(), log_weights.end(), -std::log(static_cast<double>(log_weights.size())));
+    std::fill(log_weights.begin(), log_weights.end(), -logarithm(static_cast<double>(log_weights.size())));
     return false;
   }
   double sum = 0.0;
   for (double& w : log_weights) {
     w = std::isnan(w) ? -std::numeric_limits<double>::infinity() : w - largest;
-    sum += std::exp(w);
+    sum += exponential(w);
   }
-  for (double& w : log_weights) w -= std::log(sum);
+  const double log_sum = logarithm(sum);
+  for (double& w : log_weights) w -= log_sum;
   return true;
 }
 
 double effective_particles(const std::vector<double>& log_weights) {
   double sum = 0.0;
-  for (const double w : log_weights) sum += std::exp(2.0 * w);
+  for (const double w : log_weights) sum += exponential(2.0 * w);
   return std::clamp(1.0 / sum, 1.0, static_cast<double>(log_weights.size()));
 }
 
@@ -34,10 +37,10 @@ std::vector<int> systematic_descendants(const std::vector<double>& log_weights, 
   const std::size_t count = log_weights.size();
   std::vector<int> descendants(count, 0);
   std::size_t particle = 0;
-  double reached = std::exp(log_weights[0]);
+  double reached = exponential(log_weights[0]);
   for (std::size_t i = 0; i < count; ++i) {
     const double position = (static_cast<double>(i) + uniform) / static_cast<double>(count);
-    while (reached <= position && particle + 1 < count) reached += std::exp(log_weights[++particle]);
+    while (reached <= position && particle + 1 < count) reached += exponential(log_weights[++particle]);
     ++descendants[particle];
   }
   return descendants;

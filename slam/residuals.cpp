@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "slam/elementary.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
 
@@ -17,8 +18,7 @@ constexpr double kMissingShare = 0.01;  ///< of the step's deviation, where a co
 /// turn.
 Eigen::Vector3d chord(const Pose& from, const Pose& to, double turn_rad) {
   const double direction_rad = from.heading_rad + 0.5 * turn_rad;
-  const double c = std::cos(direction_rad);
-  const double s = std::sin(direction_rad);
+  const auto [s, c] = sine_cosine(direction_rad);
   const double dx = to.x_m - from.x_m;
   const double dy = to.y_m - from.y_m;
   return {c * dx + s * dy, c * dy - s * dx, turn_rad};
@@ -26,8 +26,7 @@ Eigen::Vector3d chord(const Pose& from, const Pose& to, double turn_rad) {
 
 /// d chord / d(x, y, heading) of the pose at its end; that of its start differs in signs.
 Eigen::Matrix3d chord_by_end(double direction_rad, const Eigen::Vector3d& motion) {
-  const double c = std::cos(direction_rad);
-  const double s = std::sin(direction_rad);
+  const auto [s, c] = sine_cosine(direction_rad);
   Eigen::Matrix3d slope;
   slope << c, s, 0.5 * motion.y(), -s, c, -0.5 * motion.x(), 0.0, 0.0, 1.0;
   return slope;

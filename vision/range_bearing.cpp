@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "vision/rig.h"
 #include "vision/sphere.h"
 
@@ -43,7 +44,7 @@ Eigen::Matrix3d ball_covariance(const StereoRig& rig, const OutlineCentres& cent
 slam::RangeBearing range_bearing(const Eigen::Vector3d& point_in_camera, const Eigen::Matrix3d& covariance_m2,
                                  const Eigen::Isometry3d& frame_from_camera) {
   const Eigen::Vector3d point = frame_from_camera * point_in_camera;
-  const double range = std::hypot(point.x(), point.y());
+  const double range = point.head<2>().norm();
   Eigen::Matrix<double, 2, 3> by_point = Eigen::Matrix<double, 2, 3>::Zero();
   by_point(0, 0) = point.x() / range;
   by_point(0, 1) = point.y() / range;
@@ -53,7 +54,7 @@ slam::RangeBearing range_bearing(const Eigen::Vector3d& point_in_camera, const E
 
   slam::RangeBearing result;
   result.range_m = range;
-  result.bearing_rad = std::atan2(point.y(), point.x());
+  result.bearing_rad = slam::arc_tangent(point.y(), point.x());
   const Eigen::Matrix2d covariance = jacobian * covariance_m2 * jacobian.transpose();
   result.covariance = 0.5 * (covariance + covariance.transpose());
   return result;

@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
+
 namespace stereobench::vision {
 
 Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
-  const double sin_pitch = std::sin(rig.pitch_down_rad);
-  const double cos_pitch = std::cos(rig.pitch_down_rad);
+  const auto [sin_pitch, cos_pitch] = slam::sine_cosine(rig.pitch_down_rad);
   const double side = eye == Eye::kLeft ? 0.5 : -0.5;
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   result.linear().col(0) = Eigen::Vector3d(0.0, -1.0, 0.0);               // right

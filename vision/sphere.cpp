@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "vision/rig.h"
 
 namespace stereobench::vision {
@@ -23,7 +24,7 @@ std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eig
   ellipse.centre_px = Eigen::Vector2d(camera.cx_px, camera.cy_px) + camera.focal_px * centre;
   ellipse.semi_minor_px = camera.focal_px * minor;
   ellipse.semi_major_px = camera.focal_px * minor * stretch;
-  ellipse.angle_rad = std::atan2(centre.y(), centre.x());
+  ellipse.angle_rad = slam::arc_tangent(centre.y(), centre.x());
   return ellipse;
 }
 

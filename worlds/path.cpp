@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "slam/elementary.h"
 #include "slam/motion.h"
 
 namespace stereobench::worlds {
@@ -91,7 +92,7 @@ struct Corner {
 };
 
 double heading_of(const Eigen::Vector2d& direction) {
-  return std::atan2(direction.y(), direction.x());
+  return slam::arc_tangent(direction.y(), direction.x());
 }
 
 /// The corners of a polyline, indexed like its points; the ends of an open one have none (all zero).
@@ -105,7 +106,7 @@ std::vector<Corner> corners_of(const PolylinePath& path) {
     if (std::abs(turn_rad) > 0.99 * std::numbers::pi) {
       throw std::invalid_argument(fmt::format("expected no turning back (points_m[{}] does)", i));
     }
-    corners[i] = {path.corner_radius_m * std::tan(std::abs(turn_rad) / 2.0), turn_rad};
+    corners[i] = {path.corner_radius_m * slam::tangent(std::abs(turn_rad) / 2.0), turn_rad};
   }
   return corners;
 }

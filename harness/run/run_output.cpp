@@ -8,6 +8,7 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/report/error_picture.h"
 #include "harness/report/map_picture.h"
+#include "slam/belief.h"
 
 namespace stereobench::harness {
 namespace {
@@ -30,8 +31,7 @@ std::vector<double> position_errors(const FilterRun& run, const MeasurementLog& 
   std::vector<double> errors(log.steps.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < run.poses.size(); ++k)
     if (log.steps[k].truth)
-      errors[k] =
-          std::hypot(run.poses[k].x_m - log.steps[k].truth->x_m, run.poses[k].y_m - log.steps[k].truth->y_m);
+      errors[k] = slam::displacement(run.poses[k], *log.steps[k].truth).head<2>().norm();
   return errors;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/report/text_table.h"
+#include "slam/belief.h"
 
 namespace stereobench::harness {
 namespace {
@@ -135,7 +136,7 @@ void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, con
                      pose.heading_rad, step.measurements.size());
   if (step.truth)
     csv += fmt::format(",{},{},{},{}", step.truth->x_m, step.truth->y_m, step.truth->heading_rad,
-                       std::hypot(pose.x_m - step.truth->x_m, pose.y_m - step.truth->y_m));
+                       slam::displacement(pose, *step.truth).head<2>().norm());
   else
     csv += ",,,,";
   const auto& nees = score.normalised_errors;

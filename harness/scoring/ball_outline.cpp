@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "slam/elementary.h"
 #include "vision/rig.h"
 
 namespace stereobench::harness {
@@ -17,17 +18,15 @@ using vision::OutlineEllipse;
 Eigen::Vector3d in_robot(const slam::Pose& world_from_robot, const Eigen::Vector3d& point_in_world) {
   const double dx = point_in_world.x() - world_from_robot.x_m;
   const double dy = point_in_world.y() - world_from_robot.y_m;
-  const double c = std::cos(world_from_robot.heading_rad);
-  const double s = std::sin(world_from_robot.heading_rad);
+  const auto [s, c] = slam::sine_cosine(world_from_robot.heading_rad);
   return {c * dx + s * dy, c * dy - s * dx, point_in_world.z()};
 }
 
 /// Half the width (axis 0) or height (axis 1) of an ellipse's bounding box.
 double half_extent_px(const OutlineEllipse& ellipse, int axis) {
-  const double c = std::cos(ellipse.angle_rad);
-  const double s = std::sin(ellipse.angle_rad);
-  return axis == 0 ? std::hypot(ellipse.semi_major_px * c, ellipse.semi_minor_px * s)
-                   : std::hypot(ellipse.semi_major_px * s, ellipse.semi_minor_px * c);
+  const auto [s, c] = slam::sine_cosine(ellipse.angle_rad);
+  const Eigen::Vector2d along = axis == 0 ? Eigen::Vector2d(c, s) : Eigen::Vector2d(s, c);
+  return along.cwiseProduct(Eigen::Vector2d(ellipse.semi_major_px, ellipse.semi_minor_px)).norm();
 }
 
 /// Whether an outline lies within the area of the image's pixels.
@@ -56,8 +55,7 @@ std::array<long, 256> count_ids(const cv::Mat& ball_id) {
 
 bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
   const Eigen::Vector2d offset = pixel_px - ellipse.centre_px;
-  const double c = std::cos(ellipse.angle_rad);
-  const double s = std::sin(ellipse.angle_rad);
+  const auto [s, c] = slam::sine_cosine(ellipse.angle_rad);
   const double along = (c * offset.x() + s * offset.y()) / ellipse.semi_major_px;
   const double across = (c * offset.y() - s * offset.x()) / ellipse.semi_minor_px;
   return along * along + across * across <= 1.0;

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "harness/scoring/trajectory.h"
+#include "slam/elementary.h"
 
 namespace stereobench::harness {
 
 namespace {
 
 Eigen::Vector2d moved(const slam::Pose& target_from_source, const Eigen::Vector2d& point) {
-  const double c = std::cos(target_from_source.heading_rad);
-  const double s = std::sin(target_from_source.heading_rad);
+  const auto [s, c] = slam::sine_cosine(target_from_source.heading_rad);
   return {target_from_source.x_m + c * point.x() - s * point.y(),
           target_from_source.y_m + s * point.x() + c * point.y()};
 }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "slam/elementary.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -54,7 +56,7 @@ double normal_p(const SignedRanks& ranks, double n) {
   const double mean = n * (n + 1.0) / 4.0;
   const double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranks.ties / 48.0;
   const double off = std::max(0.0, std::abs(ranks.positive - mean) - 0.5);
-  return std::erfc(off / std::sqrt(variance) / std::numbers::sqrt2);
+  return slam::complementary_error(off / std::sqrt(variance) / std::numbers::sqrt2);
 }
 
 }  // namespace

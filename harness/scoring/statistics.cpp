@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "slam/elementary.h"
+
 namespace stereobench::harness {
 
 namespace {
@@ -52,9 +54,8 @@ Summary summarise(std::span<const double> values) {
 
 double student_t_two_sided(double t, long degrees_of_freedom) {
   if (!(t >= 0.0) || degrees_of_freedom < 1) throw std::invalid_argument("student_t: t >= 0, degrees >= 1");
-  const double angle = std::atan(t / std::sqrt(static_cast<double>(degrees_of_freedom)));
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
+  const double angle = slam::arc_tangent(t, std::sqrt(static_cast<double>(degrees_of_freedom)));
+  const auto [sine, cosine] = slam::sine_cosine(angle);
   if (degrees_of_freedom % 2 == 0) {
     return sine * cosine_series(cosine * cosine, degrees_of_freedom / 2, 1.0);
   }

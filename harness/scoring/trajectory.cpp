@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "slam/elementary.h"
 #include "slam/motion.h"
 
 namespace stereobench::harness {
@@ -88,7 +89,7 @@ slam::Pose align(std::span<const PosePair> pairs) {
     cosine += a.dot(b);
     sine += a.x() * b.y() - a.y() * b.x();
   }
-  const double heading_rad = std::atan2(sine, cosine);
+  const double heading_rad = slam::arc_tangent(sine, cosine);
   const slam::Pose turn{0.0, 0.0, heading_rad};
   const slam::Pose turned = slam::compose(turn, {estimate_mean.x(), estimate_mean.y(), 0.0});
   return {truth_mean.x() - turned.x_m, truth_mean.y() - turned.y_m, heading_rad};

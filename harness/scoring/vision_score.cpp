@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "slam/elementary.h"
 #include "slam/motion.h"
 
 namespace stereobench::harness {
@@ -40,7 +41,7 @@ std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vecto
 void add_errors(const BallOutline& ball, const vision::BallObservation& observation, VisionScore& score) {
   const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
   const slam::RangeBearing& measured = observation.range_bearing;
-  const double true_bearing_rad = std::atan2(true_position.y(), true_position.x());
+  const double true_bearing_rad = slam::arc_tangent(true_position.y(), true_position.x());
   const Eigen::Vector2d error(measured.range_m - true_position.norm(),
                               slam::wrap_angle(measured.bearing_rad - true_bearing_rad));
   score.range_errors_m.push_back(error.x());

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Checks one rule of the house on the files that git tracks.
-# usage: check.sh format|layers|sizes|products [ROOT]
+# usage: check.sh format|layers|arithmetic|sizes|products [ROOT]
 # Prints each breach and exits 1 when there is one; exits 77 (skipped) where there is no git checkout.
 set -euo pipefail
 rule=$1
@@ -43,6 +43,16 @@ check_layers() {
   while read -r file; do
     breach "$file: slam has never heard of an image"
   done < <(tracked 'slam/*' | xargs -r grep -l -E '# *include *<opencv' || true)
+}
+
+# What results are made of has the same bits on every processor: slam/elementary.h in place of the C library, whose
+# kernels differ by what the processor can do.
+check_arithmetic() {
+  local place
+  while read -r place; do
+    breach "$place: use slam/elementary.h (for hypot, a norm)"
+  done < <(tracked 'slam/*' 'vision/*' 'worlds/*' 'harness/dataset/*' 'harness/run/*' 'harness/scoring/*' 'harness/sweep/*' |
+    xargs -r grep -H -n -o -E 'std::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|hypot|cbrt|erfc?|[lt]gamma)\(' || true)
 }
 
 # A file can be read at one sitting.

@@ -37,7 +37,7 @@ expect() { # expect red|green RULE: what was done
 printf '#!/bin/bash\n[ "$*" = "run a --out out/b" ]\n' >"$place/program" && chmod +x "$place/program"
 
 clean_repository
-for rule in format layers sizes products readme; do expect green "$rule" "a clean repository"; done
+for rule in format layers arithmetic sizes products readme; do expect green "$rule" "a clean repository"; done
 
 clean_repository && printf 'int  one( );\n' >slam/a.h && expect red format "two blanks"
 clean_repository && printf '#include "slam/b.h"\n#include "slam/a.h"\n' >vision/a.cpp && expect red format "unsorted includes"
@@ -46,6 +46,9 @@ clean_repository && printf '#include "vision/a.h"\n' >slam/a.cpp && expect red l
 clean_repository && printf '#  include "harness/a.h"\n' >vision/a.h && expect red layers "vision includes harness"
 clean_repository && printf '#include "a.h"\n' >slam/a.cpp && expect red layers "a path that does not begin at the root"
 clean_repository && printf '#include <opencv2/core.hpp>\n' >slam/a.cpp && expect red layers "an image in slam"
+
+clean_repository && printf 'double a = std::sin(1.0);\n' >slam/a.cpp && expect red arithmetic "a sine of the C library"
+clean_repository && printf 'double a = std::sqrt(1.0);\n' >slam/a.cpp && expect green arithmetic "a root, which is exact"
 
 clean_repository && seq 351 | sed 's/^/\/\/ /' >slam/a.h && expect red sizes "351 lines"
 clean_repository && seq 350 | sed 's/^/\/\/ /' >slam/a.h && expect green sizes "350 lines"
