@@ -31,12 +31,12 @@ bool has_neighbour(const LandmarkMap& map, const Landmark& landmark, double near
 
 template <class Model>
 FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
-                          Proposal proposal)
+                          Proposal proposal, Updates updates)
     : config_(config),
       proposal_(proposal),
       model_(config.unscented),
       reader_(config),
-      correction_(config),
+      correction_(config, updates),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size(), -std::log(static_cast<double>(config.particles))),
