@@ -163,7 +163,13 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
   } else if (target.fate == Fate::kMove) {
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
   } else if (target.fate == Fate::kUse) {
-    landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
+    const LandmarkBelief refined =
+        model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
+    if (refined.mean.allFinite() && refined.covariance.allFinite()) {
+      landmark.belief = refined;
+    } else {
+      ++repairs;
+    }
     landmark.refusals = 0;
     ++landmark.uses;
   }

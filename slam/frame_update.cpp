@@ -20,7 +20,9 @@ Posterior correct_at_once(const PoseBelief& predicted, std::span<const Expectati
   double cost = 0.0;
   for (const auto& [innovation, residual] : frame) {
     const Eigen::Matrix<double, 3, 2> w = in_u.solve(by_sd.asDiagonal() * innovation.cross);
+    const long before = repairs;
     const Factor2 apart(innovation.covariance - w.transpose() * w, repairs);  // from the pose
+    if (repairs != before) continue;  // certain in some direction: it cannot be weighed against others
     const Eigen::Matrix<double, 3, 2> weighted = apart.divide<3>(w);
     information += weighted * w.transpose();
     evidence += weighted * residual;

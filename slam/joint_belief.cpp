@@ -45,11 +45,11 @@ void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long&
   belief.covariance.subtract(whitened, repairs);
 }
 
-void place(JointBelief& belief, int landmark, const LandmarkBelief& found) {
+void place(JointBelief& belief, int landmark, const LandmarkBelief& found, long& repairs) {
   const auto j = static_cast<std::size_t>(landmark);
   if (j == belief.landmarks.size()) belief.landmarks.emplace_back();
   belief.landmarks[j] = found.mean;
-  belief.covariance.place(landmark, lever(belief.pose, found.mean), found.covariance);
+  belief.covariance.place(landmark, lever(belief.pose, found.mean), found.covariance, repairs);
 }
 
 }  // namespace stereobench::slam

@@ -1,5 +1,7 @@
 #include "slam/joint_covariance.h"
 
+#include "slam/gaussian.h"
+
 namespace stereobench::slam {
 
 Eigen::Matrix3d JointCovariance::pose() const {
@@ -39,7 +41,7 @@ void JointCovariance::move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Mat
 }
 
 void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pose,
-                            const Eigen::Matrix2d& noise) {
+                            const Eigen::Matrix2d& noise, long& repairs) {
   const Eigen::Index first = row_of(index);
   if (first == size_) {
     size_ += 2;
@@ -51,7 +53,8 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
     at(first, j) = with_other.x();
     at(first + 1, j) = with_other.y();
   }
-  const Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
+  Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
+  mend(own, repairs);
   at(first, first) = own(0, 0);
   at(first + 1, first) = own(1, 0);
   at(first + 1, first + 1) = own(1, 1);
@@ -78,6 +81,23 @@ void JointCovariance::subtract(const Columns& whitened, long& repairs) {
     if (at(i, i) >= 0.0) continue;
     for (Eigen::Index j = 0; j < size_; ++j) at(i, j) = 0.0;
     ++repairs;
+  }
+  mend_blocks(repairs);
+}
+
+void JointCovariance::mend_blocks(long& repairs) {
+  Eigen::Matrix3d pose_block = pose();
+  mend<3>(pose_block, repairs);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) at(i, j) = pose_block(i, j);
+  }
+  for (Eigen::Index first = 3; first < size_; first += 2) {
+    Eigen::Matrix2d block;
+    block << at(first, first), at(first + 1, first), at(first + 1, first), at(first + 1, first + 1);
+    mend(block, repairs);
+    at(first, first) = block(0, 0);
+    at(first + 1, first) = block(1, 0);
+    at(first + 1, first + 1) = block(1, 1);
   }
 }
 

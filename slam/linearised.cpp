@@ -54,14 +54,18 @@ LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& ro
   const Eigen::Matrix2d cross = landmark.covariance * slope.transpose();
   const Eigen::Vector2d expected = predict_sighting(robot, landmark.mean);
   const Eigen::Matrix2d noise = noise_at(observation, expected);
+  const long before = repairs;
   const Factor2 factor(slope * cross + noise, repairs);
+  if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
   const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
   // Joseph's form stays semidefinite under rounding.
   const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * slope;
-  const Eigen::Matrix2d covariance =
+  Eigen::Matrix2d covariance =
       kept * landmark.covariance * kept.transpose() + gain * noise * gain.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+  mend(covariance, repairs);
+  return {landmark.mean + gain * surprise, covariance};
 }
 
 LandmarkBelief Linearised::found(const Pose& robot, const Observation& observation, long&) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/gaussian.h"
+
 namespace stereobench::slam {
 namespace {
 
@@ -21,7 +23,10 @@ struct Moments {
   }
   Eigen::Matrix<double, kSize, 1> mean() const { return first / total; }
   Eigen::Matrix<double, kSize, kSize> covariance() const {
-    return second / total - mean() * mean().transpose();
+    Eigen::Matrix<double, kSize, kSize> difference = second / total - mean() * mean().transpose();
+    long of_the_report = 0;  // where the reference lies far from the weight; no belief is mended
+    mend<kSize>(difference, of_the_report);
+    return difference;
   }
 };
 

@@ -213,10 +213,11 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
                                 FilterCounters& counters) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
+  const long before = repairs;
   const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
                           repairs);
   if (surprise.squared_length <= gate_) {
-    apply(surprise, posterior);
+    if (repairs == before) apply(surprise, posterior);  // else all is certain: nothing is learnt
     return Fate::kUse;
   }
   ++counters.gated_measurements;

@@ -66,12 +66,16 @@ LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& rob
   const Eigen::Vector2d mean = sigma_mean<2, 2>(residuals, two_);
   const Eigen::Matrix2d cross = sigma_cross<2, 2, 2>(root, 0, residuals, two_);
   const Eigen::Vector2d expected = centre + mean;
+  const long before = repairs;
   const Factor2 factor(sigma_covariance<2, 2>(residuals, mean, two_) + noise_at(observation, expected),
                        repairs);
+  if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
   const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
-  const Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
+  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+  mend(covariance, repairs);
+  return {landmark.mean + gain * surprise, covariance};
 }
 
 LandmarkBelief Unscented::found(const Pose& robot, const Observation& observation, long& repairs) const {
