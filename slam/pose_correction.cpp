@@ -16,9 +16,10 @@ constexpr double kSearchMargin = 4.0;  ///< by how much a squared distance may e
 constexpr double kSlip =
     3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
 
+/// Whether a posterior and the squares that are made of it are numbers.
 bool is_finite(const Posterior& posterior) {
   const Pose& pose = posterior.pose.mean;
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad) &&
+  return std::isfinite(pose.x_m * pose.x_m + pose.y_m * pose.y_m) && std::isfinite(pose.heading_rad) &&
          posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
 }
 
