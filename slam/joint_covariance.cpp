@@ -1,8 +1,18 @@
 #include "slam/joint_covariance.h"
 
+#include <Eigen/LU>
+
 #include "slam/gaussian.h"
 
 namespace stereobench::slam {
+namespace {
+
+/// By its leading minors (Sylvester).
+bool is_definite(const Eigen::Matrix3d& p) {
+  return p(0, 0) > 0.0 && p(0, 0) * p(1, 1) > p(1, 0) * p(1, 0) && p.determinant() > 0.0;
+}
+
+}  // namespace
 
 Eigen::Matrix3d JointCovariance::pose() const {
   Eigen::Matrix3d block;
@@ -77,27 +87,29 @@ void JointCovariance::subtract(const Columns& whitened, long& repairs) {
     Eigen::Map<Eigen::VectorXd>(row(i), i + 1) -=
         whitened(i, 0) * whitened.col(0).head(i + 1) + whitened(i, 1) * whitened.col(1).head(i + 1);
   }
-  for (Eigen::Index i = 0; i < size_; ++i) {
+  if (!is_definite(pose())) mend_block<3>(0, repairs);
+  for (Eigen::Index first = 3; first < size_; first += 2) {
+    const double x = row(first)[first];
+    const double* last = row(first + 1) + first;  // covariance with x, then y's own variance
+    if (!(x > 0.0 && last[1] > 0.0 && last[0] * last[0] < x * last[1])) mend_block<2>(first, repairs);
+  }
+}
+
+/// Rounding has taken too much of a block, or it was singular all along.
+template <int kSize>
+void JointCovariance::mend_block(Eigen::Index first, long& repairs) {
+  for (Eigen::Index i = first; i < first + kSize; ++i) {
     if (at(i, i) >= 0.0) continue;
     for (Eigen::Index j = 0; j < size_; ++j) at(i, j) = 0.0;
     ++repairs;
   }
-  mend_blocks(repairs);
-}
-
-void JointCovariance::mend_blocks(long& repairs) {
-  Eigen::Matrix3d pose_block = pose();
-  mend<3>(pose_block, repairs);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) at(i, j) = pose_block(i, j);
+  Eigen::Matrix<double, kSize, kSize> block;
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j < kSize; ++j) block(i, j) = at(first + i, first + j);
   }
-  for (Eigen::Index first = 3; first < size_; first += 2) {
-    Eigen::Matrix2d block;
-    block << at(first, first), at(first + 1, first), at(first + 1, first), at(first + 1, first + 1);
-    mend(block, repairs);
-    at(first, first) = block(0, 0);
-    at(first + 1, first) = block(1, 0);
-    at(first + 1, first + 1) = block(1, 1);
+  mend<kSize>(block, repairs);
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j <= i; ++j) at(first + i, first + j) = block(i, j);
   }
 }
 

@@ -46,7 +46,8 @@ class JointCovariance {
   void subtract(const Columns& whitened, long& repairs);
 
  private:
-  void mend_blocks(long& repairs);
+  template <int kSize>
+  void mend_block(Eigen::Index first, long& repairs);
   Eigen::Index size() const { return size_; }
   double* row(Eigen::Index index) { return lower_.data() + index * (index + 1) / 2; }
   const double* row(Eigen::Index index) const { return lower_.data() + index * (index + 1) / 2; }
