@@ -225,7 +225,7 @@ TYPED_TEST(MappingFilter, IsFarBetterThanDeadReckoning) {
 
 // A landmark found after a noisy move is as uncertain as the move and the sighting together. A public
 // implementation never draws its proposal; then all particles agree and the landmark is as sure as the
-// sighting alone.
+// sighting alone. Another draws from the inverse of the covariance. Mutations: both.
 TYPED_TEST(MappingFilter, DrawsEveryParticlesPose) {
   FilterConfig config;
   config.particles = 4000;
