@@ -14,6 +14,7 @@
 #include "slam/linearised.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
+#include "slam/noise_law.h"
 #include "slam/residuals.h"
 
 namespace stereobench::slam {
@@ -167,9 +168,9 @@ class Search {
   void add_sighting(std::size_t index, const RangeBearing& sighting) {
     const auto landmark = owner(estimate_.landmarks, estimate_.path[index], sighting);
     if (!landmark) return;
-    Observation observation{{sighting.range_m, sighting.bearing_rad}, sighting.covariance};
-    observation.noise.diagonal() +=
-        Eigen::Vector2d(config_.range_floor_m, config_.bearing_floor_rad).cwiseAbs2();
+    Observation observation = observe(sighting, config_);
+    const Eigen::Vector2d& place = estimate_.landmarks[*landmark].position_m;
+    observation.noise = noise_at(observation, predict_sighting(estimate_.path[index], place));
     problem_.AddResidualBlock(new SightingCost(SightingResidual(observation)), loss_.get(),
                               poses_[index + 1].data(), places_[*landmark].data());
   }

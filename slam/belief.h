@@ -19,10 +19,11 @@ struct LandmarkBelief {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
-/// A sighting as the models read it; the noise carries its floor already.
+/// A sighting as the models read it; the noise carries its floor already. Read it through noise_at().
 struct Observation {
   Eigen::Vector2d range_bearing = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< the part that does not grow with the range
+  double range_sd_per_m2 = 0.0;                     ///< what grows: sd of a range per square of it, 1/m
 };
 
 /// What a landmark should look like from an uncertain pose: moments of the sighting before it is used.

@@ -92,6 +92,7 @@ void EkfSlam::correct_one_by_one(Decided& decided) {
 Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
   const Observation& observation = sighting.observation;
   long& repairs = counters_.covariance_repairs;
+  const long before = repairs;
   JointSurprise seen = surprise(belief_, belief_, landmark, observation, repairs);
   if (!(seen.squared_length() <= gate_)) {
     ++counters_.gated_measurements;
@@ -103,7 +104,7 @@ Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
                                  drift_covariance(belief_.pose, belief_.landmarks[j], observation));
     seen = surprise(belief_, belief_, landmark, observation, repairs);
   }
-  correct(belief_, landmark, seen, repairs);
+  if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
   return Fate::kUse;
 }
 
@@ -118,6 +119,7 @@ std::optional<JointBelief> EkfSlam::fit_at_once(const JointBelief& predicted, co
   const double limit =
       chi_square_quantile(config_.gate_probability, 2.0 * static_cast<double>(decided.order.size()));
   JointBelief at = predicted;
+  const long before = counters_.covariance_repairs;
   for (int i = 0; i < kIterations; ++i) {
     JointBelief fitted = predicted;
     double squared_length = 0.0;
@@ -130,6 +132,7 @@ std::optional<JointBelief> EkfSlam::fit_at_once(const JointBelief& predicted, co
     }
     const double step = displacement(fitted.pose, at.pose).norm();
     at = std::move(fitted);
+    if (counters_.covariance_repairs != before) return std::nullopt;
     if (step < kConverged) return squared_length <= limit ? std::optional(at) : std::nullopt;
   }
   return std::nullopt;
@@ -140,8 +143,8 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
   if (target.fate == Fate::kRefuse) {
     ++record.refusals;
   } else if (target.fate == Fate::kMove) {
-    place(belief_, target.landmark,
-          model_.found(belief_.pose, sighting.observation, counters_.covariance_repairs));
+    long& repairs = counters_.covariance_repairs;
+    place(belief_, target.landmark, model_.found(belief_.pose, sighting.observation, repairs), repairs);
     record = {};
   } else {
     record = {record.uses + 1, 0};
@@ -166,7 +169,7 @@ void EkfSlam::add(const Sighting& sighting) {
   const auto landmark = static_cast<int>(map_.size());
   if (sighting.slot != kUnknown) landmark_of_slot_.push_back(landmark);
   map_.push_back({sighting.slot, sighting.colour_class, {}});
-  place(belief_, landmark, found);
+  place(belief_, landmark, found, counters_.covariance_repairs);
 }
 
 Estimate EkfSlam::estimate() const {

@@ -32,12 +32,12 @@ bool has_neighbour(const LandmarkMap& map, const Landmark& landmark, double near
 
 template <class Model>
 FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
-                          Proposal proposal)
+                          Proposal proposal, Updates updates)
     : config_(config),
       proposal_(proposal),
       model_(config.unscented),
       reader_(config),
-      correction_(config),
+      correction_(config, updates),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size(), -logarithm(static_cast<double>(config.particles))),
@@ -164,7 +164,13 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
   } else if (target.fate == Fate::kMove) {
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
   } else if (target.fate == Fate::kUse) {
-    landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
+    const LandmarkBelief refined =
+        model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
+    if (refined.mean.allFinite() && refined.covariance.allFinite()) {
+      landmark.belief = refined;
+    } else {
+      ++repairs;
+    }
     landmark.refusals = 0;
     ++landmark.uses;
   }

@@ -44,7 +44,7 @@ template <class Model>
 class FastSlam {
  public:
   FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
-           Proposal proposal = Proposal::kPosterior);
+           Proposal proposal = Proposal::kPosterior, Updates updates = Updates::kOneByOne);
 
   void predict(const Control& control);
   void update(std::span<const RangeBearing> sightings);

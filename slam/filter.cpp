@@ -29,6 +29,10 @@ void check(const FilterConfig& config) {
   require(config.gate_probability > 0.0 && config.gate_probability <= 1.0,
           "gate_probability must be in (0, 1]");
   require(is_sd(config.colour_spacing_m), "colour_spacing_m must be finite and >= 0");
+  if (const auto& law = config.noise_law) {
+    require(is_sd(law->range_sd_m) && is_sd(law->range_sd_per_m2) && is_sd(law->bearing_sd_rad),
+            "noise_law must be finite and >= 0");
+  }
   const UnscentedParameters& unscented = config.unscented;
   require(std::isfinite(unscented.alpha) && unscented.alpha > 0.0, "unscented.alpha must be > 0");
   require(std::isfinite(unscented.beta) && std::isfinite(unscented.kappa) && unscented.kappa > -2.0,
@@ -47,6 +51,8 @@ Filter make_filter(const std::string& name, const FilterConfig& config, const Po
   if (name == "fastslam1") return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
   if (name == "fastslam2") return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
   if (name == "ufastslam") return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
+  if (name == "ufastslam_kim")
+    return UnscentedFastSlam(config, start, seed, Proposal::kPosterior, Updates::kAtOnce);
   std::string known;
   for (const std::string& filter : filter_names()) known += (known.empty() ? "" : ", ") + filter;
   throw std::invalid_argument("make_filter: no filter '" + name + "'; there are " + known);

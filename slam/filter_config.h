@@ -1,6 +1,8 @@
 /// What a filter is told before it starts.
 #pragma once
 
+#include <optional>
+
 #include "slam/types.h"
 
 namespace stereobench::slam {
@@ -16,10 +18,25 @@ struct UnscentedParameters {
   double kappa = 0.0;
 };
 
+/// What a sensor's noise depends on, where sightings are not taken at their word: independent deviations of
+/// range and bearing. The paper's sensor has constant ones. A stereo pair's range is off by r^2 sd(disparity)
+/// / (focal length x baseline), and its bearing by sd(pixel) / (focal length).
+///
+/// The part that grows is taken at the range where a landmark should be seen (see noise_at), not where it
+/// was: a reading that is too short would claim too little noise for itself, and what is fused come out
+/// short.
+struct NoiseLaw {
+  double range_sd_m = 0.0;       ///< at any range
+  double range_sd_per_m2 = 0.0;  ///< times the square of the range, 1/m
+  double bearing_sd_rad = 0.0;
+};
+
 /// Settings of a filter; dead reckoning reads the odometry's noise only.
 struct FilterConfig {
   int particles = 100;           ///< M >= 1
   OdometryNoise odometry_noise;  ///< what the filter believes of its odometry
+
+  std::optional<NoiseLaw> noise_law;  ///< of all sightings; none = each is believed what it states
 
   /// Floor under the measurement noise, added as a variance: a sensor that claims 0.02 mm would make weights
   /// vanish in all particles but one. 1 mm and 0.05 mrad are about a good rig's calibration error.

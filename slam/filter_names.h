@@ -8,7 +8,7 @@ namespace stereobench::slam {
 
 /// @return the names that make_filter knows
 inline std::vector<std::string> filter_names() {
-  return {"dead_reckoning", "ekf", "fastslam1", "fastslam2", "ufastslam"};
+  return {"dead_reckoning", "ekf", "fastslam1", "fastslam2", "ufastslam", "ufastslam_kim"};
 }
 
 /// @return those that are run where nobody says which

@@ -7,6 +7,7 @@
 #include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
@@ -30,10 +31,11 @@ Quadratic expand(const Pose& pose, const Eigen::Matrix3d& root, const Eigen::Vec
     Eigen::Matrix<double, 2, 3> by_pose;
     by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
     const Eigen::Matrix<double, 2, 3> by_u = by_pose * root;
-    const Factor2 factor(by_landmark * landmark.covariance * by_landmark.transpose() + observation.noise,
-                         repairs);
-    const Eigen::Vector2d residual =
-        sighting_residual(observation.range_bearing, predict_sighting(pose, landmark.mean));
+    const Eigen::Vector2d expected = predict_sighting(pose, landmark.mean);
+    const Factor2 factor(
+        by_landmark * landmark.covariance * by_landmark.transpose() + noise_at(observation, expected),
+        repairs);
+    const Eigen::Vector2d residual = sighting_residual(observation.range_bearing, expected);
     const Eigen::Matrix<double, 3, 2> weighted = factor.divide<3>(by_u.transpose());
     sum.cost += factor.squared_length(residual);
     sum.log_det_2_pi += factor.log_det_2_pi();

@@ -1,7 +1,7 @@
 #include "slam/frame_reader.h"
 
 #include "slam/measurement.h"
-#include "slam/motion.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 
@@ -13,9 +13,8 @@ std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings,
       ++rejected;
       continue;
     }
-    Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
-    observation.noise.diagonal() += floor_.cwiseAbs2();
-    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
+    frame.push_back(
+        {observe(seen, config_), seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
   }
   return frame;
 }

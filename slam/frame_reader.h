@@ -10,10 +10,10 @@
 
 namespace stereobench::slam {
 
-/// Checks sightings, puts the floor under their noise, and numbers the identities in order of appearance.
+/// Checks sightings, says what noise is believed of them, and numbers the identities in order of appearance.
 class FrameReader {
  public:
-  explicit FrameReader(const FilterConfig& config) : floor_(config.range_floor_m, config.bearing_floor_rad) {}
+  explicit FrameReader(const FilterConfig& config) : config_(config) {}
 
   /// @param sightings of one instant
   /// @param rejected counts those that cannot be and are left out
@@ -26,7 +26,7 @@ class FrameReader {
  private:
   int slot_for(const RangeBearing& sighting);
 
-  Eigen::Vector2d floor_;
+  FilterConfig config_;
   std::map<int, int> slot_of_id_;
   std::vector<RangeBearing> first_sightings_;  ///< by slot
 };

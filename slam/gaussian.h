@@ -52,6 +52,25 @@ Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double
   return root;
 }
 
+/// Makes a covariance semidefinite that lost more than rounding: a difference of matrices that are sixteen
+/// digits apart has directions with less than no variance. One that is semidefinite up to rounding stays as
+/// it is, to the last bit.
+///
+/// @param repairs incremented when something was mended
+template <int kSize>
+void mend(Eigen::Matrix<double, kSize, kSize>& covariance, long& repairs) {
+  const long before = repairs;
+  const Eigen::Matrix<double, kSize, kSize> root = semidefinite_root<kSize>(covariance, repairs);
+  if (repairs != before) covariance = root * root.transpose();
+}
+
+/// The same for two dimensions, where a glance tells that nothing is wrong.
+inline void mend(Eigen::Matrix2d& covariance, long& repairs) {
+  const bool definite = covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0 &&
+                        covariance(1, 0) * covariance(1, 0) < covariance(0, 0) * covariance(1, 1);
+  if (!definite) mend<2>(covariance, repairs);
+}
+
 /// A positive definite 2x2 covariance, factored once and used for gain, distance and density.
 class Factor2 {
  public:

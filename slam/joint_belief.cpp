@@ -1,6 +1,7 @@
 #include "slam/joint_belief.h"
 
 #include "slam/measurement.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 
@@ -24,7 +25,8 @@ JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int lan
   off << displacement(belief.pose, at.pose), belief.landmarks[j] - at.landmarks[j];
   const Eigen::Vector2d expected = predict_sighting(at.pose, at.landmarks[j]) + slope * off;
   const Eigen::Matrix2d covariance =
-      slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() + observation.noise;
+      slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() +
+      noise_at(observation, expected);
   return {slope, Factor2(covariance, repairs), sighting_residual(observation.range_bearing, expected)};
 }
 
@@ -43,11 +45,11 @@ void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long&
   belief.covariance.subtract(whitened, repairs);
 }
 
-void place(JointBelief& belief, int landmark, const LandmarkBelief& found) {
+void place(JointBelief& belief, int landmark, const LandmarkBelief& found, long& repairs) {
   const auto j = static_cast<std::size_t>(landmark);
   if (j == belief.landmarks.size()) belief.landmarks.emplace_back();
   belief.landmarks[j] = found.mean;
-  belief.covariance.place(landmark, lever(belief.pose, found.mean), found.covariance);
+  belief.covariance.place(landmark, lever(belief.pose, found.mean), found.covariance, repairs);
 }
 
 }  // namespace stereobench::slam

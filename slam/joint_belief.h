@@ -44,6 +44,7 @@ void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long&
 ///
 /// @param landmark index of a landmark, or one more than the last
 /// @param found where it is seen from the pose's mean, with the sensor's uncertainty
-void place(JointBelief& belief, int landmark, const LandmarkBelief& found);
+/// @param repairs counts covariances that had to be mended
+void place(JointBelief& belief, int landmark, const LandmarkBelief& found, long& repairs);
 
 }  // namespace stereobench::slam

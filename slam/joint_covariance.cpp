@@ -1,6 +1,18 @@
 #include "slam/joint_covariance.h"
 
+#include <Eigen/LU>
+
+#include "slam/gaussian.h"
+
 namespace stereobench::slam {
+namespace {
+
+/// By its leading minors (Sylvester).
+bool is_definite(const Eigen::Matrix3d& p) {
+  return p(0, 0) > 0.0 && p(0, 0) * p(1, 1) > p(1, 0) * p(1, 0) && p.determinant() > 0.0;
+}
+
+}  // namespace
 
 Eigen::Matrix3d JointCovariance::pose() const {
   Eigen::Matrix3d block;
@@ -39,7 +51,7 @@ void JointCovariance::move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Mat
 }
 
 void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pose,
-                            const Eigen::Matrix2d& noise) {
+                            const Eigen::Matrix2d& noise, long& repairs) {
   const Eigen::Index first = row_of(index);
   if (first == size_) {
     size_ += 2;
@@ -51,7 +63,8 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
     at(first, j) = with_other.x();
     at(first + 1, j) = with_other.y();
   }
-  const Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
+  Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
+  mend(own, repairs);
   at(first, first) = own(0, 0);
   at(first + 1, first) = own(1, 0);
   at(first + 1, first + 1) = own(1, 1);
@@ -74,10 +87,29 @@ void JointCovariance::subtract(const Columns& whitened, long& repairs) {
     Eigen::Map<Eigen::VectorXd>(row(i), i + 1) -=
         whitened(i, 0) * whitened.col(0).head(i + 1) + whitened(i, 1) * whitened.col(1).head(i + 1);
   }
-  for (Eigen::Index i = 0; i < size_; ++i) {
+  if (!is_definite(pose())) mend_block<3>(0, repairs);
+  for (Eigen::Index first = 3; first < size_; first += 2) {
+    const double x = row(first)[first];
+    const double* last = row(first + 1) + first;  // covariance with x, then y's own variance
+    if (!(x > 0.0 && last[1] > 0.0 && last[0] * last[0] < x * last[1])) mend_block<2>(first, repairs);
+  }
+}
+
+/// Rounding has taken too much of a block, or it was singular all along.
+template <int kSize>
+void JointCovariance::mend_block(Eigen::Index first, long& repairs) {
+  for (Eigen::Index i = first; i < first + kSize; ++i) {
     if (at(i, i) >= 0.0) continue;
     for (Eigen::Index j = 0; j < size_; ++j) at(i, j) = 0.0;
     ++repairs;
+  }
+  Eigen::Matrix<double, kSize, kSize> block;
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j < kSize; ++j) block(i, j) = at(first + i, first + j);
+  }
+  mend<kSize>(block, repairs);
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j <= i; ++j) at(first + i, first + j) = block(i, j);
   }
 }
 

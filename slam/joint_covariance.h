@@ -31,7 +31,9 @@ class JointCovariance {
   /// A landmark becomes by_pose * pose + noise: O(n).
   ///
   /// @param index of a landmark that is forgotten, or one more than the last
-  void place(int index, const Eigen::Matrix<double, 2, 3>& by_pose, const Eigen::Matrix2d& noise);
+  /// @param repairs counts a block that came out indefinite
+  void place(int index, const Eigen::Matrix<double, 2, 3>& by_pose, const Eigen::Matrix2d& noise,
+             long& repairs);
 
   /// P H' for a sighting with slopes by (pose, landmark), in O(n).
   Columns with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope) const;
@@ -39,10 +41,13 @@ class JointCovariance {
   /// P - W W', in O(n^2) / 2.
   ///
   /// @param whitened W = P H' L^-T, where L L' is the sighting's covariance
-  /// @param repairs counts variances that came out below zero: they become zero, and so do their covariances
+  /// @param repairs counts blocks of the pose or a landmark that came out indefinite: what is negative in
+  /// them becomes zero, and where that is a variance, so do its covariances
   void subtract(const Columns& whitened, long& repairs);
 
  private:
+  template <int kSize>
+  void mend_block(Eigen::Index first, long& repairs);
   Eigen::Index size() const { return size_; }
   double* row(Eigen::Index index) { return lower_.data() + index * (index + 1) / 2; }
   const double* row(Eigen::Index index) const { return lower_.data() + index * (index + 1) / 2; }

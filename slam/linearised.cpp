@@ -6,6 +6,7 @@
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
@@ -36,7 +37,7 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
 }
 
 Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
-                              const Eigen::Matrix2d& noise, long&) const {
+                              const Observation& observation, long&) const {
   const Eigen::Matrix2d by_landmark = sighting_by_landmark(belief.mean, landmark.mean);
   Eigen::Matrix<double, 2, 3> by_pose;
   by_pose.leftCols<2>() = -by_landmark;
@@ -44,8 +45,9 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
   Innovation innovation;
   innovation.expected = predict_sighting(belief.mean, landmark.mean);
   innovation.cross = belief.covariance * by_pose.transpose();
-  innovation.covariance =
-      by_pose * innovation.cross + by_landmark * landmark.covariance * by_landmark.transpose() + noise;
+  innovation.covariance = by_pose * innovation.cross +
+                          by_landmark * landmark.covariance * by_landmark.transpose() +
+                          noise_at(observation, innovation.expected);
   return innovation;
 }
 
@@ -53,25 +55,31 @@ LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& ro
                                   const Observation& observation, long& repairs) const {
   const Eigen::Matrix2d slope = sighting_by_landmark(robot, landmark.mean);
   const Eigen::Matrix2d cross = landmark.covariance * slope.transpose();
-  const Factor2 factor(slope * cross + observation.noise, repairs);
+  const Eigen::Vector2d expected = predict_sighting(robot, landmark.mean);
+  const Eigen::Matrix2d noise = noise_at(observation, expected);
+  const long before = repairs;
+  const Factor2 factor(slope * cross + noise, repairs);
+  if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
-  const Eigen::Vector2d surprise =
-      sighting_residual(observation.range_bearing, predict_sighting(robot, landmark.mean));
+  const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
   // Joseph's form stays semidefinite under rounding.
   const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * slope;
-  const Eigen::Matrix2d covariance =
-      kept * landmark.covariance * kept.transpose() + gain * observation.noise * gain.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  Eigen::Matrix2d covariance =
+      kept * landmark.covariance * kept.transpose() + gain * noise * gain.transpose();
+  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+  mend(covariance, repairs);
+  return {landmark.mean + gain * surprise, covariance};
 }
 
 LandmarkBelief Linearised::found(const Pose& robot, const Observation& observation, long&) const {
   const double direction = robot.heading_rad + observation.range_bearing.y();
+  const Eigen::Matrix2d noise = noise_at(observation, observation.range_bearing);
   // A range of 0 was noisy too: the bearing's lever is at least the range's own standard deviation.
-  const double lever = std::max(observation.range_bearing.x(), std::sqrt(observation.noise(0, 0)));
+  const double lever = std::max(observation.range_bearing.x(), std::sqrt(noise(0, 0)));
   const auto [s, c] = sine_cosine(direction);
   Eigen::Matrix2d slope;
   slope << c, -lever * s, s, lever * c;
-  const Eigen::Matrix2d covariance = slope * observation.noise * slope.transpose();
+  const Eigen::Matrix2d covariance = slope * noise * slope.transpose();
   return {locate(robot, observation.range_bearing), 0.5 * (covariance + covariance.transpose())};
 }
 

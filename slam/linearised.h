@@ -16,7 +16,7 @@ class Linearised {
                   long& repairs) const;
 
   /// What a landmark should look like: S = Hx P Hx' + Hm Sigma Hm' + R, cross = P Hx'.
-  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Eigen::Matrix2d& noise,
+  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
                     long& repairs) const;
 
   /// The landmark after a sighting from a known pose: the extended Kalman update.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/elementary.h"
+#include "slam/gaussian.h"
 
 namespace stereobench::slam {
 namespace {
@@ -23,7 +24,10 @@ struct Moments {
   }
   Eigen::Matrix<double, kSize, 1> mean() const { return first / total; }
   Eigen::Matrix<double, kSize, kSize> covariance() const {
-    return second / total - mean() * mean().transpose();
+    Eigen::Matrix<double, kSize, kSize> difference = second / total - mean() * mean().transpose();
+    long of_the_report = 0;  // where the reference lies far from the weight; no belief is mended
+    mend<kSize>(difference, of_the_report);
+    return difference;
   }
 };
 

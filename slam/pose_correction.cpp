@@ -8,6 +8,7 @@
 #include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
@@ -16,9 +17,10 @@ constexpr double kSearchMargin = 4.0;  ///< by how much a squared distance may e
 constexpr double kSlip =
     3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
 
+/// Whether a posterior and the squares that are made of it are numbers.
 bool is_finite(const Posterior& posterior) {
   const Pose& pose = posterior.pose.mean;
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad) &&
+  return std::isfinite(pose.x_m * pose.x_m + pose.y_m * pose.y_m) && std::isfinite(pose.heading_rad) &&
          posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
 }
 
@@ -31,6 +33,12 @@ double place_variance(const PoseBelief& belief, const Observation& observation) 
   const double turn_and_shift = p(1, 2) * c - p(0, 2) * s;
   return p(0, 0) + p(1, 1) + 2.0 * range_m * turn_and_shift + observation.noise(0, 0) +
          range_m * range_m * (p(2, 2) + observation.noise(1, 1));
+}
+
+/// How far from a pose anything within bounds can be.
+double farthest_m(const Eigen::AlignedBox2d& places_m, const Pose& pose) {
+  const Eigen::Array2d here(pose.x_m, pose.y_m);
+  return (places_m.max().array() - here).max(here - places_m.min().array()).matrix().norm();
 }
 
 /// A sighting's surprise, measured by what was expected.
@@ -62,8 +70,9 @@ void apply(const Surprise& surprise, Posterior& posterior) {
 }  // namespace
 
 template <class Model>
-PoseCorrection<Model>::PoseCorrection(const FilterConfig& config)
+PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates updates)
     : model_(config.unscented),
+      updates_(updates),
       gate_probability_(config.gate_probability),
       gate_(chi_square_2_quantile(config.gate_probability)),
       near_m_(0.5 * config.colour_spacing_m) {}
@@ -76,7 +85,8 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   order_by_age(targets);
   Posterior posterior{predicted};
   const long gated_before = counters.gated_measurements;
-  for (const std::size_t k : order_) {
+  if (updates_ == Updates::kAtOnce) use_at_once(particle, frame, targets, posterior, counters);
+  for (const std::size_t k : updates_ == Updates::kAtOnce ? late_ : order_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
     targets[k].fate = use(landmark, frame[k], posterior, counters);
   }
@@ -105,9 +115,8 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
     if (targets[k].landmark < 0) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
-    const Surprise surprise(
-        model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation.noise, repairs), observation,
-        repairs);
+    const Surprise surprise(model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation, repairs),
+                            observation, repairs);
     const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
     sum -= 0.5 * (squared_length + surprise.factor.log_det_2_pi());
   }
@@ -137,14 +146,15 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
   const Eigen::Vector2d place = locate(predicted.mean, observation.range_bearing);
   const double variance_m2 = place_variance(predicted, observation);
   const auto may_match = [&](const LandmarkBounds& bounds) {
-    const double gated_m2 = kSearchMargin * gate_ * (variance_m2 + bounds.largest_variance_m2);
+    const double growth_m2 = range_variance_growth(observation, farthest_m(bounds.places_m, predicted.mean));
+    const double gated_m2 = kSearchMargin * gate_ * (variance_m2 + growth_m2 + bounds.largest_variance_m2);
     return bounds.places_m.squaredExteriorDistance(place) <= std::max(gated_m2, near_m_ * near_m_);
   };
   particle.classed.visit(may_match, [&](std::size_t j, const Landmark& landmark) {
     if (landmark.colour_class != sighting.colour_class) return;
     long& repairs = counters.covariance_repairs;
-    const Surprise surprise(model_.expect(predicted, landmark.belief, observation.noise, repairs),
-                            observation, repairs);
+    const Surprise surprise(model_.expect(predicted, landmark.belief, observation, repairs), observation,
+                            repairs);
     const bool gated = !(surprise.squared_length <= gate_);
     if (gated && !((place - landmark.belief.mean).norm() < near_m_)) return;
     candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
@@ -180,15 +190,38 @@ void PoseCorrection<Model>::order_by_age(std::span<const Target> targets) {
   });
 }
 
+/// Uses the sightings that the prediction does not refuse, and leaves the others in late_.
+template <class Model>
+void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<const Sighting> frame,
+                                        std::span<Target> targets, Posterior& posterior,
+                                        FilterCounters& counters) {
+  late_.clear();
+  expectations_.clear();
+  long& repairs = counters.covariance_repairs;
+  for (const std::size_t k : order_) {
+    const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
+    const Observation& observation = frame[k].observation;
+    const Surprise surprise(model_.expect(posterior.pose, landmark, observation, repairs), observation,
+                            repairs);
+    if (surprise.squared_length <= gate_) {
+      expectations_.push_back({surprise.expected, surprise.residual});
+    } else {
+      late_.push_back(k);
+    }
+  }
+  if (!expectations_.empty()) posterior = correct_at_once(posterior.pose, expectations_, repairs);
+}
+
 template <class Model>
 Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
                                 FilterCounters& counters) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
-  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs),
-                          observation, repairs);
+  const long before = repairs;
+  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
+                          repairs);
   if (surprise.squared_length <= gate_) {
-    apply(surprise, posterior);
+    if (repairs == before) apply(surprise, posterior);  // else all is certain: nothing is learnt
     return Fate::kUse;
   }
   ++counters.gated_measurements;
@@ -197,9 +230,9 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
   if (fate == Fate::kUse) {
     posterior.pulled = true;
     posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);
-    apply(Surprise(model_.expect(posterior.pose, landmark.belief, observation.noise, repairs), observation,
-                   repairs),
-          posterior);
+    apply(
+        Surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation, repairs),
+        posterior);
   } else {
     posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());
   }

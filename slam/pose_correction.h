@@ -8,17 +8,27 @@
 #include "slam/association.h"
 #include "slam/filter_config.h"
 #include "slam/frame_fit.h"
+#include "slam/frame_update.h"
 #include "slam/linearised.h"
 #include "slam/particle.h"
 #include "slam/unscented.h"
 
 namespace stereobench::slam {
 
+/// From where the landmarks of a frame are looked at.
+enum class Updates {
+  kOneByOne,  ///< each from where the one before left the pose: the paper's refreshed sigma points (eq. 24)
+  kAtOnce,  ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
+};
+
 /// Corrects the predicted pose of a particle by the landmarks it knows, one after the other, oldest first.
 ///
 /// Each landmark's moments are taken from the belief that the one before left, and the particle's likelihood
 /// is multiplied by N(innovation; 0, S) with S from before the landmark is used; never from the updated
 /// covariance.
+///
+/// With Updates::kAtOnce the sightings within the gate of the prediction are used together (correct_at_once),
+/// and those beyond it one after the other, from where that leaves the pose.
 ///
 /// **Second look.** When a sighting falls beyond the gate, the frame is looked at as a whole (fit_frame).
 /// After coarse odometry a precise sensor may be refused for what first order leaves out, and that is
@@ -37,7 +47,7 @@ namespace stereobench::slam {
 template <class Model>
 class PoseCorrection {
  public:
-  explicit PoseCorrection(const FilterConfig& config);
+  explicit PoseCorrection(const FilterConfig& config, Updates updates = Updates::kOneByOne);
 
   /// @param particle its map; the pose is not read
   /// @param predicted where the particle should be by its odometry
@@ -61,15 +71,20 @@ class PoseCorrection {
   std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
                                       long& repairs) const;
   void order_by_age(std::span<const Target> targets);
+  void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
+                   Posterior& posterior, FilterCounters& counters);
   Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
            FilterCounters& counters) const;
 
   Model model_;
+  Updates updates_;
   double gate_probability_;
   double gate_;
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
+  std::vector<std::size_t> late_;  ///< of order_, what is still to be used one after the other
+  std::vector<Expectation> expectations_;
   std::vector<Match> matches_;
 };
 

@@ -3,6 +3,7 @@
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 
@@ -26,7 +27,7 @@ PoseBelief Unscented::move(const PoseBelief& belief, const Control& control,
 }
 
 Innovation Unscented::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
-                             const Eigen::Matrix2d& noise, long& repairs) const {
+                             const Observation& observation, long& repairs) const {
   const Eigen::Matrix3d pose_root = semidefinite_root<3>(belief.covariance, repairs);
   const Eigen::Matrix2d landmark_root = semidefinite_root<2>(landmark.covariance, repairs);
   const Eigen::Vector2d centre = predict_sighting(belief.mean, landmark.mean);
@@ -46,7 +47,8 @@ Innovation Unscented::expect(const PoseBelief& belief, const LandmarkBelief& lan
   const Eigen::Vector2d mean = sigma_mean<2, 5>(residuals, five_);
   Innovation innovation;
   innovation.expected = {centre.x() + mean.x(), wrap_angle(centre.y() + mean.y())};
-  innovation.covariance = sigma_covariance<2, 5>(residuals, mean, five_) + noise;
+  innovation.covariance =
+      sigma_covariance<2, 5>(residuals, mean, five_) + noise_at(observation, innovation.expected);
   innovation.cross = sigma_cross<3, 2, 5>(pose_root, 0, residuals, five_);
   return innovation;
 }
@@ -63,15 +65,22 @@ LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& rob
   }
   const Eigen::Vector2d mean = sigma_mean<2, 2>(residuals, two_);
   const Eigen::Matrix2d cross = sigma_cross<2, 2, 2>(root, 0, residuals, two_);
-  const Factor2 factor(sigma_covariance<2, 2>(residuals, mean, two_) + observation.noise, repairs);
+  const Eigen::Vector2d expected = centre + mean;
+  const long before = repairs;
+  const Factor2 factor(sigma_covariance<2, 2>(residuals, mean, two_) + noise_at(observation, expected),
+                       repairs);
+  if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
-  const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, centre + mean);
-  const Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
+  Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
+  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+  mend(covariance, repairs);
+  return {landmark.mean + gain * surprise, covariance};
 }
 
 LandmarkBelief Unscented::found(const Pose& robot, const Observation& observation, long& repairs) const {
-  const Eigen::Matrix2d root = semidefinite_root<2>(observation.noise, repairs);
+  const Eigen::Matrix2d root =
+      semidefinite_root<2>(noise_at(observation, observation.range_bearing), repairs);
   const Eigen::Vector2d centre = locate(robot, observation.range_bearing);
   SigmaResiduals<2, 2> residuals;
   for (int i = 0; i < 2; ++i) {

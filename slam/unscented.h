@@ -23,7 +23,7 @@ class Unscented {
 
   /// What a landmark should look like: sigma points over (pose, landmark), drawn from the belief it is given,
   /// which is the updated one for every landmark after the first (eq. 17-20 and 24).
-  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Eigen::Matrix2d& noise,
+  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
                     long& repairs) const;
 
   /// The landmark after a sighting from a known pose: sigma points over the landmark (eq. 28-34).

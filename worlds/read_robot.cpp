@@ -93,6 +93,28 @@ slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
   return noise;
 }
 
+std::optional<slam::NoiseLaw> read_measurement_noise(const YamlValue& value,
+                                                     const std::optional<vision::StereoRig>& rig) {
+  constexpr std::array<std::string_view, 3> kKinds = {"per_observation", "constant", "stereo"};
+  const YamlMap any(value, {"kind", "range_sd_m", "bearing_sd_deg", "disparity_sd_px", "bearing_sd_px"});
+  const std::size_t kind = any.at("kind").choice(kKinds);
+  if (kind == 0) {
+    YamlMap(value, {"kind"});
+    return std::nullopt;
+  }
+  if (kind == 1) {
+    const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg"});
+    return slam::NoiseLaw{.range_sd_m = map.number("range_sd_m", kNoise),
+                          .bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree};
+  }
+  const YamlMap map(value, {"kind", "range_sd_m", "disparity_sd_px", "bearing_sd_px"});
+  if (!rig) value.refuse("expected a rig beside the stereo law");
+  return slam::NoiseLaw{
+      .range_sd_m = map.number("range_sd_m", kNoise, 0.0),
+      .range_sd_per_m2 = map.number("disparity_sd_px", kNoise) / (rig->camera.focal_px * rig->baseline_m),
+      .bearing_sd_rad = map.number("bearing_sd_px", kNoise) / rig->camera.focal_px};
+}
+
 OracleSensor read_oracle(const YamlValue& value) {
   const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg"});
   OracleSensor sensor;

@@ -64,6 +64,10 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
+  if (const auto noise = map.find("believed_measurement_noise")) {
+    const auto rig = map.find("rig") ? std::optional(scenario.rig) : std::nullopt;
+    scenario.believed_measurement_noise = read_measurement_noise(*noise, rig);
+  }
   if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
     scenario.oracle = read_oracle(*oracle);
 }
@@ -78,10 +82,11 @@ void read_odometry(const YamlMap& map, Scenario& scenario) {
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const YamlDocument document = load_yaml(file, overrides);
-  const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
-                    {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
-                     "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise",
-                     "believed_odometry_noise", "path", "placement_jitter_m", "world"});
+  const YamlMap map(
+      YamlValue(document, "", document.root, document.root.Mark()),
+      {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
+       "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise", "believed_odometry_noise",
+       "believed_measurement_noise", "path", "placement_jitter_m", "world"});
   Scenario scenario;
   scenario.name = read_name(map.at("name"));
   if (const auto description = map.find("description")) scenario.description = description->text();

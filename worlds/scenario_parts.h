@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "worlds/types.h"
@@ -24,6 +25,12 @@ vision::StereoRig read_rig(const YamlValue& value);
 
 /// `odometry_noise:` and `believed_odometry_noise:`.
 slam::OdometryNoise read_odometry_noise(const YamlValue& value);
+
+/// `believed_measurement_noise:` the law that the filters are told, or none to take each sighting at its
+/// word.
+/// @param rig where there is one: the stereo law is about its focal length and baseline
+std::optional<slam::NoiseLaw> read_measurement_noise(const YamlValue& value,
+                                                     const std::optional<vision::StereoRig>& rig);
 
 /// `oracle:` the pixel-free sensor.
 OracleSensor read_oracle(const YamlValue& value);

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "slam/filter_config.h"
 #include "slam/filter_names.h"
 #include "slam/types.h"
 #include "vision/types.h"
@@ -104,8 +106,9 @@ struct Scenario {
   double placement_jitter_m = 0.0;  ///< each seed moves each ball by up to this much in x and y
   vision::StereoRig rig;
   GroundTruth path;
-  slam::OdometryNoise odometry_noise;           ///< what the odometry really has
-  slam::OdometryNoise believed_odometry_noise;  ///< what the filters are told
+  slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
+  slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told
+  std::optional<slam::NoiseLaw> believed_measurement_noise;  ///< none: each sighting states its own
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
   CameraSensor camera;

@@ -98,6 +98,19 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
   add("--range-sd-m", arguments.log_says.noise.range_sd_m, 1e-9, "of a range, for logs without covariances");
   add("--bearing-sd-rad", arguments.log_says.noise.bearing_sd_rad, 1e-9,
       "of a bearing, for logs without covariances");
+  command
+      .add_option_function<std::vector<double>>(
+          "--noise-law",
+          [&config = arguments.config](const std::vector<double>& sd) {
+            config.noise_law = {.range_sd_m = sd[0], .range_sd_per_m2 = sd[1], .bearing_sd_rad = sd[2]};
+          },
+          "of all sightings, whatever the log states: of a range (m), per square of it (1/m), of a bearing "
+          "(rad)")
+      ->expected(3)
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("A,B,C")
+      ->group("Noise (standard deviations)");
   add("--v-constant-mps", noise.v_constant_mps, 0.0, "of the forward speed, constant part");
   add("--v-per-v", noise.v_per_v, 0.0, "of the forward speed, per m/s");
   add("--v-per-w", noise.v_per_w, 0.0, "of the forward speed, per rad/s");

@@ -36,6 +36,7 @@ slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
   slam::FilterConfig config;
   config.particles = scenario.particles;
   config.odometry_noise = scenario.believed_odometry_noise;
+  config.noise_law = scenario.believed_measurement_noise;
   config.colour_spacing_m = scenario.colour_spacing_m;
   return config;
 }

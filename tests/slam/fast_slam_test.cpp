@@ -12,14 +12,20 @@ namespace {
 struct FastSlam1 {
   using Model = Linearised;
   static constexpr Proposal kProposal = Proposal::kMotion;
+  static constexpr Updates kUpdates = Updates::kOneByOne;
 };
 struct FastSlam2 {
   using Model = Linearised;
   static constexpr Proposal kProposal = Proposal::kPosterior;
+  static constexpr Updates kUpdates = Updates::kOneByOne;
 };
 struct UFastSlam {
   using Model = Unscented;
   static constexpr Proposal kProposal = Proposal::kPosterior;
+  static constexpr Updates kUpdates = Updates::kOneByOne;
+};
+struct UFastSlamKim : UFastSlam {
+  static constexpr Updates kUpdates = Updates::kAtOnce;
 };
 
 constexpr double kWay_sd_m = 0.2;
@@ -30,7 +36,7 @@ class FastSlams : public ::testing::Test {
   using Filter = FastSlam<typename Kind::Model>;
 
   static Filter make(const FilterConfig& config, std::uint64_t seed = 1) {
-    return {config, {}, seed, Kind::kProposal};
+    return {config, {}, seed, Kind::kProposal, Kind::kUpdates};
   }
 
   // A filter that saw a landmark ahead, and then drove towards it over a way that is poorly known.
@@ -42,7 +48,7 @@ class FastSlams : public ::testing::Test {
     return filter;
   }
 };
-using AllKinds = ::testing::Types<FastSlam1, FastSlam2, UFastSlam>;
+using AllKinds = ::testing::Types<FastSlam1, FastSlam2, UFastSlam, UFastSlamKim>;
 TYPED_TEST_SUITE(FastSlams, AllKinds);
 
 RangeBearing known(double range_m, double range_sd_m, int landmark_id) {

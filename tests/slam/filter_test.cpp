@@ -29,6 +29,10 @@ struct UFastSlamName {
   static constexpr const char* kName = "ufastslam";
 };
 
+struct UFastSlamKimName {
+  static constexpr const char* kName = "ufastslam_kim";
+};
+
 template <class Name>
 class EveryFilter : public ::testing::Test {
  protected:
@@ -36,12 +40,13 @@ class EveryFilter : public ::testing::Test {
     return make_filter(Name::kName, config, start, seed);
   }
 };
-using AllNames = ::testing::Types<DeadReckoningName, EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
+using AllNames = ::testing::Types<DeadReckoningName, EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
+                                  UFastSlamKimName>;
 TYPED_TEST_SUITE(EveryFilter, AllNames);
 
 template <class Name>
 class MappingFilter : public EveryFilter<Name> {};
-using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
+using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName, UFastSlamKimName>;
 TYPED_TEST_SUITE(MappingFilter, MappingNames);
 
 FilterConfig config_for(const Drive& world, int particles = 30) {
@@ -220,7 +225,7 @@ TYPED_TEST(MappingFilter, IsFarBetterThanDeadReckoning) {
 
 // A landmark found after a noisy move is as uncertain as the move and the sighting together. A public
 // implementation never draws its proposal; then all particles agree and the landmark is as sure as the
-// sighting alone.
+// sighting alone. Another draws from the inverse of the covariance. Mutations: both.
 TYPED_TEST(MappingFilter, DrawsEveryParticlesPose) {
   FilterConfig config;
   config.particles = 4000;
@@ -298,7 +303,8 @@ TEST(MakeFilter, KnowsItsNamesAndRefusesTheRest) {
     make_filter("kalman", {}, {}, 0);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam"));
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim"));
   }
 }
 
@@ -316,6 +322,7 @@ TEST(MakeFilter, RefusesSettingsThatCannotBe) {
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.particles = 0; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.odometry_noise.v_per_v = -1.0; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.range_floor_m = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_TRUE(refuses([](FilterConfig& c) { c.noise_law = {.range_sd_per_m2 = -1.0}; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.resample_below = 1.5; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.gate_probability = 0.0; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.colour_spacing_m = -1.0; }));

@@ -37,7 +37,7 @@ TEST(FrameFit, IsTheProductOfInnovationsWhereTheSensorIsLinear) {
     for (Match& match : matches) {
       match.observation.range_bearing += 1e-4 * Eigen::Vector2d(random.normal(), random.normal());
       const Innovation expected =
-          Linearised().expect(one_by_one.pose, match.landmark, match.observation.noise, repairs);
+          Linearised().expect(one_by_one.pose, match.landmark, match.observation, repairs);
       const Eigen::Vector2d residual = sighting_residual(match.observation.range_bearing, expected.expected);
       const Eigen::Matrix2d inverse = expected.covariance.inverse();
       const Eigen::Matrix<double, 3, 2> gain = expected.cross * inverse;

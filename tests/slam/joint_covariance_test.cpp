@@ -28,7 +28,8 @@ class Twice {
   void place(int landmark) {
     const Eigen::Matrix<double, 2, 3> by_pose = random<2, 3>();
     const Eigen::Matrix2d noise = random<2, 2>();
-    triangle_.place(landmark, by_pose, noise * noise.transpose());
+    long repairs = 0;
+    triangle_.place(landmark, by_pose, noise * noise.transpose(), repairs);
     const Eigen::Index first = 3 + 2 * landmark;
     const Eigen::Index size = std::max(matrix_.rows(), first + 2);
     Eigen::MatrixXd by_all = Eigen::MatrixXd::Identity(size, matrix_.rows());
@@ -102,15 +103,32 @@ TEST(JointCovariance, IsTheDenseMatrix) {
 TEST(JointCovariance, AVarianceBelowZeroBecomesZeroAndIsCounted) {
   JointCovariance covariance;
   covariance.move_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal());
-  covariance.place(0, Eigen::Matrix<double, 2, 3>::Identity(), Eigen::Matrix2d::Identity());
+  long repairs = 0;
+  covariance.place(0, Eigen::Matrix<double, 2, 3>::Identity(), Eigen::Matrix2d::Identity(), repairs);
   JointCovariance::Columns too_much = JointCovariance::Columns::Zero(5, 2);
   too_much(1, 0) = 2.0 + 1e-9;
-  long repairs = 0;
   covariance.subtract(too_much, repairs);
   EXPECT_EQ(repairs, 1);
   EXPECT_TRUE(near(covariance.pose(), Eigen::Vector3d(1.0, 0.0, 9.0).asDiagonal().toDenseMatrix(), 0.0));
   EXPECT_EQ(covariance.pose_and_landmark(0)(1, 4), 0.0);  // nothing varies with what does not vary
   EXPECT_EQ(covariance.pose_and_landmark(0)(0, 3), 1.0);
+}
+
+// Two coordinates that lose what they do not have in common: each keeps a variance, and together they have
+// less than none. Mutation: blocks that are not mended.
+TEST(JointCovariance, ABlockThatIsIndefiniteIsMendedAndCounted) {
+  JointCovariance covariance;
+  long repairs = 0;
+  covariance.move_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal());
+  covariance.place(0, Eigen::Matrix<double, 2, 3>::Identity(), Eigen::Matrix2d::Identity(), repairs);
+  JointCovariance::Columns too_much = JointCovariance::Columns::Zero(5, 2);
+  too_much.col(0) << 0.9, -1.8, 0.0, 1.2, -2.0;
+  covariance.subtract(too_much, repairs);
+  EXPECT_EQ(repairs, 2);
+  EXPECT_LE(std::abs(covariance.pose()(0, 1)), std::sqrt(covariance.pose()(0, 0) * covariance.pose()(1, 1)));
+  const Eigen::Matrix2d landmark = covariance.landmark(0);
+  EXPECT_GE(landmark.determinant(), -1e-12);
+  EXPECT_GE(landmark(0, 0), 2.0 - 1.2 * 1.2);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TYPED_TEST(Models, OneControlLeavesRankTwo) {
 TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
   const PoseBelief pose = some_pose();
   const LandmarkBelief landmark = some_landmark();
-  const Innovation expected = this->model_.expect(pose, landmark, some_noise(), this->repairs_);
+  const Innovation expected = this->model_.expect(pose, landmark, {{}, some_noise()}, this->repairs_);
   Eigen::Matrix<double, 5, 1> mean = Eigen::Matrix<double, 5, 1>::Zero();
   Eigen::Matrix<double, 5, 5> second = Eigen::Matrix<double, 5, 5>::Zero();
   for (int i = 0; i < kDraws; ++i) {
@@ -152,7 +152,7 @@ TYPED_TEST(Models, StandingOnALandmarkIsFinite) {
   const PoseBelief pose{{1.0, 1.0, 0.3}, some_pose().covariance};
   for (const PoseBelief& belief : {pose, PoseBelief{pose.mean, Eigen::Matrix3d::Zero()}}) {
     const LandmarkBelief landmark{{1.0, 1.0}, Eigen::Matrix2d::Zero()};
-    const Innovation expected = this->model_.expect(belief, landmark, some_noise(), this->repairs_);
+    const Innovation expected = this->model_.expect(belief, landmark, {{}, some_noise()}, this->repairs_);
     EXPECT_TRUE(expected.covariance.allFinite() && expected.cross.allFinite() &&
                 expected.expected.allFinite());
     const LandmarkBelief refined =
@@ -179,8 +179,8 @@ TEST(BothModels, AgreeWhenNoiseIsSmall) {
     EXPECT_TRUE(near(a.covariance, b.covariance, 1e-4 * a.covariance.norm()));
     LandmarkBelief landmark = some_landmark();
     landmark.covariance *= 1e-6;
-    const Innovation c = Linearised().expect(pose, landmark, 1e-6 * some_noise(), repairs);
-    const Innovation d = Unscented().expect(pose, landmark, 1e-6 * some_noise(), repairs);
+    const Innovation c = Linearised().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
+    const Innovation d = Unscented().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
     EXPECT_TRUE(near(c.covariance, d.covariance, 1e-4 * c.covariance.norm()));
     EXPECT_TRUE(near(c.cross, d.cross, 1e-4 * c.cross.norm()));
   }

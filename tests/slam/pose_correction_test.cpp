@@ -125,9 +125,9 @@ TYPED_TEST(Corrections, AnOutlierMovesNothingCostsTheGateAndIsCounted) {
   EXPECT_TRUE(near(posterior.pose.mean, this->predicted_.mean, 0.0));
   EXPECT_EQ(this->counters_.gated_measurements, 1);
   long repairs = 0;
-  const Eigen::Matrix2d noise = this->see({3.0, 1.0}, 0).observation.noise;
+  const Observation seen = this->see({3.0, 1.0}, 0).observation;
   const Innovation expected =
-      TypeParam().expect(this->predicted_, this->particle_.known[0].belief, noise, repairs);
+      TypeParam().expect(this->predicted_, this->particle_.known[0].belief, seen, repairs);
   EXPECT_NEAR(posterior.log_likelihood,
               std::log1p(-this->config_.gate_probability) -  // half the gate, by chi-square(2)
                   0.5 * std::log((2.0 * M_PI * expected.covariance).determinant()),
@@ -231,7 +231,7 @@ TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
       const Landmark& landmark = this->particle_.classed[j];
       long repairs = 0;
       const Innovation innovation =
-          TypeParam().expect(this->predicted_, landmark.belief, sighting.observation.noise, repairs);
+          TypeParam().expect(this->predicted_, landmark.belief, sighting.observation, repairs);
       const Eigen::Vector2d off = sighting_residual(seen, innovation.expected);
       const double squared = off.dot(innovation.covariance.inverse() * off);
       const double cost = squared + std::log(innovation.covariance.determinant());

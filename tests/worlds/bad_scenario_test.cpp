@@ -88,7 +88,8 @@ constexpr Fault kValueFaults[] = {
     {"particles: 20", "particles: \"20\"",
      "4: particles: expected a whole number from 1 to 100000 (got \"20\")"},
     {"ufastslam]", "kalman]",
-     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam (got kalman)"},
+     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim "
+     "(got kalman)"},
     {"ufastslam]", "dead_reckoning]", "5: filters[1]: expected each filter once (got dead_reckoning)"},
     {"filters: [dead_reckoning, ufastslam]", "filters: []",
      "5: filters: expected a list of 1 to 16 (got a list of 0)"},
@@ -251,6 +252,15 @@ constexpr BadOverride kBadOverrides[] = {
     {"camera=[1", "--set camera: expected a YAML value ("},
     {"path.radius_m=10000", "--set path.radius_m: expected at most"},
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
+    {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
+    {"believed_measurement_noise.kind=laser",
+     "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo (got laser)"},
+    {"believed_measurement_noise={kind: per_observation, range_sd_m: 1}",
+     "--set believed_measurement_noise.range_sd_m: unknown key"},
+    {"believed_measurement_noise={kind: constant, disparity_sd_px: 1}",
+     "--set believed_measurement_noise.disparity_sd_px: unknown key"},
+    {"believed_measurement_noise={kind: stereo, disparity_sd_px: -1, bearing_sd_px: 1}",
+     "--set believed_measurement_noise.disparity_sd_px: expected a number from 0 to 100 (got -1)"},
 };
 INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(kBadOverrides));
 

@@ -99,6 +99,24 @@ TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
   EXPECT_EQ(scenario.believed_odometry_noise.w_constant_radps, scenario.odometry_noise.w_constant_radps);
 }
 
+// 500 px and 0.1 m. Catches: pixels that are taken for metres, and a law that is told to nobody's rig.
+TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
+  EXPECT_FALSE(read_small().believed_measurement_noise);
+  EXPECT_FALSE(read_small({"believed_measurement_noise={kind: per_observation}"}).believed_measurement_noise);
+  const auto constant =
+      read_small({"believed_measurement_noise={kind: constant, range_sd_m: 0.3, bearing_sd_deg: 3}"})
+          .believed_measurement_noise.value();
+  EXPECT_EQ(constant.range_sd_m, 0.3);
+  EXPECT_EQ(constant.range_sd_per_m2, 0.0);
+  EXPECT_NEAR(constant.bearing_sd_rad, 0.0523598775598299, 1e-15);
+  const auto stereo =
+      read_small({"believed_measurement_noise={kind: stereo, disparity_sd_px: 0.2, bearing_sd_px: 0.1}"})
+          .believed_measurement_noise.value();
+  EXPECT_EQ(stereo.range_sd_m, 0.0);
+  EXPECT_NEAR(stereo.range_sd_per_m2, 0.004, 1e-15);
+  EXPECT_NEAR(stereo.bearing_sd_rad, 0.0002, 1e-15);
+}
+
 /// A language that writes a comma where C++ writes a point.
 struct DecimalComma : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }

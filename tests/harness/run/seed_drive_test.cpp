@@ -120,6 +120,19 @@ TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
   EXPECT_FALSE(one.batch.failed);
 }
 
+// Mutation: a scenario's law that the filters are not told.
+TEST(DriveSeed, TellsTheFiltersWhatToBelieveOfTheSensor) {
+  worlds::Scenario scenario = short_drive();
+  const SeedDrive stated = drive_seed({&scenario, 3, 0}, [](double) {});
+  scenario.believed_measurement_noise = {.range_sd_m = scenario.oracle.range_sd_m,
+                                         .bearing_sd_rad = scenario.oracle.bearing_sd_rad};
+  const SeedDrive same = drive_seed({&scenario, 3, 0}, [](double) {});
+  EXPECT_EQ(bytes_without_timing(stated), bytes_without_timing(same));
+  scenario.believed_measurement_noise->range_sd_per_m2 = 0.1;
+  const SeedDrive other = drive_seed({&scenario, 3, 0}, [](double) {});
+  EXPECT_NE(stated.runs.back().poses.back().x_m, other.runs.back().poses.back().x_m);
+}
+
 // Mutations: filters seeded by the worker's process, or all alike.
 TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
   const worlds::Scenario scenario = short_drive();

@@ -1,0 +1,31 @@
+/// Measurement noise as a function of where a landmark should be seen.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "slam/belief.h"
+#include "slam/filter_config.h"
+
+namespace stereobench::slam {
+
+/// A sighting with the noise that is believed of it: the law's, or what the sighting states itself, above the
+/// floor.
+Observation observe(const RangeBearing& seen, const FilterConfig& config);
+
+/// @param range_m where the landmark should be seen
+/// @return by how much the variance of a range there exceeds that of a range of 0
+inline double range_variance_growth(const Observation& observation, double range_m) {
+  const double sd_m = observation.range_sd_per_m2 * range_m * range_m;
+  return sd_m * sd_m;
+}
+
+/// The covariance of (range, bearing) of a sighting.
+///
+/// @param expected where the landmark should be seen; the sighting itself where nothing is expected yet
+inline Eigen::Matrix2d noise_at(const Observation& observation, const Eigen::Vector2d& expected) {
+  Eigen::Matrix2d noise = observation.noise;
+  noise(0, 0) += range_variance_growth(observation, expected.x());
+  return noise;
+}
+
+}  // namespace stereobench::slam
