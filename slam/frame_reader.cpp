@@ -9,13 +9,15 @@ std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings,
   std::vector<Sighting> frame;
   frame.reserve(sightings.size());
   for (const RangeBearing& seen : sightings) {
+    const int number = given_++;
     if (!is_valid(seen)) {
       ++rejected;
       continue;
     }
     Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
     observation.noise.diagonal() += floor_.cwiseAbs2();
-    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
+    frame.push_back(
+        {observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class, number});
   }
   return frame;
 }

@@ -26,7 +26,7 @@ World world_of(const std::vector<Eigen::Vector2d>& places_m) {
 std::vector<int> ids_in_view(const World& world, const slam::Pose& pose, const OracleSensor& sensor) {
   slam::RandomStream noise(1, slam::Stream::kOracle);
   std::vector<int> ids;
-  for (const auto& sighting : sense(world, pose, sensor, Identity::kKnown, noise))
+  for (const auto& sighting : sense(world, pose, sensor, Identity::kKnown, noise).sightings)
     ids.push_back(sighting.landmark_id);
   return ids;
 }
@@ -35,7 +35,7 @@ std::vector<int> ids_in_view(const World& world, const slam::Pose& pose, const O
 TEST(Oracle, WithoutNoiseMeasuresRangeAndLeftPositiveBearing) {
   const World world = world_of({{-3, 1}, {-2, -4}});
   slam::RandomStream noise(0, slam::Stream::kOracle);
-  const auto seen = sense(world, {-2, 1, kPi - 0.1}, {0, 0, 30, 2 * kPi}, Identity::kKnown, noise);
+  const auto seen = sense(world, {-2, 1, kPi - 0.1}, {0, 0, 30, 2 * kPi}, Identity::kKnown, noise).sightings;
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_NEAR(seen[0].range_m, 1.0, 1e-15);
   EXPECT_NEAR(seen[0].bearing_rad, 0.1, 1e-15);
@@ -55,10 +55,10 @@ TEST(Oracle, SeesTheSectorOnly) {
 TEST(Oracle, GivesIdentityOrColourNeverBoth) {
   const World world = world_of({{1, 0}, {2, 0}});
   slam::RandomStream noise(0, slam::Stream::kOracle);
-  const auto known = sense(world, {}, OracleSensor{}, Identity::kKnown, noise);
+  const auto known = sense(world, {}, OracleSensor{}, Identity::kKnown, noise).sightings;
   EXPECT_EQ(known.at(1).landmark_id, 1);
   EXPECT_EQ(known.at(1).colour_class, slam::kUnknown);
-  const auto coloured = sense(world, {}, OracleSensor{}, Identity::kColourClass, noise);
+  const auto coloured = sense(world, {}, OracleSensor{}, Identity::kColourClass, noise).sightings;
   EXPECT_EQ(coloured.at(1).landmark_id, slam::kUnknown);
   EXPECT_EQ(coloured.at(1).colour_class, 4);
 }
@@ -68,8 +68,8 @@ TEST(Oracle, NeverGivesANegativeRangeAndIsTheSameAgain) {
   int kept = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     slam::RandomStream noise(seed, slam::Stream::kOracle), again(seed, slam::Stream::kOracle);
-    const auto seen = sense(world, {}, OracleSensor{}, Identity::kKnown, noise);
-    const auto seen_again = sense(world, {}, OracleSensor{}, Identity::kKnown, again);
+    const auto seen = sense(world, {}, OracleSensor{}, Identity::kKnown, noise).sightings;
+    const auto seen_again = sense(world, {}, OracleSensor{}, Identity::kKnown, again).sightings;
     ASSERT_EQ(seen.size(), seen_again.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {
       EXPECT_TRUE(seen[i].range_m >= 0.0);
@@ -93,7 +93,7 @@ TEST(Oracle, NoiseHasTheSpreadThatTheCovarianceSays) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (int i = 0; i < kDraws; ++i) {
-    const auto seen = sense(world, {}, sensor, Identity::kKnown, noise);
+    const auto seen = sense(world, {}, sensor, Identity::kKnown, noise).sightings;
     const Eigen::Vector2d sd = seen.at(0).covariance.diagonal().cwiseSqrt();
     ASSERT_NEAR(sd.x(), 0.3, 1e-12);
     ASSERT_EQ(seen[0].covariance(0, 1), 0.0);
