@@ -12,12 +12,11 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr double kLeastMissed = 0.1;    ///< no sensor, and no gate, lets less pass
-constexpr double kLeastFalse = 0.01;    ///< sightings of nothing a look
-constexpr double kNewPerLook = 1.0;     ///< landmarks that come into view for the first time
-constexpr double kGateArea = 18.0;      ///< of the usual gate, in units of pi sd^2
-constexpr float kLeastFounded = -2.0F;  ///< so that it can be seen a second time at all
-constexpr float kSurest = 10.0F;        ///< so that what has gone can be forgotten
+constexpr double kLeastMissed = 0.1;  ///< no sensor, and no gate, lets less pass
+constexpr double kLeastFalse = 1e-3;  ///< sightings of nothing a look
+constexpr double kNewPerLook = 0.1;   ///< landmarks never seen before: a world is found once, clutter goes on
+constexpr double kGateArea = 18.0;    ///< of the usual gate, in units of pi sd^2
+constexpr float kLeastFounded = -4.0F;  ///< so that it can be seen a second time at all
 constexpr double kWithin = 3.0;         ///< standard deviations between a landmark and the sector's border
 
 }  // namespace

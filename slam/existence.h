@@ -42,16 +42,18 @@ class Existence {
   /// A landmark that nothing is matched with any more.
   static bool is_dead(float log_odds) { return log_odds < kDead; }
 
-  /// A landmark that is likelier there than not.
-  static bool is_believed(float log_odds) { return log_odds >= 0.0F; }
+  /// A landmark that is there with 95 %: it may correct poses, and is reported.
+  static bool is_believed(float log_odds) { return log_odds >= kBelieved; }
 
  private:
-  static constexpr float kDead = -4.0F;
+  static constexpr float kDead = -6.0F;
+  static constexpr float kBelieved = 3.0F;
+  static constexpr float kSurest = 10.0F;  ///< so that what has gone can be forgotten
 
   SensorSector sector_;
   double area_m2_ = 0.0;
   double clutter_per_m2_ = 0.0;
-  float founded_ = 0.0F;
+  float founded_ = kSurest;
   float missed_ = 0.0F;
 };
 

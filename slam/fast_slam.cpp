@@ -166,7 +166,7 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
     landmark.origin = sighting.number;
     landmark.log_odds = upkeep_.existence().founded();
-  } else if (target.fate == Fate::kUse) {
+  } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
     landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
     landmark.refusals = 0;
     ++landmark.uses;

@@ -106,7 +106,7 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
                                              long& repairs) const {
   double sum = log_density_of_new(frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark < 0) continue;
+    if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
     const Surprise surprise(
@@ -133,7 +133,13 @@ void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief
   }
   if (association_ == Association::kJoint && compete(candidates_))
     associate_jointly(particle, predicted, frame, counters);
-  if (!candidates_.empty()) assign(candidates_, near_m_ > 0.0, targets);
+  if (candidates_.empty()) return;
+  assign(candidates_, near_m_ > 0.0, targets);
+  for (std::size_t k = 0; existence_.is_tracked() && k < frame.size(); ++k) {
+    if (frame[k].slot != kUnknown || targets[k].fate != Fate::kUse) continue;
+    if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).log_odds))
+      targets[k].fate = Fate::kConfirm;
+  }
 }
 
 /// Drops the candidates that do not go with the rest of the frame. Given a particle's path its landmarks are
@@ -162,15 +168,16 @@ void PoseCorrection<Model>::associate_jointly(const Particle& particle, const Po
   keep_joint(candidates_, pairings, tie, gate_probability_, counters.joint_searches_cut);
 }
 
-/// The log density of the sightings that were given to no landmark; those with an identity are new to all
-/// particles alike.
+/// The log density of the sightings that were given to no landmark that is believed in; those with an
+/// identity are new to all particles alike.
 template <class Model>
 double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame,
                                                  std::span<const Target> targets) const {
   if (!existence_.is_tracked()) return 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    const bool of_none = targets[k].fate == Fate::kAdd || targets[k].fate == Fate::kIgnore;
+    const Fate fate = targets[k].fate;
+    const bool of_none = fate == Fate::kAdd || fate == Fate::kIgnore || fate == Fate::kConfirm;
     if (of_none && frame[k].slot == kUnknown) sum -= 0.5 * existence_.cost_of_new(frame[k].observation);
   }
   return sum;

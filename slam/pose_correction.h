@@ -40,7 +40,7 @@ namespace stereobench::slam {
 /// that have none are one class) within the gate, where they are likelier than a landmark that is new. A
 /// sighting of nothing in the map costs the particle the density of new landmarks and clutter, where the
 /// sensor says enough of itself to know it: else a particle could not be told apart from one that takes all
-/// for new.
+/// for new. So does one of a landmark that may be clutter; it corrects no pose.
 template <class Model>
 class PoseCorrection {
  public:

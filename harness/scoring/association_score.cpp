@@ -45,7 +45,8 @@ void judge(const slam::Decisions& decisions, std::span<const int> truth, Associa
   const int first = decisions.sightings.front().sighting;
   for (const Decision& decision : decisions.sightings) {
     const int seen = true_landmark(decision.sighting, truth);
-    const bool matched = decision.fate == Fate::kUse || decision.fate == Fate::kMove;
+    const bool matched =
+        decision.fate == Fate::kUse || decision.fate == Fate::kConfirm || decision.fate == Fate::kMove;
     if (matched) {
       const bool same = seen != kUnknown && true_landmark(decision.origin, truth) == seen;
       ++(same ? score.correct : score.wrong);

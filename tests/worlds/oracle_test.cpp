@@ -108,5 +108,91 @@ TEST(Oracle, NoiseHasTheSpreadThatTheCovarianceSays) {
   EXPECT_NEAR(squares(0, 1) / kDraws, 0.0, 4 / std::sqrt(kDraws));
 }
 
+// Without identities a sighting says nothing but where; the truth beside it does not change.
+TEST(Oracle, KeepsWhoseEachSightingIsApart) {
+  const World world = world_of({{50, 0}, {2, 0}, {3, 1}});
+  for (const Identity identity : {Identity::kKnown, Identity::kColourClass, Identity::kNone}) {
+    slam::RandomStream noise(0, slam::Stream::kOracle);
+    const OracleLook look = sense(world, {}, OracleSensor{}, identity, noise);
+    EXPECT_THAT(look.balls, testing::ElementsAre(1, 2));
+    ASSERT_EQ(look.sightings.size(), 2U);
+    EXPECT_EQ(look.sightings[0].landmark_id, identity == Identity::kKnown ? 1 : slam::kUnknown);
+    EXPECT_EQ(look.sightings[0].colour_class, identity == Identity::kColourClass ? 4 : slam::kUnknown);
+  }
+}
+
+// Mutation tried: a draw that is taken where nothing can go wrong.
+TEST(OracleFaults, AreNoneByDefaultAndDrawNothing) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  slam::RandomStream noise(0, slam::Stream::kOracle);
+  slam::RandomStream chance(0, slam::Stream::kClutter), untouched(0, slam::Stream::kClutter);
+  const OracleLook all = sense(world, {}, OracleSensor{}, Identity::kNone, noise);
+  const OracleLook same = with_faults(all, world, OracleSensor{}, Identity::kNone, chance);
+  EXPECT_EQ(same.balls, all.balls);
+  EXPECT_EQ(same.sightings.at(1).range_m, all.sightings.at(1).range_m);
+  EXPECT_EQ(chance.bits(), untouched.bits());
+}
+
+// A count of mean m in n looks has a deviation of sqrt(m / n). Mutations tried: a Poisson variable that is
+// one too large, ranges that are uniform, half the sector's angle, misses that hit the false ones, too.
+TEST(OracleFaults, HappenAsOftenAndWhereTheyShould) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  OracleSensor sensor;
+  sensor.miss_probability = 0.2;
+  sensor.false_per_look = 1.5;
+  constexpr int kLooks = 20000;
+  slam::RandomStream noise(7, slam::Stream::kOracle), chance(7, slam::Stream::kClutter);
+  double seen = 0.0, imagined = 0.0, squares = 0.0, near = 0.0, left = 0.0, outer_left = 0.0;
+  for (int i = 0; i < kLooks; ++i) {
+    const OracleLook all = sense(world, {}, sensor, Identity::kNone, noise);
+    const OracleLook look = with_faults(all, world, sensor, Identity::kNone, chance);
+    double here = 0.0;
+    for (std::size_t k = 0; k < look.balls.size(); ++k) {
+      if (look.balls[k] != slam::kUnknown) {
+        ++seen;
+        continue;
+      }
+      const slam::RangeBearing& sighting = look.sightings[k];
+      ASSERT_LE(sighting.range_m, sensor.max_range_m);
+      ASSERT_LE(std::abs(sighting.bearing_rad), kPi / 2 + 1e-9);
+      ++here;
+      near += sighting.range_m < sensor.max_range_m / 2 ? 1 : 0;
+      left += sighting.bearing_rad > 0 ? 1 : 0;
+      outer_left += sighting.bearing_rad > kPi / 4 ? 1 : 0;
+    }
+    imagined += here;
+    squares += here * here;
+  }
+  const double mean = imagined / kLooks;
+  EXPECT_NEAR(seen / kLooks, 1.6, 4 * std::sqrt(2 * 0.16 / kLooks));
+  EXPECT_NEAR(mean, 1.5, 4 * std::sqrt(1.5 / kLooks));
+  EXPECT_NEAR(squares / kLooks - mean * mean, 1.5, 4 * std::sqrt((1.5 + 2 * 1.5 * 1.5) / kLooks));
+  const double spread = 4 * 0.5 / std::sqrt(imagined);
+  EXPECT_NEAR(near / imagined, 0.25, spread) << "a quarter of the area";
+  EXPECT_NEAR(left / imagined, 0.5, spread);
+  EXPECT_NEAR(outer_left / imagined, 0.25, spread);
+}
+
+// Mutation tried: a colour that no ball has.
+TEST(OracleFaults, LookLikeTheOthers) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  OracleSensor sensor;
+  sensor.false_per_look = 5.0;
+  for (const Identity identity : {Identity::kKnown, Identity::kColourClass, Identity::kNone}) {
+    slam::RandomStream chance(1, slam::Stream::kClutter);
+    const OracleLook look = with_faults({}, world, sensor, identity, chance);
+    ASSERT_FALSE(look.sightings.empty());
+    for (const slam::RangeBearing& sighting : look.sightings) {
+      EXPECT_EQ(sighting.landmark_id, slam::kUnknown);
+      if (identity == Identity::kColourClass) {
+        EXPECT_THAT(sighting.colour_class, testing::AnyOf(3, 4));
+      } else {
+        EXPECT_EQ(sighting.colour_class, slam::kUnknown);
+      }
+      EXPECT_DOUBLE_EQ(sighting.covariance(0, 0), sensor.range_sd_m * sensor.range_sd_m);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace stereobench::worlds
