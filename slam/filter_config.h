@@ -49,7 +49,7 @@ struct FilterConfig {
   /// filter was.
   double colour_spacing_m = 0.0;
 
-  Association association = Association::kIndividual;
+  Association association = Association::kJoint;
   SensorSector sector;
 
   UnscentedParameters unscented;

@@ -116,7 +116,7 @@ struct Scenario {
   Identity identity = Identity::kKnown;
   /// kColourClass: two balls of one colour are at least this far apart; kNone: any two.
   double colour_spacing_m = 0.0;
-  slam::Association association = slam::Association::kIndividual;
+  slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
   std::vector<std::uint64_t> seeds = {0};

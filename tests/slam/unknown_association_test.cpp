@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/pose_correction.h"
 #include "tests/slam/checks.h"
 
 namespace stereobench::slam {
@@ -130,10 +131,10 @@ TEST_P(WithoutIdentities, TheOrderOfSightingsDecidesNothing) {
 // Mutation tried: the joint test asked where nothing competes, with a gate of its own.
 TEST_P(WithoutIdentities, WhereNothingCompetesTheJointTestIsSilent) {
   const Unlabelled drive;
-  FilterConfig joint = drive.config();
-  joint.association = Association::kJoint;
-  const Outcome one = drive_unlabelled(GetParam(), drive.config(), drive, 2);
-  const Outcome other = drive_unlabelled(GetParam(), joint, drive, 2);
+  FilterConfig individual = drive.config();
+  individual.association = Association::kIndividual;
+  const Outcome one = drive_unlabelled(GetParam(), individual, drive, 2);
+  const Outcome other = drive_unlabelled(GetParam(), drive.config(), drive, 2);
   EXPECT_TRUE(one.matched == other.matched);
   EXPECT_TRUE(near(one.path.back(), other.path.back(), 0.0));
   EXPECT_EQ(other.counters.joint_searches_cut, 0);
@@ -153,6 +154,35 @@ TEST_P(WithoutIdentities, ClutterVanishesAndLandmarksStay) {
   for (int i = 0; i < landmarks; ++i) EXPECT_LE(std::ranges::count(knowing.mapped, i), 1) << i;
   const auto real = static_cast<long>(knowing.mapped.size()) - spurious(knowing);
   EXPECT_GE(real, landmarks - 2);
+}
+
+// Mutations tried: any landmark trusted; a sighting of a doubtful one weighed like one of a landmark.
+TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
+  const FilterConfig config{.sector = {10.0, 1.5, 0.1, 2.0}};
+  PoseCorrection<Linearised> correction(config);
+  const PoseBelief predicted{{}, 0.01 * Eigen::Matrix3d::Identity()};
+  const std::vector<Sighting> frame = {
+      {{{4.1, 0.01}, Eigen::Vector2d(0.01, 0.0004).asDiagonal()}, kUnknown, kUnknown, 0}};
+  std::vector<double> log_likelihoods;
+  for (const float log_odds : {0.0F, 10.0F}) {
+    Particle particle;
+    Landmark landmark{{{4.0, 0.0}, 0.01 * Eigen::Matrix2d::Identity()}};
+    landmark.log_odds = log_odds;
+    particle.classed.push_back(landmark);
+    std::vector<Target> targets(1);
+    FilterCounters counters;
+    const Posterior posterior = correction.correct(particle, predicted, frame, targets, counters);
+    EXPECT_EQ(targets[0].landmark, 0);
+    EXPECT_EQ(targets[0].fate, log_odds > 0.0F ? Fate::kUse : Fate::kConfirm);
+    EXPECT_EQ(near(posterior.pose.mean, predicted.mean, 0.0), log_odds == 0.0F);
+    log_likelihoods.push_back(posterior.log_likelihood);
+  }
+  Particle empty;
+  std::vector<Target> targets(1);
+  FilterCounters counters;
+  EXPECT_EQ(correction.correct(empty, predicted, frame, targets, counters).log_likelihood,
+            log_likelihoods[0]);
+  EXPECT_GT(log_likelihoods[1], log_likelihoods[0]);
 }
 
 }  // namespace
