@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "slam/elementary.h"
 #include "slam/measurement.h"
 
 namespace stereobench::slam {
@@ -26,8 +27,8 @@ Existence::Existence(const SensorSector& sector) : sector_(sector) {
   const double false_per_look = std::max(sector.false_per_look, kLeastFalse);
   area_m2_ = sector.half_angle_rad * sector.range_m * sector.range_m;
   clutter_per_m2_ = false_per_look / area_m2_;
-  founded_ = std::max(kLeastFounded, static_cast<float>(std::log(kNewPerLook / false_per_look)));
-  missed_ = static_cast<float>(std::log(std::max(sector.miss_probability, kLeastMissed)));
+  founded_ = std::max(kLeastFounded, static_cast<float>(logarithm(kNewPerLook / false_per_look)));
+  missed_ = static_cast<float>(logarithm(std::max(sector.miss_probability, kLeastMissed)));
 }
 
 float Existence::seen(float log_odds, const Observation& observation) const {
@@ -36,7 +37,7 @@ float Existence::seen(float log_odds, const Observation& observation) const {
       observation.range_bearing.x() * std::sqrt(std::max(0.0, observation.noise.determinant()));
   const double by_clutter = clutter_per_m2_ * std::numbers::pi * kGateArea * spread_m2;
   const double there = 1.0 - std::max(sector_.miss_probability, kLeastMissed);
-  const double evidence = std::max(0.0, std::log(there / by_clutter));
+  const double evidence = std::max(0.0, logarithm(there / by_clutter));
   return std::min(kSurest, log_odds + static_cast<float>(std::min<double>(evidence, kSurest)));
 }
 
@@ -53,7 +54,7 @@ double Existence::cost_of_new(const Observation& observation) const {
   if (!is_tracked()) return std::numeric_limits<double>::infinity();
   constexpr double kNearest = 1e-3;  // of the sector's range
   const double range_m = std::max(observation.range_bearing.x(), kNearest * sector_.range_m);
-  return -2.0 * std::log((kNewPerLook / area_m2_ + clutter_per_m2_) * range_m);
+  return -2.0 * logarithm((kNewPerLook / area_m2_ + clutter_per_m2_) * range_m);
 }
 
 }  // namespace stereobench::slam

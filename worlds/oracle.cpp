@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
 
@@ -20,7 +21,7 @@ slam::RangeBearing measured(const Eigen::Vector2d& range_bearing, const OracleSe
 
 /// The product of uniform numbers falls below e^-mean after Poisson many of them (Knuth).
 int poisson(double mean, slam::RandomStream& chance) {
-  const double limit = std::exp(-mean);
+  const double limit = slam::exponential(-mean);
   int count = 0;
   for (double product = chance.uniform(); product > limit; product *= chance.uniform()) ++count;
   return count;

@@ -57,8 +57,8 @@ TEST(Scenario, SaysHowLandmarksAreToldApart) {
   EXPECT_EQ(read_small().association, slam::Association::kJoint);
   EXPECT_EQ(read_small().oracle.false_per_look, 0.0);
   EXPECT_EQ(read_small().oracle.miss_probability, 0.0);
-  const Scenario scenario = read_small(
-      {"identity=none", "association=individual", "oracle.false_per_look=0.5", "oracle.miss_probability=0.1"});
+  const Scenario scenario = read_small({"identity=none", "association=individual",
+                                        "oracle.false_per_look=0.5", "oracle.miss_probability=0.1"});
   EXPECT_EQ(scenario.identity, Identity::kNone);
   EXPECT_EQ(scenario.association, slam::Association::kIndividual);
   EXPECT_EQ(scenario.oracle.false_per_look, 0.5);
