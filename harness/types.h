@@ -16,6 +16,9 @@ struct LogStep {
   std::vector<slam::Control> odometry;  ///< as measured, with its noise
   std::vector<slam::RangeBearing> measurements;
   std::optional<slam::Pose> truth;  ///< world_from_robot, where it is known
+  /// Whose each measurement is, which no filter is told: index into MeasurementLog::landmarks, or kUnknown
+  /// for one of nothing. Empty where it is not known.
+  std::vector<int> true_landmarks;
 };
 
 /// A landmark's true place.
@@ -33,6 +36,16 @@ struct MeasurementLog {
   std::vector<LandmarkTruth> landmarks;
 };
 
+/// How a filter's decisions about sightings and landmarks turned out (judge, judge_map).
+struct AssociationScore {
+  long correct = 0;     ///< sightings given to their landmark, new ones of what was new, clutter not believed
+  long wrong = 0;       ///< sightings given to another landmark, and clutter given to any
+  long missed = 0;      ///< sightings of a landmark in the map that were taken for new, refused or ignored
+  long imagined = 0;    ///< clutter taken for a new landmark
+  long duplicated = 0;  ///< landmarks of the final map, beyond the first, that are the same true one
+  long spurious = 0;    ///< landmarks of the final map that are none
+};
+
 /// One filter's estimates over a log, aligned with its steps.
 struct FilterRun {
   std::string filter;
@@ -40,9 +53,10 @@ struct FilterRun {
   std::uint64_t seed = 0;
   std::vector<slam::Pose> poses;
   std::vector<Eigen::Matrix3d> covariances;
-  slam::Estimate last;  ///< the final estimate, with its map
-  bool failed = false;  ///< it threw, or a pose was not finite
-  std::string failure;  ///< why, and at which step; empty when it did not fail
+  slam::Estimate last;                          ///< the final estimate, with its map
+  std::optional<AssociationScore> association;  ///< where the log says whose the sightings are
+  bool failed = false;                          ///< it threw, or a pose was not finite
+  std::string failure;                          ///< why, and at which step; empty when it did not fail
 };
 
 /// The least covariances that any filter's estimates over a log can have.

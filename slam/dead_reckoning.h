@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "slam/decisions.h"
 #include "slam/linearised.h"
 
 namespace stereobench::slam {
@@ -18,6 +19,7 @@ class DeadReckoning {
   Estimate estimate() const;
   Estimate estimate_without_map() const { return estimate(); }
   int particle_count() const { return 1; }
+  Decisions last_decisions() const { return {}; }
 
  private:
   OdometryNoise noise_;

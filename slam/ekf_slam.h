@@ -7,6 +7,8 @@
 
 #include "slam/association.h"
 #include "slam/contradiction.h"
+#include "slam/decisions.h"
+#include "slam/existence.h"
 #include "slam/filter_config.h"
 #include "slam/frame_reader.h"
 #include "slam/joint_belief.h"
@@ -23,7 +25,7 @@ namespace stereobench::slam {
 ///
 /// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
 /// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
-/// sighting follow the rules of PoseCorrection.
+/// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapUpkeep.
 class EkfSlam {
  public:
   EkfSlam(const FilterConfig& config, const Pose& start);
@@ -33,6 +35,7 @@ class EkfSlam {
   Estimate estimate() const;
   Estimate estimate_without_map() const;
   int particle_count() const { return 1; }
+  Decisions last_decisions() const;
 
  private:
   /// What is known of a landmark besides its place.
@@ -40,6 +43,9 @@ class EkfSlam {
     int slot = kUnknown;
     int colour_class = kUnknown;
     TrackRecord record;
+    int origin = kUnknown;  ///< the sighting that founded it
+    float log_odds = 0.0F;  ///< that it exists
+    bool claimed = false;   ///< by a sighting of the frame in progress
   };
   /// A frame beside what becomes of it.
   struct Decided {
@@ -50,21 +56,28 @@ class EkfSlam {
 
   Decided associate(std::span<const Sighting> frame);
   void find_candidates(const Sighting& sighting, int index, std::vector<Candidate>& candidates);
+  void associate_jointly(std::span<const Sighting> frame, std::vector<Candidate>& candidates);
+  void note_decisions(const Decided& decided);
   void correct_one_by_one(Decided& decided);
   Fate use(int landmark, const Sighting& sighting, bool vouched);
   std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
-  void add(const Sighting& sighting);
+  Fate add(const Sighting& sighting);
+  bool may_be_mapped(const Sighting& sighting, const LandmarkBelief& found);
+  int place_for_new() const;
+  void weaken_unseen();
 
   FilterConfig config_;
   double gate_;
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
+  Existence existence_;
   Linearised model_;
   FrameReader reader_;
   JointBelief belief_;  ///< at the last update
   PoseBelief motion_;   ///< since the last update, in the robot's frame of that time
   std::vector<Mapped> map_;
   std::vector<int> landmark_of_slot_;
+  std::vector<Decision> decided_;  ///< of the last frame
   FilterCounters counters_;
 };
 

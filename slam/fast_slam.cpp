@@ -11,25 +11,6 @@
 #include "slam/resampling.h"
 
 namespace stereobench::slam {
-namespace {
-
-/// @return whether the map has a landmark of the same colour nearer than a distance
-bool has_neighbour(const LandmarkMap& map, const Landmark& landmark, double near_m) {
-  const Eigen::Vector2d& place = landmark.belief.mean;
-  bool found = false;
-  map.visit(
-      [&](const LandmarkBounds& bounds) {
-        return !found && bounds.places_m.exteriorDistance(place) < near_m;
-      },
-      [&](std::size_t, const Landmark& other) {
-        const bool near = (other.belief.mean - place).norm() < near_m;
-        found = found || (near && other.colour_class == landmark.colour_class);
-      });
-  return found;
-}
-
-}  // namespace
-
 template <class Model>
 FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
                           Proposal proposal, Updates updates)
@@ -38,6 +19,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       model_(config.unscented),
       reader_(config),
       correction_(config, updates),
+      upkeep_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size(), -logarithm(static_cast<double>(config.particles))),
@@ -58,15 +40,20 @@ void FastSlam<Model>::predict(const Control& control) {
 template <class Model>
 void FastSlam<Model>::update(std::span<const RangeBearing> sightings) {
   const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
+  decided_.clear();
   if (frame.empty()) return;
   const bool believed = correct(frame);
   if (believed) {
     if (proposal_ == Proposal::kMotion) draw_from_motion(frame);
     reweigh();
+  }
+  note_decisions(frame);
+  if (believed) {
     if (effective_ < config_.resample_below * static_cast<double>(particles_.size())) resample();
     draw_poses();
   }
   for (std::size_t i = 0; i < particles_.size(); ++i) update_map(i, frame);
+  for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].fate = targets_of(decider_)[k].fate;
 }
 
 template <class Model>
@@ -109,6 +96,18 @@ void FastSlam<Model>::reweigh() {
   belief_ = mixed_pose(posteriors_, log_weights_);
 }
 
+/// Before resampling, which the heaviest particle survives in its place, and before landmarks are moved.
+template <class Model>
+void FastSlam<Model>::note_decisions(std::span<const Sighting> frame) {
+  decider_ = static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const Target& target = targets_of(decider_)[k];
+    const bool held = target.landmark >= 0;
+    const int origin = held ? landmark_of(particles_[decider_], frame[k], target).origin : kUnknown;
+    decided_.push_back({frame[k].number, target.fate, origin});
+  }
+}
+
 template <class Model>
 void FastSlam<Model>::resample() {
   const std::vector<int> ancestors =
@@ -145,14 +144,16 @@ Eigen::Vector3d FastSlam<Model>::normals() {
 
 template <class Model>
 void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting> frame) {
-  const std::span<const Target> targets = targets_of(particle);
+  const std::span<Target> targets = targets_of(particle);
   Particle& mine = particles_[particle];
   for (std::size_t k = 0; k < frame.size(); ++k) {
     if (targets[k].landmark >= 0 && targets[k].fate != Fate::kIgnore) learn(mine, frame[k], targets[k]);
   }
+  upkeep_.survey(mine, frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].fate == Fate::kAdd) add(mine, frame[k]);
+    if (targets[k].fate == Fate::kAdd) targets[k].fate = add(mine, frame[k]);
   }
+  upkeep_.weaken_unseen(mine);
 }
 
 template <class Model>
@@ -163,7 +164,9 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
     ++landmark.refusals;
   } else if (target.fate == Fate::kMove) {
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
-  } else if (target.fate == Fate::kUse) {
+    landmark.origin = sighting.number;
+    landmark.log_odds = upkeep_.existence().founded();
+  } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
     const LandmarkBelief refined =
         model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
     if (refined.mean.allFinite() && refined.covariance.allFinite()) {
@@ -173,28 +176,30 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
     }
     landmark.refusals = 0;
     ++landmark.uses;
+    landmark.log_odds = upkeep_.existence().seen(landmark.log_odds, sighting.observation);
   }
   map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);
 }
 
+/// @return kAdd, or kIgnore for what is no new landmark
 template <class Model>
-void FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
+Fate FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
   long& repairs = counters_.covariance_repairs;
   const auto slot = static_cast<std::size_t>(sighting.slot);
   if (sighting.slot != kUnknown && slot < particle.known.size()) {  // seen twice in the frame that found it
     learn(particle, sighting, {Fate::kUse, sighting.slot});
-    return;
+    return Fate::kAdd;
   }
-  const Landmark found{model_.found(particle.pose, sighting.observation, repairs), sighting.colour_class};
+  const LandmarkBelief found = model_.found(particle.pose, sighting.observation, repairs);
   if (sighting.slot != kUnknown) {
-    particle.known.push_back(found);
-    return;
+    Landmark landmark{found, sighting.colour_class};
+    landmark.origin = sighting.number;
+    particle.known.push_back(landmark);
+  } else if (!upkeep_.add(particle, sighting, found)) {
+    ++counters_.gated_measurements;  // no other landmark of this colour can be here
+    return Fate::kIgnore;
   }
-  if (has_neighbour(particle.classed, found, 0.5 * config_.colour_spacing_m)) {
-    ++counters_.gated_measurements;  // no second landmark of this colour can be here
-  } else {
-    particle.classed.push_back(found);
-  }
+  return Fate::kAdd;
 }
 
 template <class Model>
@@ -205,15 +210,30 @@ Estimate FastSlam<Model>::estimate() const {
   for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
     const LandmarkBelief mixed = mixed_landmark(particles_, log_weights_, slot);
     const RangeBearing& first = reader_.first_sighting(slot);
-    estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance});
+    estimate.landmarks.push_back(
+        {first.landmark_id, first.colour_class, mixed.mean, mixed.covariance, reported.known[slot].origin});
   }
   for (std::size_t i = 0; i < reported.classed.size(); ++i) {
     const Landmark& own = reported.classed[i];
+    if (!Existence::is_believed(own.log_odds)) continue;
     const LandmarkBelief mixed =
         mixed_landmark_near(particles_, log_weights_, own, 0.5 * config_.colour_spacing_m);
-    estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance});
+    estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance, own.origin});
   }
   return estimate;
+}
+
+template <class Model>
+Decisions FastSlam<Model>::last_decisions() const {
+  Decisions decisions{decided_, {}};
+  const Particle& particle = particles_[decider_];
+  for (std::size_t slot = 0; slot < particle.known.size(); ++slot)
+    decisions.mapped.push_back(particle.known[slot].origin);
+  for (std::size_t i = 0; i < particle.classed.size(); ++i) {
+    const Landmark& landmark = particle.classed[i];
+    if (!Existence::is_dead(landmark.log_odds)) decisions.mapped.push_back(landmark.origin);
+  }
+  return decisions;
 }
 
 template <class Model>

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "slam/belief.h"
+#include "slam/decisions.h"
 #include "slam/filter_config.h"
 #include "slam/frame_reader.h"
 #include "slam/linearised.h"
+#include "slam/map_upkeep.h"
 #include "slam/particle.h"
 #include "slam/pose_correction.h"
 #include "slam/random.h"
@@ -52,23 +54,28 @@ class FastSlam {
   Estimate estimate_without_map() const;
   int particle_count() const { return static_cast<int>(particles_.size()); }
 
+  /// @return what the particle that the last frame left heaviest made of it
+  Decisions last_decisions() const;
+
  private:
   std::span<Target> targets_of(std::size_t particle);
   bool correct(std::span<const Sighting> frame);
   void draw_from_motion(std::span<const Sighting> frame);
   void reweigh();
+  void note_decisions(std::span<const Sighting> frame);
   void resample();
   void draw_poses();
   Eigen::Vector3d normals();
   void update_map(std::size_t particle, std::span<const Sighting> frame);
   void learn(Particle& particle, const Sighting& sighting, const Target& target);
-  void add(Particle& particle, const Sighting& sighting);
+  Fate add(Particle& particle, const Sighting& sighting);
 
   FilterConfig config_;
   Proposal proposal_;
   Model model_;
   FrameReader reader_;
   PoseCorrection<Model> correction_;
+  MapUpkeep upkeep_;
   RandomStream random_;
   std::vector<Particle> particles_;
   std::vector<double> log_weights_;    ///< normalised
@@ -77,6 +84,8 @@ class FastSlam {
   PoseBelief motion_;                  ///< since the last update, in the robot's frame of that time
   PoseBelief belief_;                  ///< at the last update, over all particles
   double effective_;
+  std::size_t decider_ = 0;        ///< the particle that the last frame left heaviest
+  std::vector<Decision> decided_;  ///< what it made of that frame
   FilterCounters counters_;
 };
 

@@ -20,6 +20,15 @@ void check(const OdometryNoise& noise) {
           "odometry_noise must be finite and >= 0");
 }
 
+void check(const SensorSector& sector) {
+  require(is_sd(sector.range_m) && is_sd(sector.half_angle_rad) && is_sd(sector.false_per_look),
+          "sector must be finite and >= 0");
+  require((sector.range_m > 0.0) == (sector.half_angle_rad > 0.0),
+          "sector must have both a range and an angle, or neither");
+  require(sector.miss_probability >= 0.0 && sector.miss_probability < 1.0,
+          "sector.miss_probability must be in [0, 1)");
+}
+
 void check(const FilterConfig& config) {
   check(config.odometry_noise);
   require(config.particles >= 1, "particles must be >= 1");
@@ -33,6 +42,7 @@ void check(const FilterConfig& config) {
     require(is_sd(law->range_sd_m) && is_sd(law->range_sd_per_m2) && is_sd(law->bearing_sd_rad),
             "noise_law must be finite and >= 0");
   }
+  check(config.sector);
   const UnscentedParameters& unscented = config.unscented;
   require(std::isfinite(unscented.alpha) && unscented.alpha > 0.0, "unscented.alpha must be > 0");
   require(std::isfinite(unscented.beta) && std::isfinite(unscented.kappa) && unscented.kappa > -2.0,
@@ -76,6 +86,10 @@ int particle_count(const Filter& filter) {
 
 Estimate estimate_without_map(const Filter& filter) {
   return std::visit([](const auto& some) { return some.estimate_without_map(); }, filter);
+}
+
+Decisions last_decisions(const Filter& filter) {
+  return std::visit([](const auto& some) { return some.last_decisions(); }, filter);
 }
 
 }  // namespace stereobench::slam

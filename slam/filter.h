@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "slam/dead_reckoning.h"
+#include "slam/decisions.h"
 #include "slam/ekf_slam.h"
 #include "slam/fast_slam.h"
 #include "slam/filter_config.h"
@@ -43,5 +44,9 @@ int particle_count(const Filter& filter);
 
 /// @return the same without its map, at a cost that does not depend on the map
 Estimate estimate_without_map(const Filter& filter);
+
+/// @return what became of the sightings of the last update; for a filter of many particles, by the one that
+/// the frame left heaviest. Nothing for a filter without a map
+Decisions last_decisions(const Filter& filter);
 
 }  // namespace stereobench::slam

@@ -31,6 +31,20 @@ struct NoiseLaw {
   double bearing_sd_rad = 0.0;
 };
 
+/// How the sightings of a frame are given to landmarks where identities are not known.
+enum class Association {
+  kIndividual,  ///< each pair for itself, likeliest first
+  kJoint,       ///< where sightings or landmarks compete, the largest set of pairs that one pose explains
+};
+
+/// What the sensor says of itself, where it says so: how far and wide it sees, and how well.
+struct SensorSector {
+  double range_m = 0.0;         ///< 0 = nothing is declared
+  double half_angle_rad = 0.0;  ///< to each side of straight ahead
+  double miss_probability = 0.0;
+  double false_per_look = 0.0;  ///< sightings of nothing, on average
+};
+
 /// Settings of a filter; dead reckoning reads the odometry's noise only.
 struct FilterConfig {
   int particles = 100;           ///< M >= 1
@@ -51,6 +65,9 @@ struct FilterConfig {
   /// sighting that lies within half of it of a landmark of its colour is that landmark, however sure the
   /// filter was.
   double colour_spacing_m = 0.0;
+
+  Association association = Association::kJoint;
+  SensorSector sector;
 
   UnscentedParameters unscented;
 };

@@ -9,12 +9,13 @@ std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings,
   std::vector<Sighting> frame;
   frame.reserve(sightings.size());
   for (const RangeBearing& seen : sightings) {
+    const int number = given_++;
     if (!is_valid(seen)) {
       ++rejected;
       continue;
     }
-    frame.push_back(
-        {observe(seen, config_), seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
+    const int slot = seen.landmark_id >= 0 ? slot_for(seen) : kUnknown;
+    frame.push_back({observe(seen, config_), slot, seen.colour_class, number});
   }
   return frame;
 }

@@ -17,7 +17,7 @@ class FrameReader {
 
   /// @param sightings of one instant
   /// @param rejected counts those that cannot be and are left out
-  /// @return the others, in their order, each with the slot of its identity
+  /// @return the others, in their order, each with its number and the slot of its identity
   std::vector<Sighting> read(std::span<const RangeBearing> sightings, long& rejected);
 
   /// @return what was seen when a slot was given out: identity and colour of its landmark
@@ -27,6 +27,7 @@ class FrameReader {
   int slot_for(const RangeBearing& sighting);
 
   FilterConfig config_;
+  int given_ = 0;
   std::map<int, int> slot_of_id_;
   std::vector<RangeBearing> first_sightings_;  ///< by slot
 };

@@ -39,6 +39,15 @@ Eigen::Matrix<double, 5, 5> JointCovariance::pose_and_landmark(int index) const 
   return block;
 }
 
+Eigen::Matrix<double, 5, 5> JointCovariance::between(int one, int other) const {
+  const auto row = [](int landmark, Eigen::Index i) { return i < 3 ? i : row_of(landmark) + i - 3; };
+  Eigen::Matrix<double, 5, 5> block;
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index j = 0; j < 5; ++j) block(i, j) = at(row(one, i), row(other, j));
+  }
+  return block;
+}
+
 void JointCovariance::move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise) {
   const Eigen::Matrix3d moved = by_pose * pose() * by_pose.transpose() + noise;
   for (Eigen::Index i = 0; i < 3; ++i) {

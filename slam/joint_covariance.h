@@ -25,6 +25,9 @@ class JointCovariance {
   /// @return of (pose, landmark)
   Eigen::Matrix<double, 5, 5> pose_and_landmark(int index) const;
 
+  /// @return between (pose, one landmark) and (pose, another)
+  Eigen::Matrix<double, 5, 5> between(int one, int other) const;
+
   /// The pose becomes by_pose * pose + noise, which no landmark feels: O(n).
   void move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise);
 

@@ -16,8 +16,10 @@ namespace stereobench::slam {
 struct Landmark {
   LandmarkBelief belief;
   int colour_class = kUnknown;
-  int uses = 1;      ///< sightings that agreed with it, the first included
-  int refusals = 0;  ///< sightings since the last agreement that contradicted it
+  int uses = 1;           ///< sightings that agreed with it, the first included
+  int refusals = 0;       ///< sightings since the last agreement that contradicted it
+  int origin = kUnknown;  ///< the sighting that founded it
+  float log_odds = 0.0F;  ///< that it exists at all
 };
 
 /// What a group of landmarks keeps within.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/elementary.h"
+#include "slam/existence.h"
 #include "slam/gaussian.h"
 
 namespace stereobench::slam {
@@ -38,6 +39,7 @@ const Landmark* nearest(const LandmarkMap& map, const Landmark& own, double with
             [&](std::size_t, const Landmark& landmark) {
               const double distance = (landmark.belief.mean - place).norm();
               if (landmark.colour_class != own.colour_class || distance > within_m) return;
+              if (Existence::is_dead(landmark.log_odds)) return;
               best = &landmark;
               within_m = distance;
             });

@@ -22,15 +22,17 @@ struct Sighting {
   Observation observation;
   int slot = kUnknown;
   int colour_class = kUnknown;
+  int number = kUnknown;  ///< counted over all sightings a filter was given
 };
 
 /// What becomes of a sighting.
 enum class Fate {
-  kAdd,     ///< something that is not in the map yet
-  kUse,     ///< corrects the pose, then the landmark
-  kMove,    ///< the landmark turned out to be wrong and is found anew
-  kRefuse,  ///< contradicts its landmark and is not believed
-  kIgnore,  ///< a double of another sighting
+  kAdd,      ///< something that is not in the map yet
+  kUse,      ///< corrects the pose, then the landmark
+  kConfirm,  ///< speaks for a landmark that may be clutter, which is not trusted to correct the pose
+  kMove,     ///< the landmark turned out to be wrong and is found anew
+  kRefuse,   ///< contradicts its landmark and is not believed
+  kIgnore,   ///< a double of another sighting, or too near a landmark to be new and too far to be it
 };
 
 /// A sighting's fate, and the index of its landmark in the particle's map; -1 where it has none.

@@ -7,6 +7,7 @@
 #include "slam/contradiction.h"
 #include "slam/elementary.h"
 #include "slam/gaussian.h"
+#include "slam/joint_compatibility.h"
 #include "slam/measurement.h"
 #include "slam/noise_law.h"
 
@@ -75,7 +76,9 @@ PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates update
       updates_(updates),
       gate_probability_(config.gate_probability),
       gate_(chi_square_2_quantile(config.gate_probability)),
-      near_m_(0.5 * config.colour_spacing_m) {}
+      near_m_(0.5 * config.colour_spacing_m),
+      association_(config.association),
+      existence_(config.sector) {}
 
 template <class Model>
 Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
@@ -101,6 +104,7 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
       for (const std::size_t k : order_) targets[k].fate = Fate::kUse;
     }
   }
+  posterior.log_likelihood += log_density_of_new(frame, targets);
   if (is_finite(posterior)) return posterior;
   ++counters.covariance_repairs;
   return {predicted, -std::numeric_limits<double>::infinity(), false};
@@ -110,9 +114,9 @@ template <class Model>
 double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pose& drawn,
                                              std::span<const Sighting> frame, std::span<const Target> targets,
                                              long& repairs) const {
-  double sum = 0.0;
+  double sum = log_density_of_new(frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark < 0) continue;
+    if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
     const Surprise surprise(model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation, repairs),
@@ -136,7 +140,57 @@ void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief
       targets[k] = {Fate::kUse, frame[k].slot};
     }
   }
-  if (!candidates_.empty()) assign(candidates_, near_m_ > 0.0, targets);
+  if (association_ == Association::kJoint && compete(candidates_))
+    associate_jointly(particle, predicted, frame, counters);
+  if (candidates_.empty()) return;
+  assign(candidates_, near_m_ > 0.0, targets);
+  for (std::size_t k = 0; existence_.is_tracked() && k < frame.size(); ++k) {
+    if (frame[k].slot != kUnknown || targets[k].fate != Fate::kUse) continue;
+    if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).log_odds))
+      targets[k].fate = Fate::kConfirm;
+  }
+}
+
+/// Drops the candidates that do not go with the rest of the frame. Given a particle's path its landmarks are
+/// independent, so that the pose alone ties their sightings together.
+template <class Model>
+void PoseCorrection<Model>::associate_jointly(const Particle& particle, const PoseBelief& predicted,
+                                              std::span<const Sighting> frame, FilterCounters& counters) {
+  const Eigen::Matrix3d root = semidefinite_root<3>(predicted.covariance, counters.covariance_repairs);
+  std::vector<Pairing> pairings;
+  std::vector<Eigen::Matrix<double, 2, 3>> by_error;  // of the pose, in its standard deviations
+  for (const Candidate& pair : candidates_) {
+    const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
+    const LandmarkBelief& landmark = particle.classed[static_cast<std::size_t>(pair.landmark)].belief;
+    const Eigen::Matrix2d by_landmark = sighting_by_landmark(predicted.mean, landmark.mean);
+    Eigen::Matrix<double, 2, 3> by_pose;
+    by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
+    by_error.push_back(by_pose * root);
+    const Eigen::Vector2d expected = predict_sighting(predicted.mean, landmark.mean);
+    pairings.push_back({sighting_residual(observation.range_bearing, expected),
+                        by_error.back() * by_error.back().transpose() +
+                            by_landmark * landmark.covariance * by_landmark.transpose() +
+                            noise_at(observation, expected)});
+  }
+  const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
+    return by_error[a] * by_error[b].transpose();
+  };
+  keep_joint(candidates_, pairings, tie, gate_probability_, counters.joint_searches_cut);
+}
+
+/// The log density of the sightings that were given to no landmark that is believed in; those with an
+/// identity are new to all particles alike.
+template <class Model>
+double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame,
+                                                 std::span<const Target> targets) const {
+  if (!existence_.is_tracked()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const Fate fate = targets[k].fate;
+    const bool of_none = fate == Fate::kAdd || fate == Fate::kIgnore || fate == Fate::kConfirm;
+    if (of_none && frame[k].slot == kUnknown) sum -= 0.5 * existence_.cost_of_new(frame[k].observation);
+  }
+  return sum;
 }
 
 template <class Model>
@@ -145,19 +199,21 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
   const Observation& observation = sighting.observation;
   const Eigen::Vector2d place = locate(predicted.mean, observation.range_bearing);
   const double variance_m2 = place_variance(predicted, observation);
+  const double cost_of_new = existence_.cost_of_new(observation);
   const auto may_match = [&](const LandmarkBounds& bounds) {
     const double growth_m2 = range_variance_growth(observation, farthest_m(bounds.places_m, predicted.mean));
     const double gated_m2 = kSearchMargin * gate_ * (variance_m2 + growth_m2 + bounds.largest_variance_m2);
     return bounds.places_m.squaredExteriorDistance(place) <= std::max(gated_m2, near_m_ * near_m_);
   };
   particle.classed.visit(may_match, [&](std::size_t j, const Landmark& landmark) {
-    if (landmark.colour_class != sighting.colour_class) return;
+    if (landmark.colour_class != sighting.colour_class || Existence::is_dead(landmark.log_odds)) return;
     long& repairs = counters.covariance_repairs;
     const Surprise surprise(model_.expect(predicted, landmark.belief, observation, repairs), observation,
                             repairs);
-    const bool gated = !(surprise.squared_length <= gate_);
+    const double cost = -2.0 * surprise.log_likelihood();
+    const bool gated = !(surprise.squared_length <= gate_ && cost <= cost_of_new);
     if (gated && !((place - landmark.belief.mean).norm() < near_m_)) return;
-    candidates_.push_back({index, static_cast<int>(j), -2.0 * surprise.log_likelihood(), gated});
+    candidates_.push_back({index, static_cast<int>(j), cost, gated});
   });
 }
 

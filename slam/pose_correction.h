@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/association.h"
+#include "slam/existence.h"
 #include "slam/filter_config.h"
 #include "slam/frame_fit.h"
 #include "slam/frame_update.h"
@@ -44,6 +45,12 @@ enum class Updates {
 /// sighting is used. Its likelihood falls with the square of that drift, so that particles which close the
 /// loop best live on. Where the spacing of colours is known a single sighting settles whose it is, and no
 /// patience is needed.
+///
+/// **Association.** Without an identity a sighting is held against the landmarks of its colour class (all
+/// that have none are one class) within the gate, where they are likelier than a landmark that is new. A
+/// sighting of nothing in the map costs the particle the density of new landmarks and clutter, where the
+/// sensor says enough of itself to know it: else a particle could not be told apart from one that takes all
+/// for new. So does one of a landmark that may be clutter; it corrects no pose.
 template <class Model>
 class PoseCorrection {
  public:
@@ -68,6 +75,9 @@ class PoseCorrection {
                  std::span<Target> targets, FilterCounters& counters);
   void find_candidates(const Particle& particle, const PoseBelief& predicted, const Sighting& sighting,
                        int index, FilterCounters& counters);
+  void associate_jointly(const Particle& particle, const PoseBelief& predicted,
+                         std::span<const Sighting> frame, FilterCounters& counters);
+  double log_density_of_new(std::span<const Sighting> frame, std::span<const Target> targets) const;
   std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
                                       long& repairs) const;
   void order_by_age(std::span<const Target> targets);
@@ -81,6 +91,8 @@ class PoseCorrection {
   double gate_probability_;
   double gate_;
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
+  Association association_;
+  Existence existence_;
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> late_;  ///< of order_, what is still to be used one after the other

@@ -55,6 +55,7 @@ struct LandmarkEstimate {
   int colour_class = kUnknown;                           ///< the colour it was observed with, or kUnknown
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< in the world frame
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2, symmetric, semidefinite
+  int origin = kUnknown;  ///< the sighting that founded it, counted from 0 over all a filter was given
 };
 
 /// What a filter had to mend or refuse, so that nothing happens in silence.
@@ -64,6 +65,8 @@ struct FilterCounters {
   long weight_collapses = 0;    ///< updates after which every weight had vanished
   long gated_measurements = 0;  ///< (particle, measurement) pairs refused by the outlier gate
   long rejected_inputs = 0;     ///< non-finite or impossible controls and measurements that were ignored
+  long joint_searches_cut =
+      0;  ///< joint associations that would have taken too long and were settled greedily
 };
 
 /// What a filter believes after a step.

@@ -2,32 +2,78 @@
 
 #include <cmath>
 
+#include "slam/elementary.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
 
 namespace stereobench::worlds {
+namespace {
 
-std::vector<slam::RangeBearing> sense(const World& world, const slam::Pose& world_from_robot,
-                                      const OracleSensor& sensor, Identity identity,
-                                      slam::RandomStream& noise) {
-  std::vector<slam::RangeBearing> sightings;
+slam::RangeBearing measured(const Eigen::Vector2d& range_bearing, const OracleSensor& sensor,
+                            slam::RandomStream& noise) {
+  slam::RangeBearing sighting;
+  sighting.range_m = range_bearing.x() + sensor.range_sd_m * noise.normal();
+  sighting.bearing_rad = slam::wrap_angle(range_bearing.y() + sensor.bearing_sd_rad * noise.normal());
+  sighting.covariance.diagonal() << sensor.range_sd_m * sensor.range_sd_m,
+      sensor.bearing_sd_rad * sensor.bearing_sd_rad;
+  return sighting;
+}
+
+/// The product of uniform numbers falls below e^-mean after Poisson many of them (Knuth).
+int poisson(double mean, slam::RandomStream& chance) {
+  const double limit = slam::exponential(-mean);
+  int count = 0;
+  for (double product = chance.uniform(); product > limit; product *= chance.uniform()) ++count;
+  return count;
+}
+
+slam::RangeBearing imagined(const World& world, const OracleSensor& sensor, Identity identity,
+                            slam::RandomStream& chance) {
+  slam::RangeBearing sighting;
+  sighting.range_m = sensor.max_range_m * std::sqrt(chance.uniform());  // area grows with the square
+  sighting.bearing_rad = slam::wrap_angle(sensor.field_of_view_rad * (chance.uniform() - 0.5));
+  sighting.covariance.diagonal() << sensor.range_sd_m * sensor.range_sd_m,
+      sensor.bearing_sd_rad * sensor.bearing_sd_rad;
+  if (identity == Identity::kColourClass) {
+    const double ball = std::floor(chance.uniform() * static_cast<double>(world.balls.size()));
+    sighting.colour_class = world.balls[static_cast<std::size_t>(ball)].colour;
+  }
+  return sighting;
+}
+
+}  // namespace
+
+OracleLook sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
+                 Identity identity, slam::RandomStream& noise) {
+  OracleLook look;
   for (std::size_t id = 0; id < world.balls.size(); ++id) {
     const Eigen::Vector2d truth =
         slam::predict_sighting(world_from_robot, world.balls[id].centre_m.head<2>());
-    const double range_m = truth.x();
-    const double bearing_rad = truth.y();
-    if (range_m > sensor.max_range_m || std::abs(bearing_rad) > sensor.field_of_view_rad / 2.0) continue;
-
-    slam::RangeBearing sighting;
-    sighting.range_m = range_m + sensor.range_sd_m * noise.normal();
-    sighting.bearing_rad = slam::wrap_angle(bearing_rad + sensor.bearing_sd_rad * noise.normal());
-    sighting.covariance.diagonal() << sensor.range_sd_m * sensor.range_sd_m,
-        sensor.bearing_sd_rad * sensor.bearing_sd_rad;
+    if (truth.x() > sensor.max_range_m || std::abs(truth.y()) > sensor.field_of_view_rad / 2.0) continue;
+    slam::RangeBearing sighting = measured(truth, sensor, noise);
     if (identity == Identity::kKnown) sighting.landmark_id = static_cast<int>(id);
     if (identity == Identity::kColourClass) sighting.colour_class = world.balls[id].colour;
-    if (sighting.range_m >= 0.0) sightings.push_back(sighting);
+    if (sighting.range_m < 0.0) continue;
+    look.sightings.push_back(sighting);
+    look.balls.push_back(static_cast<int>(id));
   }
-  return sightings;
+  return look;
+}
+
+OracleLook with_faults(const OracleLook& look, const World& world, const OracleSensor& sensor,
+                       Identity identity, slam::RandomStream& chance) {
+  OracleLook left;
+  for (std::size_t i = 0; i < look.sightings.size(); ++i) {
+    if (sensor.miss_probability > 0.0 && chance.uniform() < sensor.miss_probability) continue;
+    left.sightings.push_back(look.sightings[i]);
+    left.balls.push_back(look.balls[i]);
+  }
+  const int imaginary = sensor.false_per_look > 0.0 ? poisson(sensor.false_per_look, chance) : 0;
+  for (int i = 0; i < imaginary; ++i) {
+    left.sightings.push_back(imagined(world, sensor, identity, chance));
+    left.balls.push_back(slam::kUnknown);
+  }
+  return left;
 }
 
 }  // namespace stereobench::worlds

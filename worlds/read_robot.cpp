@@ -116,12 +116,15 @@ std::optional<slam::NoiseLaw> read_measurement_noise(const YamlValue& value,
 }
 
 OracleSensor read_oracle(const YamlValue& value) {
-  const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg"});
+  const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg",
+                            "miss_probability", "false_per_look"});
   OracleSensor sensor;
   sensor.range_sd_m = map.number("range_sd_m", kNoise);
   sensor.bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree;
   sensor.max_range_m = map.number("max_range_m", kSize_m);
   sensor.field_of_view_rad = map.number("field_of_view_deg", {0.1, 360.0}) * kDegree;
+  sensor.miss_probability = map.number("miss_probability", {0.0, 0.99}, 0.0);
+  sensor.false_per_look = map.number("false_per_look", {0.0, 100.0}, 0.0);
   return sensor;
 }
 

@@ -57,10 +57,13 @@ void read_run(const YamlMap& map, Scenario& scenario) {
 
 void read_sensing(const YamlMap& map, Scenario& scenario) {
   constexpr std::array<std::string_view, 2> kSensors = {"stereo", "oracle"};
-  constexpr std::array<std::string_view, 2> kIdentities = {"known", "colour_class"};
+  constexpr std::array<std::string_view, 3> kIdentities = {"known", "colour_class", "none"};
+  constexpr std::array<std::string_view, 2> kAssociations = {"individual", "joint"};
   scenario.sensor = static_cast<SensorKind>(map.at("sensor").choice(kSensors));
   scenario.identity = static_cast<Identity>(map.at("identity").choice(kIdentities));
   scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
+  if (const auto association = map.find("association"))
+    scenario.association = static_cast<slam::Association>(association->choice(kAssociations));
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
@@ -84,7 +87,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlDocument document = load_yaml(file, overrides);
   const YamlMap map(
       YamlValue(document, "", document.root, document.root.Mark()),
-      {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
+      {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity", "association",
        "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise", "believed_odometry_noise",
        "believed_measurement_noise", "path", "placement_jitter_m", "world"});
   Scenario scenario;

@@ -27,13 +27,14 @@ std::string fault_of_pair(const Scenario& scenario, std::size_t i, std::size_t j
     return fmt::format("expected a place clear of ball {} under any jitter (got {:.3f} m between centres)", i,
                        distance_m);
   }
-  if (a.colour != b.colour) return {};
+  if (a.colour != b.colour && scenario.identity != Identity::kNone) return {};
   if (stereo && scenario.identity == Identity::kKnown) {
     return fmt::format("expected a colour of its own (got {}, as ball {}): identity is known by colour",
                        b.colour, i);
   }
-  if (scenario.identity == Identity::kColourClass && distance_m < scenario.colour_spacing_m) {
-    return fmt::format("expected ball {} of the same colour at least {:g} m away (got {:.3f} m)", i,
+  if (scenario.identity != Identity::kKnown && distance_m < scenario.colour_spacing_m) {
+    return fmt::format("expected ball {}{} at least {:g} m away (got {:.3f} m)", i,
+                       scenario.identity == Identity::kNone ? "" : " of the same colour",
                        scenario.colour_spacing_m, distance_m);
   }
   return {};

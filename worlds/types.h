@@ -78,6 +78,8 @@ struct OracleSensor {
   double bearing_sd_rad = 0.0523598775598299;
   double max_range_m = 30.0;
   double field_of_view_rad = 3.14159265358979;  ///< whole angle, centred forward
+  double miss_probability = 0.0;                ///< of a ball in view, in [0, 1)
+  double false_per_look = 0.0;  ///< sightings of nothing, on average; Poisson, uniform in the sector
 };
 
 /// What the camera adds to a perfect picture.
@@ -89,6 +91,7 @@ struct CameraSensor {
 enum class Identity {
   kKnown,        ///< every sighting carries the landmark's identity (stereo: colours are unique)
   kColourClass,  ///< colours repeat: a sighting carries a colour, the filter finds out which one it is
+  kNone,         ///< a sighting says where something is, and nothing of what it is
 };
 
 /// A limit on a metric of run.json, e.g. {"filters.ufastslam.ate_rms_m.mean", <=, 0.05}.
@@ -113,7 +116,9 @@ struct Scenario {
   OracleSensor oracle;
   CameraSensor camera;
   Identity identity = Identity::kKnown;
-  double colour_spacing_m = 0.0;  ///< kColourClass: two balls of one colour are at least this far apart
+  /// kColourClass: two balls of one colour are at least this far apart; kNone: any two.
+  double colour_spacing_m = 0.0;
+  slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
   std::vector<std::uint64_t> seeds = {0};

@@ -14,32 +14,44 @@
 namespace stereobench::harness {
 namespace {
 
-/// What a robot senses at a step of its path.
-using Sense = std::function<std::vector<slam::RangeBearing>(std::size_t index, const slam::Pose& pose)>;
+/// What a robot senses at a step of its path, and whose each measurement is.
+struct Sensed {
+  std::vector<slam::RangeBearing> measurements;
+  std::vector<int> balls;
+};
+using Sense = std::function<Sensed(std::size_t index, const slam::Pose& pose)>;
 
 /// The measurements a filter is given: whole balls only, and where colours are unique the ball's identity,
 /// which the robot knows by its colour.
-std::vector<slam::RangeBearing> measurements_of(const std::vector<vision::BallObservation>& observations,
-                                                const worlds::World& world, worlds::Identity identity) {
-  std::vector<slam::RangeBearing> measurements;
-  for (const vision::BallObservation& observation : observations) {
+///
+/// @param balls whose each observation is
+Sensed measurements_of(const std::vector<vision::BallObservation>& observations,
+                       const std::vector<int>& balls, const worlds::World& world, worlds::Identity identity) {
+  Sensed sensed;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const vision::BallObservation& observation = observations[i];
     if (!observation.whole()) continue;
     slam::RangeBearing measurement = observation.range_bearing;
+    if (identity == worlds::Identity::kNone) measurement.colour_class = slam::kUnknown;
     if (identity == worlds::Identity::kKnown) {
       const auto ball = std::find_if(world.balls.begin(), world.balls.end(),
                                      [&](const worlds::Ball& b) { return b.colour == observation.colour; });
       if (ball == world.balls.end()) continue;  // a colour that no landmark has
       measurement.landmark_id = static_cast<int>(ball - world.balls.begin());
     }
-    measurements.push_back(measurement);
+    sensed.measurements.push_back(measurement);
+    sensed.balls.push_back(balls[i]);
   }
-  return measurements;
+  return sensed;
 }
 
 Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed) {
   return [&scenario, &world, seed](std::size_t index, const slam::Pose& pose) {
-    slam::RandomStream stream(seed, slam::Stream::kOracle, index);
-    return worlds::sense(world, pose, scenario.oracle, scenario.identity, stream);
+    slam::RandomStream noise(seed, slam::Stream::kOracle, index);
+    slam::RandomStream chance(seed, slam::Stream::kClutter, index);
+    const worlds::OracleLook all = worlds::sense(world, pose, scenario.oracle, scenario.identity, noise);
+    worlds::OracleLook look = worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
+    return Sensed{std::move(look.sightings), std::move(look.balls)};
   };
 }
 
@@ -53,17 +65,17 @@ class StereoSense {
     settings_.noise_sd_levels = scenario.camera.noise_sd_levels;
   }
 
-  std::vector<slam::RangeBearing> look(std::size_t index, const slam::Pose& pose,
-                                       const std::function<void(const Look&)>& on_look) {
+  Sensed look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {
     Stopwatch watch(timing_);
     const renderer::StereoFrame frame = watch.time("render", [&] { return renderer_.render(pose); });
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
     const auto observations =
         watch.time("observe", [&] { return vision::observe(pair, scenario_.rig, settings_); });
-    score_ += score_observations({world_, scenario_.rig, pose, frame}, observations);
+    const VisionTruth truth = {world_, scenario_.rig, pose, frame};
+    score_ += score_observations(truth, observations);
     on_look({index, frame, pair, observations});
-    return measurements_of(observations, world_, scenario_.identity);
+    return measurements_of(observations, balls_observed(truth, observations), world_, scenario_.identity);
   }
 
   const VisionScore& score() const { return score_; }
@@ -98,11 +110,13 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
   slam::RandomStream odometry_stream(seed, slam::Stream::kOdometry);
   for (std::size_t index = 0; index < scenario.path.size(); ++index) {
     const worlds::PathStep& step = scenario.path[index];
+    Sensed sensed = sense(index, step.pose);
     log.steps.push_back(
         {.stamp_ns = step.stamp_ns,
          .odometry = measured_odometry(step.controls, scenario.odometry_noise, odometry_stream),
-         .measurements = sense(index, step.pose),
-         .truth = step.pose});
+         .measurements = std::move(sensed.measurements),
+         .truth = step.pose,
+         .true_landmarks = std::move(sensed.balls)});
     report(static_cast<double>(index + 1) / static_cast<double>(scenario.path.size()));
   }
 }

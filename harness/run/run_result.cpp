@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/report/text_table.h"
+#include "harness/scoring/association_score.h"
 #include "slam/belief.h"
 
 namespace stereobench::harness {
@@ -56,6 +57,13 @@ Json batch_json(const FilterSummary& summary) {
           {"failures", summary.failures}};
 }
 
+Json association_json(const std::optional<AssociationScore>& association) {
+  if (!association) return nullptr;
+  return {{"correct", association->correct},       {"wrong", association->wrong},
+          {"missed", association->missed},         {"imagined", association->imagined},
+          {"duplicated", association->duplicated}, {"spurious", association->spurious}};
+}
+
 Json filter_json(const RunResult& result, const FilterResult& filter) {
   const FilterSummary& summary = filter.summary;
   return {{"particles", summary.particles},
@@ -77,6 +85,7 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
             {"duplicated", summary.landmarks_duplicated},
             {"missed", summary.landmarks_missed},
             {"spurious", summary.landmarks_spurious}}},
+          {"association", association_json(filter.association)},
           {"anees", summary_json(summary.anees)},
           {"failures", summary.failures}};
 }
@@ -158,6 +167,20 @@ std::vector<std::string> row_of(const FilterResult& filter, const std::string& p
           fmt::format("{}", s.failures)};
 }
 
+/// How filters told landmarks apart, for people: sums over the seeds.
+std::string association_table(const std::vector<FilterResult>& filters) {
+  AlignedTable table{
+      .header = {"association", "correct", "wrong", "missed", "imagined", "duplicated", "spurious"}};
+  for (const FilterResult& filter : filters) {
+    if (!filter.association || filter.filter == kBaseline) continue;
+    const AssociationScore& a = *filter.association;
+    table.rows.push_back({filter.filter});
+    for (const long count : {a.correct, a.wrong, a.missed, a.imagined, a.duplicated, a.spurious})
+      table.rows.back().push_back(fmt::format("{}", count));
+  }
+  return table.rows.empty() ? std::string() : "\n" + plain_text(table);
+}
+
 std::vector<std::string> bound_row(const std::vector<BoundScore>& bounds) {
   const Summary pose = over_seeds(bounds, &BoundScore::pose_rms_m);  // of most worlds the same for each seed
   return {"bound",
@@ -184,8 +207,13 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
     result.seeds.push_back(drive.seed);
     if (drive.recording.vision && !result.vision) result.vision.emplace();
     if (drive.recording.vision) *result.vision += *drive.recording.vision;
-    for (std::size_t i = 0; i < drive.runs.size(); ++i)
-      result.filters[i].scores.push_back(score(drive.runs[i], drive.recording.log));
+    result.identities_known = result.identities_known && knows_identities(drive.recording.log);
+    for (std::size_t i = 0; i < drive.runs.size(); ++i) {
+      FilterResult& filter = result.filters[i];
+      filter.scores.push_back(score(drive.runs[i], drive.recording.log));
+      if (const auto& more = drive.runs[i].association)
+        filter.association = filter.association.value_or(AssociationScore{}) + *more;
+    }
     result.batch.scores.push_back(score(drive.references.batch, drive.recording.log));
     if (drive.references.bound) result.bounds.push_back(score(*drive.references.bound));
   }
@@ -246,7 +274,8 @@ std::string result_table(const RunResult& result) {
         result.vision->recall(), result.vision->precision(), result.vision->misidentified,
         format_number(1e3 * result.vision->range_rms_m()),
         format_number(1e3 * result.vision->bearing_rms_rad()));
-  return text + plain_text(table);
+  text += plain_text(table);
+  return result.identities_known ? text : text + association_table(result.filters);
 }
 
 }  // namespace stereobench::harness

@@ -21,6 +21,7 @@ struct FilterResult {
   std::string filter;
   std::vector<FilterScore> scores;  ///< one a seed
   FilterSummary summary;
+  std::optional<AssociationScore> association;  ///< of all seeds, where the logs say whose the sightings are
 };
 
 /// One filter beside another on the same seeds.
@@ -37,6 +38,7 @@ struct RunResult {
   std::string backend;                ///< what rendered, e.g. "osmesa", or "none"
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
+  bool identities_known = true;            ///< by every sighting
   std::vector<Comparison> comparisons;     ///< each filter with those before it, dead reckoning aside
   FilterResult batch;                      ///< the whole log at once
   std::vector<BoundScore> bounds;          ///< one a seed; none where the true controls are not known

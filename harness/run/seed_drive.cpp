@@ -38,6 +38,12 @@ slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
   config.odometry_noise = scenario.believed_odometry_noise;
   config.noise_law = scenario.believed_measurement_noise;
   config.colour_spacing_m = scenario.colour_spacing_m;
+  config.association = scenario.association;
+  if (scenario.sensor == worlds::SensorKind::kOracle) {
+    const worlds::OracleSensor& oracle = scenario.oracle;
+    config.sector = {oracle.max_range_m, oracle.field_of_view_rad / 2.0, oracle.miss_probability,
+                     oracle.false_per_look};
+  }
   return config;
 }
 

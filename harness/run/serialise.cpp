@@ -31,18 +31,20 @@ namespace stereobench::slam {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pose, x_m, y_m, heading_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Control, v_mps, w_radps, duration_s)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RangeBearing, range_m, bearing_rad, covariance, landmark_id, colour_class)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkEstimate, landmark_id, colour_class, position_m, covariance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkEstimate, landmark_id, colour_class, position_m, covariance,
+                                   origin)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterCounters, resamplings, covariance_repairs, weight_collapses,
-                                   gated_measurements, rejected_inputs)
+                                   gated_measurements, rejected_inputs, joint_searches_cut)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Estimate, pose, covariance, landmarks, effective_particles, counters)
 }  // namespace stereobench::slam
 
 namespace stereobench::harness {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth, true_landmarks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, position_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, steps, landmarks)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, failed,
-                                   failure)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, association,
+                                   failed, failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,

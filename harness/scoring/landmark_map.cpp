@@ -30,7 +30,9 @@ std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const E
       continue;
     }
     const double distance_m = (truth[i].position_m - position_m).norm();
-    if (estimate.colour_class == truth[i].colour_class && distance_m <= nearest_m) {
+    const bool alike =
+        estimate.colour_class == slam::kUnknown || estimate.colour_class == truth[i].colour_class;
+    if (alike && distance_m <= nearest_m) {
       nearest = i;
       nearest_m = distance_m;
     }

@@ -24,7 +24,8 @@ slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::spa
                      double match_limit_m = 2.0);
 
 /// Scores a map. An estimate with an identity belongs to the landmark of that identity, however far it
-/// is; one without belongs to the nearest landmark of its colour class within the limit.
+/// is; one without belongs to the nearest landmark within the limit that its colour class, if it has one,
+/// fits.
 /// @param estimates the filter's map
 /// @param truth the true landmarks; an empty list scores as all spurious
 /// @param truth_from_estimate applied to the estimates first: identity, or align_map

@@ -48,8 +48,11 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
   for (std::size_t k = 0; k < path.size(); ++k) {
     for (const slam::Control& control : path[k].controls) bound.move(control);
     std::vector<slam::TrueSighting> frame;
-    for (const slam::RangeBearing& sighting : log.steps[k].measurements) {
-      const int landmark = landmark_of(sighting, path[k].pose, log.landmarks);
+    const LogStep& step = log.steps[k];
+    for (std::size_t i = 0; i < step.measurements.size(); ++i) {
+      const slam::RangeBearing& sighting = step.measurements[i];
+      const int landmark = step.true_landmarks.empty() ? landmark_of(sighting, path[k].pose, log.landmarks)
+                                                       : step.true_landmarks[i];
       if (landmark != slam::kUnknown) frame.push_back({landmark, sighting.covariance});
     }
     bound.look(frame);

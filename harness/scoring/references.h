@@ -12,9 +12,9 @@
 namespace stereobench::harness {
 
 /// Drives the posterior Cramer-Rao bound over a generated log. Each sighting is taken at its word: with the
-/// covariance that it states, and of the landmark that it names or, where it names a colour only, of the one
-/// of its colour nearest to where it was seen from. Knowing identities is more than such a filter has, so it
-/// remains a bound.
+/// covariance that it states, and of the landmark that it is of; where the log does not say, of the one that
+/// it names or, where it names a colour only, of the one of its colour nearest to where it was seen. Knowing
+/// identities is more than such a filter has, so it remains a bound.
 /// @param path the truth behind the log: poses and exact controls
 /// @param noise what the odometry really has
 /// @throws std::invalid_argument when the path has not one step for each step of the log

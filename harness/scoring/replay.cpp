@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/scoring/association_score.h"
+
 namespace stereobench::harness {
 
 namespace {
@@ -34,14 +36,19 @@ FilterRun replay(const MeasurementLog& log, const std::string& filter, const sla
   run.seed = seed;
   slam::Filter state = slam::make_filter(filter, config, log.start, seed);
   run.particles = slam::particle_count(state);
+  const std::vector<int> truth = true_landmarks(log);
+  if (!truth.empty()) run.association.emplace();
   try {
     for (const LogStep& step : log.steps) {
-      if (drive_step(state, step, run)) continue;
+      const bool finite = drive_step(state, step, run);
+      if (run.association) judge(slam::last_decisions(state), truth, *run.association);
+      if (finite) continue;
       run.failed = true;
       run.failure = fmt::format("step {}: the estimate is not finite", run.poses.size());
       break;
     }
     run.last = slam::estimate(state);
+    if (run.association) judge_map(run.last.landmarks, truth, *run.association);
   } catch (const std::exception& error) {
     run.failed = true;
     run.failure = fmt::format("step {}: {}", run.poses.size(), error.what());

@@ -10,7 +10,7 @@
 namespace stereobench::harness {
 
 /// Drives one filter over a log, from the log's start to its last step.
-/// @param log what the robot measured; its truth is not looked at
+/// @param log what the robot measured; its truth is for scores alone
 /// @param filter one of slam::filter_names()
 /// @param config the filter's settings
 /// @param seed of the filter's own random stream

@@ -151,4 +151,15 @@ VisionScore score_observations(const VisionTruth& truth,
   return score;
 }
 
+std::vector<int> balls_observed(const VisionTruth& truth,
+                                std::span<const vision::BallObservation> observations) {
+  const std::vector<BallOutline> balls = ball_outlines(truth);
+  std::vector<int> observed;
+  for (const vision::BallObservation& observation : observations) {
+    const auto under = ball_under(truth, balls, observation);
+    observed.push_back(under ? balls[*under].ball : slam::kUnknown);
+  }
+  return observed;
+}
+
 }  // namespace stereobench::harness

@@ -40,4 +40,9 @@ struct VisionScore {
 VisionScore score_observations(const VisionTruth& truth,
                                std::span<const vision::BallObservation> observations);
 
+/// Whose the observations of one pair are, by the same rule.
+/// @return the index of the ball for each observation, kUnknown where there is none
+std::vector<int> balls_observed(const VisionTruth& truth,
+                                std::span<const vision::BallObservation> observations);
+
 }  // namespace stereobench::harness

@@ -94,7 +94,7 @@ constexpr Fault kValueFaults[] = {
     {"filters: [dead_reckoning, ufastslam]", "filters: []",
      "5: filters: expected a list of 1 to 16 (got a list of 0)"},
     {"sensor: stereo", "sensor: radar", "6: sensor: expected one of stereo, oracle (got radar)"},
-    {"identity: known", "identity:", "7: identity: expected one of known, colour_class (got nothing)"},
+    {"identity: known", "identity:", "7: identity: expected one of known, colour_class, none (got nothing)"},
     {"width_px: 640", "width_px: 5", "8: rig.width_px: expected a whole number from 16 to 4096 (got 5)"},
     {"baseline_m: 0.1", "baseline_m: 0", "8: rig.baseline_m: expected a number from 0.001 to 10 (got 0)"},
     {"focal_px: 500", "focal_px: .nan", "8: rig.focal_px: expected a number from 1 to 100000 (got .nan)"},
@@ -106,6 +106,11 @@ constexpr Fault kValueFaults[] = {
     {"{noise_sd_levels: 1}", "2", "9: camera: expected a group of keys (got 2)"},
     {"bearing_sd_deg: 1", "bearing_sd_deg: inf",
      "10: oracle.bearing_sd_deg: expected a number from 0 to 180 (got inf)"},
+    {"range_sd_m: 0.1", "range_sd_m: 0.1, miss_probability: 1",
+     "10: oracle.miss_probability: expected a number from 0 to 0.99 (got 1)"},
+    {"range_sd_m: 0.1", "range_sd_m: 0.1, false_per_look: -1",
+     "10: oracle.false_per_look: expected a number from 0 to 100 (got -1)"},
+    {"particles: 20", "association: best", "4: association: expected one of individual, joint (got best)"},
     {"v_per_v: 0.1", "v_per_v: -0.1",
      "11: odometry_noise.v_per_v: expected a number from 0 to 100 (got -0.1)"},
     {"kind: circle", "kind: spiral", "13: path.kind: expected one of circle, polyline (got spiral)"},
@@ -191,6 +196,15 @@ TEST(BadColours, OfOneClassAreFartherApartThanTheSpacingUnderAnyJitter) {
   EXPECT_THAT(complaint_about(file),
               EndsWith("expected ball 0 of the same colour at least 3.99 m away (got 3.972 m)"));
   EXPECT_EQ(complaint_about(file, {"placement_jitter_m=0"}), "no complaint");
+}
+
+// Where nothing tells balls apart, all are of one class. Mutation tried: colours still told apart.
+TEST(BadColours, DoNotMatterWhereNobodySeesThem) {
+  const std::string text =
+      small_scenario_with("identity: known", "identity: none\ncolour_spacing_m: 3.99");  // (2, 0) and (0, 3)
+  const ScenarioFolder folder;
+  EXPECT_THAT(complaint_about(folder.write("bad.yaml", text)),
+              EndsWith("expected ball 0 at least 3.99 m away (got 3.577 m)"));
 }
 
 TEST(BadBalls, AreAtMost254) {

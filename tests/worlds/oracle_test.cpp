@@ -26,7 +26,7 @@ World world_of(const std::vector<Eigen::Vector2d>& places_m) {
 std::vector<int> ids_in_view(const World& world, const slam::Pose& pose, const OracleSensor& sensor) {
   slam::RandomStream noise(1, slam::Stream::kOracle);
   std::vector<int> ids;
-  for (const auto& sighting : sense(world, pose, sensor, Identity::kKnown, noise))
+  for (const auto& sighting : sense(world, pose, sensor, Identity::kKnown, noise).sightings)
     ids.push_back(sighting.landmark_id);
   return ids;
 }
@@ -35,7 +35,7 @@ std::vector<int> ids_in_view(const World& world, const slam::Pose& pose, const O
 TEST(Oracle, WithoutNoiseMeasuresRangeAndLeftPositiveBearing) {
   const World world = world_of({{-3, 1}, {-2, -4}});
   slam::RandomStream noise(0, slam::Stream::kOracle);
-  const auto seen = sense(world, {-2, 1, kPi - 0.1}, {0, 0, 30, 2 * kPi}, Identity::kKnown, noise);
+  const auto seen = sense(world, {-2, 1, kPi - 0.1}, {0, 0, 30, 2 * kPi}, Identity::kKnown, noise).sightings;
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_NEAR(seen[0].range_m, 1.0, 1e-15);
   EXPECT_NEAR(seen[0].bearing_rad, 0.1, 1e-15);
@@ -55,10 +55,10 @@ TEST(Oracle, SeesTheSectorOnly) {
 TEST(Oracle, GivesIdentityOrColourNeverBoth) {
   const World world = world_of({{1, 0}, {2, 0}});
   slam::RandomStream noise(0, slam::Stream::kOracle);
-  const auto known = sense(world, {}, OracleSensor{}, Identity::kKnown, noise);
+  const auto known = sense(world, {}, OracleSensor{}, Identity::kKnown, noise).sightings;
   EXPECT_EQ(known.at(1).landmark_id, 1);
   EXPECT_EQ(known.at(1).colour_class, slam::kUnknown);
-  const auto coloured = sense(world, {}, OracleSensor{}, Identity::kColourClass, noise);
+  const auto coloured = sense(world, {}, OracleSensor{}, Identity::kColourClass, noise).sightings;
   EXPECT_EQ(coloured.at(1).landmark_id, slam::kUnknown);
   EXPECT_EQ(coloured.at(1).colour_class, 4);
 }
@@ -68,8 +68,8 @@ TEST(Oracle, NeverGivesANegativeRangeAndIsTheSameAgain) {
   int kept = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     slam::RandomStream noise(seed, slam::Stream::kOracle), again(seed, slam::Stream::kOracle);
-    const auto seen = sense(world, {}, OracleSensor{}, Identity::kKnown, noise);
-    const auto seen_again = sense(world, {}, OracleSensor{}, Identity::kKnown, again);
+    const auto seen = sense(world, {}, OracleSensor{}, Identity::kKnown, noise).sightings;
+    const auto seen_again = sense(world, {}, OracleSensor{}, Identity::kKnown, again).sightings;
     ASSERT_EQ(seen.size(), seen_again.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {
       EXPECT_TRUE(seen[i].range_m >= 0.0);
@@ -93,7 +93,7 @@ TEST(Oracle, NoiseHasTheSpreadThatTheCovarianceSays) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (int i = 0; i < kDraws; ++i) {
-    const auto seen = sense(world, {}, sensor, Identity::kKnown, noise);
+    const auto seen = sense(world, {}, sensor, Identity::kKnown, noise).sightings;
     const Eigen::Vector2d sd = seen.at(0).covariance.diagonal().cwiseSqrt();
     ASSERT_NEAR(sd.x(), 0.3, 1e-12);
     ASSERT_EQ(seen[0].covariance(0, 1), 0.0);
@@ -106,6 +106,92 @@ TEST(Oracle, NoiseHasTheSpreadThatTheCovarianceSays) {
   EXPECT_NEAR(squares(0, 0) / kDraws, 1.0, 4 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(squares(1, 1) / kDraws, 1.0, 4 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(squares(0, 1) / kDraws, 0.0, 4 / std::sqrt(kDraws));
+}
+
+// Without identities a sighting says nothing but where; the truth beside it does not change.
+TEST(Oracle, KeepsWhoseEachSightingIsApart) {
+  const World world = world_of({{50, 0}, {2, 0}, {3, 1}});
+  for (const Identity identity : {Identity::kKnown, Identity::kColourClass, Identity::kNone}) {
+    slam::RandomStream noise(0, slam::Stream::kOracle);
+    const OracleLook look = sense(world, {}, OracleSensor{}, identity, noise);
+    EXPECT_THAT(look.balls, testing::ElementsAre(1, 2));
+    ASSERT_EQ(look.sightings.size(), 2U);
+    EXPECT_EQ(look.sightings[0].landmark_id, identity == Identity::kKnown ? 1 : slam::kUnknown);
+    EXPECT_EQ(look.sightings[0].colour_class, identity == Identity::kColourClass ? 4 : slam::kUnknown);
+  }
+}
+
+// Mutation tried: a draw that is taken where nothing can go wrong.
+TEST(OracleFaults, AreNoneByDefaultAndDrawNothing) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  slam::RandomStream noise(0, slam::Stream::kOracle);
+  slam::RandomStream chance(0, slam::Stream::kClutter), untouched(0, slam::Stream::kClutter);
+  const OracleLook all = sense(world, {}, OracleSensor{}, Identity::kNone, noise);
+  const OracleLook same = with_faults(all, world, OracleSensor{}, Identity::kNone, chance);
+  EXPECT_EQ(same.balls, all.balls);
+  EXPECT_EQ(same.sightings.at(1).range_m, all.sightings.at(1).range_m);
+  EXPECT_EQ(chance.bits(), untouched.bits());
+}
+
+// A count of mean m in n looks has a deviation of sqrt(m / n). Mutations tried: a Poisson variable that is
+// one too large, ranges that are uniform, half the sector's angle, misses that hit the false ones, too.
+TEST(OracleFaults, HappenAsOftenAndWhereTheyShould) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  OracleSensor sensor;
+  sensor.miss_probability = 0.2;
+  sensor.false_per_look = 1.5;
+  constexpr int kLooks = 20000;
+  slam::RandomStream noise(7, slam::Stream::kOracle), chance(7, slam::Stream::kClutter);
+  double seen = 0.0, imagined = 0.0, squares = 0.0, near = 0.0, left = 0.0, outer_left = 0.0;
+  for (int i = 0; i < kLooks; ++i) {
+    const OracleLook all = sense(world, {}, sensor, Identity::kNone, noise);
+    const OracleLook look = with_faults(all, world, sensor, Identity::kNone, chance);
+    double here = 0.0;
+    for (std::size_t k = 0; k < look.balls.size(); ++k) {
+      if (look.balls[k] != slam::kUnknown) {
+        ++seen;
+        continue;
+      }
+      const slam::RangeBearing& sighting = look.sightings[k];
+      ASSERT_LE(sighting.range_m, sensor.max_range_m);
+      ASSERT_LE(std::abs(sighting.bearing_rad), kPi / 2 + 1e-9);
+      ++here;
+      near += sighting.range_m < sensor.max_range_m / 2 ? 1 : 0;
+      left += sighting.bearing_rad > 0 ? 1 : 0;
+      outer_left += sighting.bearing_rad > kPi / 4 ? 1 : 0;
+    }
+    imagined += here;
+    squares += here * here;
+  }
+  const double mean = imagined / kLooks;
+  EXPECT_NEAR(seen / kLooks, 1.6, 4 * std::sqrt(2 * 0.16 / kLooks));
+  EXPECT_NEAR(mean, 1.5, 4 * std::sqrt(1.5 / kLooks));
+  EXPECT_NEAR(squares / kLooks - mean * mean, 1.5, 4 * std::sqrt((1.5 + 2 * 1.5 * 1.5) / kLooks));
+  const double spread = 4 * 0.5 / std::sqrt(imagined);
+  EXPECT_NEAR(near / imagined, 0.25, spread) << "a quarter of the area";
+  EXPECT_NEAR(left / imagined, 0.5, spread);
+  EXPECT_NEAR(outer_left / imagined, 0.25, spread);
+}
+
+// Mutation tried: a colour that no ball has.
+TEST(OracleFaults, LookLikeTheOthers) {
+  const World world = world_of({{2, 0}, {3, 1}});
+  OracleSensor sensor;
+  sensor.false_per_look = 5.0;
+  for (const Identity identity : {Identity::kKnown, Identity::kColourClass, Identity::kNone}) {
+    slam::RandomStream chance(1, slam::Stream::kClutter);
+    const OracleLook look = with_faults({}, world, sensor, identity, chance);
+    ASSERT_FALSE(look.sightings.empty());
+    for (const slam::RangeBearing& sighting : look.sightings) {
+      EXPECT_EQ(sighting.landmark_id, slam::kUnknown);
+      if (identity == Identity::kColourClass) {
+        EXPECT_THAT(sighting.colour_class, testing::AnyOf(3, 4));
+      } else {
+        EXPECT_EQ(sighting.colour_class, slam::kUnknown);
+      }
+      EXPECT_DOUBLE_EQ(sighting.covariance(0, 0), sensor.range_sd_m * sensor.range_sd_m);
+    }
+  }
 }
 
 }  // namespace

@@ -52,6 +52,19 @@ TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
   EXPECT_DOUBLE_EQ(scenario.world.meshes.at(0).heading_rad, 90 * kDegree);
 }
 
+// Mutation tried: the two lists of names in another order than what they name.
+TEST(Scenario, SaysHowLandmarksAreToldApart) {
+  EXPECT_EQ(read_small().association, slam::Association::kJoint);
+  EXPECT_EQ(read_small().oracle.false_per_look, 0.0);
+  EXPECT_EQ(read_small().oracle.miss_probability, 0.0);
+  const Scenario scenario = read_small({"identity=none", "association=individual",
+                                        "oracle.false_per_look=0.5", "oracle.miss_probability=0.1"});
+  EXPECT_EQ(scenario.identity, Identity::kNone);
+  EXPECT_EQ(scenario.association, slam::Association::kIndividual);
+  EXPECT_EQ(scenario.oracle.false_per_look, 0.5);
+  EXPECT_EQ(scenario.oracle.miss_probability, 0.1);
+}
+
 // Catches: a closed line of corners that lacks its last wall, a mesh path that stays relative.
 TEST(Scenario, BuildsTheWorld) {
   const Scenario scenario = read_small();

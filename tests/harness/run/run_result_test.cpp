@@ -106,6 +106,19 @@ TEST(RunResult, WhatHasNoValueIsNull) {
   EXPECT_TRUE(json["filters"]["ufastslam"]["landmark_rms_m"]["mean"].is_null());        // there is none
 }
 
+// Mutations tried: the table in every run; counts of the last seed alone.
+TEST(RunResult, AssociationIsScoredWhereTheTruthIsKnownAndShownWhereIdentitiesAreNot) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
+  EXPECT_TRUE(run_json(assemble("name", "none", drives))["filters"]["ufastslam"]["association"].is_null());
+  for (SeedDrive& drive : drives) drive.runs[1].association = AssociationScore{10, 1, 2, 3, 4, 5};
+  const RunResult known = assemble("name", "none", drives);
+  EXPECT_EQ(run_json(known)["filters"]["ufastslam"]["association"].dump(),
+            R"({"correct":20,"wrong":2,"missed":4,"imagined":6,"duplicated":8,"spurious":10})");
+  EXPECT_EQ(result_table(known).find("duplicated"), std::string::npos);
+  drives[1].recording.log.steps[2].measurements.emplace_back();
+  EXPECT_NE(result_table(assemble("name", "none", drives)).find("duplicated"), std::string::npos);
+}
+
 // Mutation: a cell too few where the truth is not known.
 TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};

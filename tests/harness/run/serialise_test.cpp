@@ -53,8 +53,12 @@ TEST(Serialise, CarriesWhatARunIs) {
   FilterRun run = run_at(1.0);
   run.failed = true;
   run.failure = "step 3: lost";
+  run.association = AssociationScore{.missed = 6};
+  run.last.landmarks[0].origin = 17;
   const FilterRun back = filter_runs_from_bytes(to_bytes(std::vector{run})).at(0);
   EXPECT_EQ(back.filter, "ufastslam");
+  EXPECT_EQ(back.association.value().missed, 6);
+  EXPECT_EQ(back.last.landmarks.at(0).origin, 17);
   EXPECT_EQ(back.particles, 7);
   EXPECT_EQ(back.seed, ~std::uint64_t{0});
   EXPECT_TRUE(back.failed);
