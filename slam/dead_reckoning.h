@@ -4,6 +4,7 @@
 #include <span>
 
 #include "slam/linearised.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -17,6 +18,7 @@ class DeadReckoning {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const { return estimate(); }
+  UpdateReport last_update() const { return {}; }
   int particle_count() const { return 1; }
 
  private:

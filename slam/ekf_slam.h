@@ -11,6 +11,7 @@
 #include "slam/frame_reader.h"
 #include "slam/joint_belief.h"
 #include "slam/linearised.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -32,6 +33,7 @@ class EkfSlam {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const;
+  const UpdateReport& last_update() const { return report_; }
   int particle_count() const { return 1; }
 
  private:
@@ -66,6 +68,7 @@ class EkfSlam {
   std::vector<Mapped> map_;
   std::vector<int> landmark_of_slot_;
   FilterCounters counters_;
+  UpdateReport report_;  ///< of the last update
 };
 
 }  // namespace stereobench::slam

@@ -35,6 +35,9 @@ struct FilterConfig {
   /// filter was.
   double colour_spacing_m = 0.0;
 
+  /// Whether updates leave an UpdateReport. It changes nothing else.
+  bool report_updates = false;
+
   UnscentedParameters unscented;
 };
 

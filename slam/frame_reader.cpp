@@ -8,14 +8,16 @@ namespace stereobench::slam {
 std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings, long& rejected) {
   std::vector<Sighting> frame;
   frame.reserve(sightings.size());
-  for (const RangeBearing& seen : sightings) {
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const RangeBearing& seen = sightings[i];
     if (!is_valid(seen)) {
       ++rejected;
       continue;
     }
     Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
     observation.noise.diagonal() += floor_.cwiseAbs2();
-    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class});
+    frame.push_back({observation, seen.landmark_id >= 0 ? slot_for(seen) : kUnknown, seen.colour_class,
+                     static_cast<int>(i)});
   }
   return frame;
 }

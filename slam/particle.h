@@ -22,6 +22,7 @@ struct Sighting {
   Observation observation;
   int slot = kUnknown;
   int colour_class = kUnknown;
+  int index = 0;  ///< among the sightings as they came in
 };
 
 /// What becomes of a sighting.

@@ -10,6 +10,7 @@
 #include "slam/frame_fit.h"
 #include "slam/linearised.h"
 #include "slam/particle.h"
+#include "slam/predictive_mixture.h"
 #include "slam/unscented.h"
 
 namespace stereobench::slam {
@@ -51,7 +52,10 @@ class PoseCorrection {
   ///
   /// @param targets as decided by correct()
   double log_likelihood(const Particle& particle, const Pose& drawn, std::span<const Sighting> frame,
-                        std::span<const Target> targets, long& repairs) const;
+                        std::span<const Target> targets, long& repairs);
+
+  /// What the particle of the last call expected of each sighting; empty unless the settings ask for reports.
+  std::span<const ExpectedSighting> expected() const { return expected_; }
 
  private:
   void associate(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
@@ -61,13 +65,16 @@ class PoseCorrection {
   std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
                                       long& repairs) const;
   void order_by_age(std::span<const Target> targets);
-  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
-           FilterCounters& counters) const;
+  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior, FilterCounters& counters,
+           ExpectedSighting* expected) const;
+  ExpectedSighting* expected_of(std::size_t k) { return report_ ? &expected_[k] : nullptr; }
 
   Model model_;
   double gate_probability_;
   double gate_;
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
+  bool report_;
+  std::vector<ExpectedSighting> expected_;
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
   std::vector<Match> matches_;
