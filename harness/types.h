@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/types.h"
+#include "slam/update_report.h"
 
 namespace stereobench::harness {
 
@@ -33,6 +34,13 @@ struct MeasurementLog {
   std::vector<LandmarkTruth> landmarks;
 };
 
+/// What one update said of the filter itself.
+struct UpdateRecord {
+  std::vector<slam::NormalisedInnovation> innovations;  ///< of sightings, by their index in the step
+  double effective_particles = 1.0;
+  int distinct_ancestors = 1;  ///< of its particles, how many have descendants among the run's last ones
+};
+
 /// One filter's estimates over a log, aligned with its steps.
 struct FilterRun {
   std::string filter;
@@ -40,9 +48,10 @@ struct FilterRun {
   std::uint64_t seed = 0;
   std::vector<slam::Pose> poses;
   std::vector<Eigen::Matrix3d> covariances;
-  slam::Estimate last;  ///< the final estimate, with its map
-  bool failed = false;  ///< it threw, or a pose was not finite
-  std::string failure;  ///< why, and at which step; empty when it did not fail
+  std::vector<UpdateRecord> updates;  ///< one a step, also where there was nothing to see
+  slam::Estimate last;                ///< the final estimate, with its map
+  bool failed = false;                ///< it threw, or a pose was not finite
+  std::string failure;                ///< why, and at which step; empty when it did not fail
 };
 
 /// The least covariances that any filter's estimates over a log can have.

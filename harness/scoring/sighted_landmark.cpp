@@ -1,0 +1,31 @@
+#include "harness/scoring/sighted_landmark.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "slam/measurement.h"
+
+namespace stereobench::harness {
+
+std::optional<std::size_t> sighted_landmark(const slam::RangeBearing& sighting,
+                                            const std::optional<slam::Pose>& truth,
+                                            std::span<const LandmarkTruth> landmarks) {
+  std::optional<std::size_t> nearest;
+  if (sighting.landmark_id != slam::kUnknown) {
+    const auto named = std::ranges::find(landmarks, sighting.landmark_id, &LandmarkTruth::landmark_id);
+    if (named != landmarks.end()) nearest = static_cast<std::size_t>(named - landmarks.begin());
+    return nearest;
+  }
+  if (!truth) return nearest;
+  const Eigen::Vector2d place_m = slam::locate(*truth, {sighting.range_m, sighting.bearing_rad});
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const double distance_m = (landmarks[i].position_m - place_m).norm();
+    if (sighting.colour_class != landmarks[i].colour_class || distance_m >= nearest_m) continue;
+    nearest = i;
+    nearest_m = distance_m;
+  }
+  return nearest;
+}
+
+}  // namespace stereobench::harness
