@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/types.h"
+#include "slam/update_report.h"
 
 namespace stereobench::harness {
 
@@ -46,6 +47,13 @@ struct AssociationScore {
   long spurious = 0;    ///< landmarks of the final map that are none
 };
 
+/// What one update said of the filter itself.
+struct UpdateRecord {
+  std::vector<slam::NormalisedInnovation> innovations;  ///< of sightings, by their index in the step
+  double effective_particles = 1.0;
+  int distinct_ancestors = 1;  ///< of its particles, how many have descendants among the run's last ones
+};
+
 /// One filter's estimates over a log, aligned with its steps.
 struct FilterRun {
   std::string filter;
@@ -53,6 +61,7 @@ struct FilterRun {
   std::uint64_t seed = 0;
   std::vector<slam::Pose> poses;
   std::vector<Eigen::Matrix3d> covariances;
+  std::vector<UpdateRecord> updates;            ///< one a step, also where there was nothing to see
   slam::Estimate last;                          ///< the final estimate, with its map
   std::optional<AssociationScore> association;  ///< where the log says whose the sightings are
   bool failed = false;                          ///< it threw, or a pose was not finite

@@ -5,6 +5,7 @@
 
 #include "slam/decisions.h"
 #include "slam/linearised.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -18,6 +19,7 @@ class DeadReckoning {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const { return estimate(); }
+  UpdateReport last_update() const { return {}; }
   int particle_count() const { return 1; }
   Decisions last_decisions() const { return {}; }
 

@@ -28,6 +28,7 @@ void EkfSlam::predict(const Control& control) {
 }
 
 void EkfSlam::update(std::span<const RangeBearing> sightings) {
+  report_ = {};
   const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
   decided_.clear();
   if (frame.empty()) return;
@@ -43,6 +44,7 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
       belief_ = *std::move(fitted);
       counters_.gated_measurements = gated_before;
       for (const std::size_t k : decided.order) decided.targets[k].fate = Fate::kUse;
+      for (NormalisedInnovation& innovation : report_.innovations) innovation.refused = false;
     }
   }
   note_decisions(decided);
@@ -133,12 +135,16 @@ Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
   JointSurprise seen = surprise(belief_, belief_, landmark, observation, repairs);
+  if (config_.report_updates) report_.innovations.push_back({sighting.index, seen.squared_length()});
   if (!(seen.squared_length() <= gate_)) {
     ++counters_.gated_measurements;
     const auto j = static_cast<std::size_t>(landmark);
     const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
     const Fate fate = judge_contradiction(map_[j].record, certain, vouched);
-    if (fate != Fate::kUse) return fate;
+    if (fate != Fate::kUse) {
+      if (config_.report_updates) report_.innovations.back().refused = true;
+      return fate;
+    }
     belief_.covariance.move_pose(Eigen::Matrix3d::Identity(),
                                  drift_covariance(belief_.pose, belief_.landmarks[j], observation));
     seen = surprise(belief_, belief_, landmark, observation, repairs);

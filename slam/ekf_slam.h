@@ -13,6 +13,7 @@
 #include "slam/frame_reader.h"
 #include "slam/joint_belief.h"
 #include "slam/linearised.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -34,6 +35,7 @@ class EkfSlam {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const;
+  const UpdateReport& last_update() const { return report_; }
   int particle_count() const { return 1; }
   Decisions last_decisions() const;
 
@@ -79,6 +81,7 @@ class EkfSlam {
   std::vector<int> landmark_of_slot_;
   std::vector<Decision> decided_;  ///< of the last frame
   FilterCounters counters_;
+  UpdateReport report_;  ///< of the last update
 };
 
 }  // namespace stereobench::slam

@@ -39,12 +39,15 @@ void FastSlam<Model>::predict(const Control& control) {
 
 template <class Model>
 void FastSlam<Model>::update(std::span<const RangeBearing> sightings) {
+  report_ = {};
   const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
   decided_.clear();
   if (frame.empty()) return;
   const bool believed = correct(frame);
+  if (believed && proposal_ == Proposal::kMotion) draw_from_motion(frame);
+  if (config_.report_updates)
+    report_.innovations = normalised_innovations(frame, targets_, expected_, log_weights_);
   if (believed) {
-    if (proposal_ == Proposal::kMotion) draw_from_motion(frame);
     reweigh();
   }
   note_decisions(frame);
@@ -62,6 +65,14 @@ std::span<Target> FastSlam<Model>::targets_of(std::size_t particle) {
   return std::span(targets_).subspan(particle * width, width);
 }
 
+/// Keeps for the report what the particle that was just corrected or weighed expected.
+template <class Model>
+void FastSlam<Model>::keep_expected(std::size_t particle) {
+  const std::span<const ExpectedSighting> expected = correction_.expected();
+  expected_.resize(targets_.size());
+  std::ranges::copy(expected, expected_.begin() + static_cast<std::ptrdiff_t>(particle * expected.size()));
+}
+
 /// @return whether any particle believed anything; if none did, the frame is as good as empty
 template <class Model>
 bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
@@ -69,6 +80,7 @@ bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const PoseBelief predicted = follow(particles_[i].pose, motion_);
     posteriors_[i] = correction_.correct(particles_[i], predicted, frame, targets_of(i), counters_);
+    if (config_.report_updates) keep_expected(i);
   }
   return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
     return target.fate != Fate::kRefuse && target.fate != Fate::kIgnore;
@@ -85,6 +97,7 @@ void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
     const Pose drawn = compose(particles_[i].pose, displace(motion_.mean, root * normals()));
     posteriors_[i] = {{drawn, Eigen::Matrix3d::Zero()},
                       correction_.log_likelihood(particles_[i], drawn, frame, targets_of(i), repairs)};
+    if (config_.report_updates) keep_expected(i);
   }
 }
 
@@ -119,6 +132,7 @@ void FastSlam<Model>::resample() {
     posteriors_[i] = posteriors_[from];
     std::ranges::copy(targets_of(from), targets_of(i).begin());
   }
+  if (config_.report_updates) report_.ancestors = ancestors;
   std::fill(log_weights_.begin(), log_weights_.end(), -logarithm(static_cast<double>(particles_.size())));
   ++counters_.resamplings;
 }

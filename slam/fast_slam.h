@@ -13,8 +13,10 @@
 #include "slam/map_upkeep.h"
 #include "slam/particle.h"
 #include "slam/pose_correction.h"
+#include "slam/predictive_mixture.h"
 #include "slam/random.h"
 #include "slam/unscented.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -52,6 +54,7 @@ class FastSlam {
   void update(std::span<const RangeBearing> sightings);
   Estimate estimate() const;
   Estimate estimate_without_map() const;
+  const UpdateReport& last_update() const { return report_; }
   int particle_count() const { return static_cast<int>(particles_.size()); }
 
   /// @return what the particle that the last frame left heaviest made of it
@@ -59,6 +62,7 @@ class FastSlam {
 
  private:
   std::span<Target> targets_of(std::size_t particle);
+  void keep_expected(std::size_t particle);
   bool correct(std::span<const Sighting> frame);
   void draw_from_motion(std::span<const Sighting> frame);
   void reweigh();
@@ -78,15 +82,17 @@ class FastSlam {
   MapUpkeep upkeep_;
   RandomStream random_;
   std::vector<Particle> particles_;
-  std::vector<double> log_weights_;    ///< normalised
-  std::vector<Posterior> posteriors_;  ///< of the update in progress, by particle
-  std::vector<Target> targets_;        ///< of the update in progress, particle by particle
-  PoseBelief motion_;                  ///< since the last update, in the robot's frame of that time
-  PoseBelief belief_;                  ///< at the last update, over all particles
+  std::vector<double> log_weights_;         ///< normalised
+  std::vector<Posterior> posteriors_;       ///< of the update in progress, by particle
+  std::vector<Target> targets_;             ///< of the update in progress, particle by particle
+  std::vector<ExpectedSighting> expected_;  ///< the same, for a report
+  PoseBelief motion_;                       ///< since the last update, in the robot's frame of that time
+  PoseBelief belief_;                       ///< at the last update, over all particles
   double effective_;
   std::size_t decider_ = 0;        ///< the particle that the last frame left heaviest
   std::vector<Decision> decided_;  ///< what it made of that frame
   FilterCounters counters_;
+  UpdateReport report_;  ///< of the last update
 };
 
 extern template class FastSlam<Linearised>;

@@ -80,6 +80,10 @@ Estimate estimate(const Filter& filter) {
   return std::visit([](const auto& some) { return some.estimate(); }, filter);
 }
 
+UpdateReport last_update(const Filter& filter) {
+  return std::visit([](const auto& some) { return some.last_update(); }, filter);
+}
+
 int particle_count(const Filter& filter) {
   return std::visit([](const auto& some) { return some.particle_count(); }, filter);
 }

@@ -13,6 +13,7 @@
 #include "slam/filter_config.h"
 #include "slam/filter_names.h"
 #include "slam/types.h"
+#include "slam/update_report.h"
 
 namespace stereobench::slam {
 
@@ -38,6 +39,9 @@ void update(Filter& filter, std::span<const RangeBearing> sightings);
 
 /// @return what the filter believes now: pose, map and what it had to mend so far
 Estimate estimate(const Filter& filter);
+
+/// @return what the last update found out about the filter; empty unless its settings ask for reports
+UpdateReport last_update(const Filter& filter);
 
 /// @return how many particles a filter has; 1 for those that are one Gaussian
 int particle_count(const Filter& filter);

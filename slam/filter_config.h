@@ -69,6 +69,9 @@ struct FilterConfig {
   Association association = Association::kJoint;
   SensorSector sector;
 
+  /// Whether updates leave an UpdateReport. It changes nothing else.
+  bool report_updates = false;
+
   UnscentedParameters unscented;
 };
 

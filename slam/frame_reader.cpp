@@ -8,14 +8,15 @@ namespace stereobench::slam {
 std::vector<Sighting> FrameReader::read(std::span<const RangeBearing> sightings, long& rejected) {
   std::vector<Sighting> frame;
   frame.reserve(sightings.size());
-  for (const RangeBearing& seen : sightings) {
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const RangeBearing& seen = sightings[i];
     const int number = given_++;
     if (!is_valid(seen)) {
       ++rejected;
       continue;
     }
     const int slot = seen.landmark_id >= 0 ? slot_for(seen) : kUnknown;
-    frame.push_back({observe(seen, config_), slot, seen.colour_class, number});
+    frame.push_back({observe(seen, config_), slot, seen.colour_class, number, static_cast<int>(i)});
   }
   return frame;
 }

@@ -23,6 +23,7 @@ struct Sighting {
   int slot = kUnknown;
   int colour_class = kUnknown;
   int number = kUnknown;  ///< counted over all sightings a filter was given
+  int index = 0;          ///< among the sightings as they came in
 };
 
 /// What becomes of a sighting.

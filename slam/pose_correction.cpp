@@ -58,6 +58,10 @@ struct Surprise {
   double squared_length;
 };
 
+ExpectedSighting expectation(const Innovation& innovation, double log_likelihood) {
+  return {true, innovation.expected, innovation.covariance, log_likelihood};
+}
+
 /// The Kalman update in gain form, K = P_xz S^-1: a singular P is nothing special, and P^-1 is never needed.
 void apply(const Surprise& surprise, Posterior& posterior) {
   const Eigen::Matrix<double, 3, 2> gain = surprise.factor.template divide<3>(surprise.expected.cross);
@@ -78,7 +82,8 @@ PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates update
       gate_(chi_square_2_quantile(config.gate_probability)),
       near_m_(0.5 * config.colour_spacing_m),
       association_(config.association),
-      existence_(config.sector) {}
+      existence_(config.sector),
+      report_(config.report_updates) {}
 
 template <class Model>
 Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
@@ -86,12 +91,15 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
                                          FilterCounters& counters) {
   associate(particle, predicted, frame, targets, counters);
   order_by_age(targets);
+  if (report_) expected_.assign(frame.size(), {});
   Posterior posterior{predicted};
   const long gated_before = counters.gated_measurements;
   if (updates_ == Updates::kAtOnce) use_at_once(particle, frame, targets, posterior, counters);
   for (const std::size_t k : updates_ == Updates::kAtOnce ? late_ : order_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
-    targets[k].fate = use(landmark, frame[k], posterior, counters);
+    const double before = posterior.log_likelihood;
+    targets[k].fate = use(landmark, frame[k], posterior, counters, expected_of(k));
+    if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
   }
   if (counters.gated_measurements > gated_before) {
     matches_.clear();
@@ -113,7 +121,8 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
 template <class Model>
 double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pose& drawn,
                                              std::span<const Sighting> frame, std::span<const Target> targets,
-                                             long& repairs) const {
+                                             long& repairs) {
+  if (report_) expected_.assign(frame.size(), {});
   double sum = log_density_of_new(frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
     if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
@@ -122,7 +131,9 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
     const Surprise surprise(model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation, repairs),
                             observation, repairs);
     const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
-    sum -= 0.5 * (squared_length + surprise.factor.log_det_2_pi());
+    const double log_likelihood = -0.5 * (squared_length + surprise.factor.log_det_2_pi());
+    if (report_) expected_[k] = expectation(surprise.expected, log_likelihood);
+    sum += log_likelihood;
   }
   return sum;
 }
@@ -261,6 +272,7 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
                             repairs);
     if (surprise.squared_length <= gate_) {
       expectations_.push_back({surprise.expected, surprise.residual});
+      if (report_) expected_[k] = expectation(surprise.expected, surprise.log_likelihood());
     } else {
       late_.push_back(k);
     }
@@ -270,12 +282,13 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
 
 template <class Model>
 Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
-                                FilterCounters& counters) const {
+                                FilterCounters& counters, ExpectedSighting* expected) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
   const long before = repairs;
   const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
                           repairs);
+  if (expected != nullptr) *expected = expectation(surprise.expected, 0.0);
   if (surprise.squared_length <= gate_) {
     if (repairs == before) apply(surprise, posterior);  // else all is certain: nothing is learnt
     return Fate::kUse;

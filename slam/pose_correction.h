@@ -12,6 +12,7 @@
 #include "slam/frame_update.h"
 #include "slam/linearised.h"
 #include "slam/particle.h"
+#include "slam/predictive_mixture.h"
 #include "slam/unscented.h"
 
 namespace stereobench::slam {
@@ -68,7 +69,10 @@ class PoseCorrection {
   ///
   /// @param targets as decided by correct()
   double log_likelihood(const Particle& particle, const Pose& drawn, std::span<const Sighting> frame,
-                        std::span<const Target> targets, long& repairs) const;
+                        std::span<const Target> targets, long& repairs);
+
+  /// What the particle of the last call expected of each sighting; empty unless the settings ask for reports.
+  std::span<const ExpectedSighting> expected() const { return expected_; }
 
  private:
   void associate(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
@@ -83,8 +87,9 @@ class PoseCorrection {
   void order_by_age(std::span<const Target> targets);
   void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
                    Posterior& posterior, FilterCounters& counters);
-  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
-           FilterCounters& counters) const;
+  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior, FilterCounters& counters,
+           ExpectedSighting* expected) const;
+  ExpectedSighting* expected_of(std::size_t k) { return report_ ? &expected_[k] : nullptr; }
 
   Model model_;
   Updates updates_;
@@ -93,6 +98,8 @@ class PoseCorrection {
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
   Association association_;
   Existence existence_;
+  bool report_;
+  std::vector<ExpectedSighting> expected_;
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> late_;  ///< of order_, what is still to be used one after the other

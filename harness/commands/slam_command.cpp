@@ -74,7 +74,7 @@ int run_slam(SlamArguments arguments) {
   const std::filesystem::path out = output_folder(run, name);
   prepare_output_folder(out);
   const auto drives = replay_seeds(recorded.log, arguments);
-  RunResult result = assemble(name, "none", drives);
+  RunResult result = assemble(name, "none", drives, Seeds::kFilters);
   result.odometry_delay_s = recorded.odometry_delay_s;
   write_run(out, result, drives, {});
   fmt::print("{}: {} seed{}, {} steps", name, drives.size(), drives.size() == 1 ? "" : "s",

@@ -34,6 +34,14 @@ std::string filter_of(const std::string& metric) {
   return metric.substr(prefix.size(), metric.find('.', prefix.size()) - prefix.size());
 }
 
+/// Has all the keys that a result has.
+RunResult result_without_runs(const worlds::Scenario& scenario) {
+  RunResult nothing_yet;
+  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
+  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
+  return nothing_yet;
+}
+
 std::string broken_message(const worlds::Gate& gate, const Json& metric) {
   const bool at_most = gate.relation == worlds::Gate::Relation::kAtMost;
   const std::string limit = fmt::format("{} {}", at_most ? "at most" : "at least", gate.limit);
@@ -64,10 +72,7 @@ std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario) {
 }
 
 void check_metrics(std::span<const worlds::Gate> gates, const worlds::Scenario& scenario) {
-  RunResult nothing_yet;  // has all the keys that a result has
-  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision.emplace();
-  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
-  const Json json = run_json(nothing_yet);
+  const Json json = run_json(result_without_runs(scenario));
   for (const worlds::Gate& gate : gates)
     if (find_metric(json, gate.metric) == nullptr)
       throw std::runtime_error(fmt::format(

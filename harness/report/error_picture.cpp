@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "harness/report/axes.h"
+#include "harness/report/curves.h"
 #include "harness/report/legend.h"
 #include "harness/report/text_table.h"
 
@@ -16,6 +17,8 @@ namespace {
 constexpr int kWidth_px = 1000;
 constexpr int kHeight_px = 480;
 constexpr Box kPlot = {76.0, 42.0, 740.0, 386.0};
+constexpr int kPanelHeight_px = 260;  ///< of normalised errors, below
+constexpr Box kPanelPlot = {76.0, 512.0, 740.0, 176.0};
 constexpr Stroke kBoundStroke = {kBlack, 1.8, Dash::kDotted};
 
 /// Rms, least and greatest error over the runs at each instant; NaN where no run has one.
@@ -98,35 +101,11 @@ void lift(Summary& summary, double floor_m) {
   lift(summary.greatest_m, floor_m);
 }
 
-/// Fills between the least and the greatest error, one step of time after the other.
-void draw_band(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s, const Summary& summary,
-               Colour colour) {
-  colour.alpha = 0.16;
-  std::vector<Point> corners;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const Point point = axes.to_pixel(time_s[i], summary.greatest_m[i]);
-    if (std::isfinite(point.x_px) && std::isfinite(point.y_px)) corners.push_back(point);
-  }
-  for (std::size_t i = time_s.size(); i-- > 0;) {
-    const Point point = axes.to_pixel(time_s[i], summary.least_m[i]);
-    if (std::isfinite(point.x_px) && std::isfinite(point.y_px)) corners.push_back(point);
-  }
-  canvas.fill(corners, colour);
-}
-
-void draw_curve(Canvas& canvas, const Axes& axes, const std::vector<double>& time_s,
-                const std::vector<double>& errors_m, const Stroke& stroke) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < std::min(time_s.size(), errors_m.size()); ++i) {
-    points.push_back(axes.to_pixel(time_s[i], errors_m[i]));
-  }
-  canvas.draw_line(points, stroke);
-}
-
 void draw_curves(Canvas& canvas, const Axes& axes, const ErrorPicture& picture,
                  const std::vector<Summary>& summaries) {
   for (std::size_t i = 0; i < summaries.size(); ++i) {
-    draw_band(canvas, axes, picture.time_s, summaries[i], filter_stroke(picture.filters[i].filter).colour);
+    draw_band(canvas, axes, picture.time_s, summaries[i].least_m, summaries[i].greatest_m,
+              filter_stroke(picture.filters[i].filter).colour);
   }
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     draw_curve(canvas, axes, picture.time_s, summaries[i].rms_at_m, filter_stroke(picture.filters[i].filter));
@@ -146,6 +125,15 @@ std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vecto
   return entries;
 }
 
+void draw_anees(Canvas& canvas, const ErrorPicture& picture, const Axis& time) {
+  draw_anees_panel(canvas, picture.anees, time, picture.time_s, kPanelPlot);
+  canvas.write({kPanelPlot.left_px, kPanelPlot.top_px - 14.0},
+               "error over its claimed size, squared (ANEES): 1 is honest, above is overconfident", {});
+  const std::vector<LegendEntry> legend = {
+      {"95 % band", "of each step, if honest", Mark::kLine, {{0.84, 0.84, 0.84, 1.0}, 9.0}}};
+  draw_legend(canvas, {kPanelPlot.left_px + kPanelPlot.width_px + 18.0, kPanelPlot.top_px}, legend);
+}
+
 }  // namespace
 
 double mean_rms_m(const ErrorCurves& curves) {
@@ -161,9 +149,10 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   }
   const Axis vertical = error_axis(summaries, picture.bound_m);
   for (Summary& summary : summaries) lift(summary, 0.9 * vertical.range.low);
-  const Axes axes({"time [s]", range_of(picture.time_s, Scale::kLinear, 0.0)}, vertical, kPlot);
+  const Axis time = {"time [s]", range_of(picture.time_s, Scale::kLinear, 0.0)};
+  const Axes axes(time, vertical, kPlot);
 
-  Canvas canvas(kWidth_px, kHeight_px);
+  Canvas canvas(kWidth_px, kHeight_px + (picture.anees.any() ? kPanelHeight_px : 0));
   axes.draw(canvas);
   canvas.clip_to(kPlot);
   draw_curves(canvas, axes, picture, summaries);
@@ -171,6 +160,7 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   canvas.clip_to({});
   draw_legend(canvas, {kPlot.left_px + kPlot.width_px + 18.0, kPlot.top_px}, legend_of(picture, summaries));
   canvas.write({kPlot.left_px, 0.5 * kPlot.top_px}, picture.title, {.size_px = 15.0, .bold = true});
+  if (picture.anees.any()) draw_anees(canvas, picture, time);
   return canvas.png();
 }
 

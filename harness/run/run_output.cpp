@@ -1,7 +1,9 @@
 #include "harness/run/run_output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -48,6 +50,32 @@ std::vector<double> bound_of(std::span<const SeedDrive> drives) {
   return bound_m;
 }
 
+/// Each filter's normalised errors, and the widest of the filters' bands at each step.
+AneesPanel anees_of(const RunResult& result, std::size_t steps) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  AneesPanel panel{.low = std::vector<double>(steps, kNone), .high = std::vector<double>(steps, kNone)};
+  std::vector<long> least(steps, 0);
+  for (const FilterResult& filter : result.filters) {
+    AneesCurve curve{filter.filter, std::vector<double>(steps, kNone)};
+    const std::vector<SquaredSum>& nees = filter.summary.nees_by_step;
+    for (std::size_t k = 0; k < std::min(steps, nees.size()); ++k) {
+      const long degrees = nees[k].degrees_of_freedom;
+      if (degrees == 0) continue;
+      curve.anees[k] = nees[k].ratio();
+      least[k] = least[k] == 0 ? degrees : std::min(least[k], degrees);
+    }
+    panel.filters.push_back(std::move(curve));
+  }
+  std::map<long, Band> bands;  // most steps share theirs
+  for (std::size_t k = 0; k < steps; ++k) {
+    const auto [band, is_new] = bands.try_emplace(least[k]);
+    if (is_new) band->second = chi_square_band(0.95, least[k]);
+    panel.low[k] = band->second.low;
+    panel.high[k] = band->second.high;
+  }
+  return panel;
+}
+
 std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives) {
   ErrorPicture picture{.title = fmt::format("{}: position error, {} seed{}", result.name, drives.size(),
                                             drives.size() == 1 ? "" : "s")};
@@ -60,6 +88,7 @@ std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives
     picture.filters.push_back(std::move(curves));
   }
   picture.bound_m = bound_of(drives);
+  picture.anees = anees_of(result, picture.time_s.size());
   return draw_error_picture(picture);
 }
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "harness/report/text_table.h"
+#include "harness/run/consistency_report.h"
+#include "harness/run/json_numbers.h"
 #include "harness/scoring/association_score.h"
 #include "slam/belief.h"
 
@@ -17,17 +19,6 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchema = 1;
 constexpr const char* kBaseline = "dead_reckoning";
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json summary_json(const Summary& summary) {
-  return {{"mean", number(summary.mean)},
-          {"sd", number(summary.sd)},
-          {"max", number(summary.max)},
-          {"ci95_half_width", number(summary.half_width)}};
-}
 
 /// How many times better than dead reckoning a filter's mean ATE is; null without dead reckoning.
 Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) {
@@ -87,6 +78,7 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
             {"spurious", summary.landmarks_spurious}}},
           {"association", association_json(filter.association)},
           {"anees", summary_json(summary.anees)},
+          {"consistency", consistency_json(result, filter)},
           {"failures", summary.failures}};
 }
 
@@ -149,7 +141,8 @@ void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, con
   else
     csv += ",,,,";
   const auto& nees = score.normalised_errors;
-  csv += k < nees.size() && nees[k] ? fmt::format(",{}\n", *nees[k]) : std::string(",\n");
+  csv += k < nees.size() && nees[k] ? fmt::format(",{}", nees[k]->ratio()) : std::string(",");
+  csv += consistency_cells(run, score, step, k) + "\n";
 }
 
 /// A line of the table that people see.
@@ -197,7 +190,8 @@ std::vector<std::string> bound_row(const std::vector<BoundScore>& bounds) {
 
 }  // namespace
 
-RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives) {
+RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives,
+                   Seeds seeds) {
   if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
   RunResult result{.name = name, .backend = backend, .batch = {.filter = "batch"}};
   for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
@@ -217,9 +211,9 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
     result.batch.scores.push_back(score(drive.references.batch, drive.recording.log));
     if (drive.references.bound) result.bounds.push_back(score(*drive.references.bound));
   }
-  result.batch.summary = summarise(result.batch.scores, 1);
+  result.batch.summary = summarise(result.batch.scores, 1, seeds);
   for (std::size_t i = 0; i < result.filters.size(); ++i)
-    result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles);
+    result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles, seeds);
   result.comparisons = compare(result.filters);
   return result;
 }
@@ -243,7 +237,8 @@ nlohmann::ordered_json run_json(const RunResult& result) {
 std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives) {
   std::string csv =
       "seed,filter,step,stamp_ns,x_m,y_m,heading_rad,measurements,"
-      "true_x_m,true_y_m,true_heading_rad,error_m,normalised_error\n";
+      "true_x_m,true_y_m,true_heading_rad,error_m,normalised_error," +
+      consistency_columns() + "\n";
   for (std::size_t d = 0; d < drives.size(); ++d)
     for (std::size_t i = 0; i < drives[d].runs.size(); ++i)
       for (std::size_t k = 0; k < drives[d].runs[i].poses.size(); ++k)
@@ -274,7 +269,7 @@ std::string result_table(const RunResult& result) {
         result.vision->recall(), result.vision->precision(), result.vision->misidentified,
         format_number(1e3 * result.vision->range_rms_m()),
         format_number(1e3 * result.vision->bearing_rms_rad()));
-  text += plain_text(table);
+  text += plain_text(table) + "\n" + consistency_table(result);
   return result.identities_known ? text : text + association_table(result.filters);
 }
 

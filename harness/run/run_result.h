@@ -47,8 +47,10 @@ struct RunResult {
 
 /// Scores each filter's runs against their logs and references.
 /// @param drives one a seed, all with the same filters in the same order, and all with a bound or none
+/// @param seeds what the drives differ in
 /// @throws std::invalid_argument when there is no drive, or they differ in their filters
-RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives);
+RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives,
+                   Seeds seeds = Seeds::kWorlds);
 
 /// The content of run.json: no time, path or host in it.
 /// Numbers that do not exist (an error without truth) are null.

@@ -35,6 +35,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkEstimate, landmark_id, colour_class, 
                                    origin)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterCounters, resamplings, covariance_repairs, weight_collapses,
                                    gated_measurements, rejected_inputs, joint_searches_cut)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedInnovation, sighting, squared_length, refused)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Estimate, pose, covariance, landmarks, effective_particles, counters)
 }  // namespace stereobench::slam
 
@@ -43,8 +44,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, tr
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, position_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, steps, landmarks)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, last, association,
-                                   failed, failure)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UpdateRecord, innovations, effective_particles, distinct_ancestors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, updates, last,
+                                   association, failed, failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,

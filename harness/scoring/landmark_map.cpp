@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "harness/scoring/trajectory.h"
@@ -19,7 +18,8 @@ Eigen::Vector2d moved(const slam::Pose& target_from_source, const Eigen::Vector2
           target_from_source.y_m + s * point.x() + c * point.y()};
 }
 
-/// The true landmark that an estimate belongs to, as an index.
+}  // namespace
+
 std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const Eigen::Vector2d& position_m,
                                  std::span<const LandmarkTruth> truth, double match_limit_m) {
   std::optional<std::size_t> nearest;
@@ -39,8 +39,6 @@ std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const E
   }
   return nearest;
 }
-
-}  // namespace
 
 slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
                      double match_limit_m) {

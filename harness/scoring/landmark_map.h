@@ -1,6 +1,7 @@
 /// How far a map of landmarks is from the true one, and whether it holds each landmark once.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "harness/types.h"
@@ -16,6 +17,11 @@ struct MapScore {
   long missed = 0;      ///< true landmarks with none
   long spurious = 0;    ///< estimates that belong to no true landmark
 };
+
+/// The true landmark that an estimate belongs to (see score_map), as an index.
+/// @param position_m of the estimate, aligned
+std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const Eigen::Vector2d& position_m,
+                                 std::span<const LandmarkTruth> truth, double match_limit_m = 2.0);
 
 /// The rotation and shift that bring a map's landmarks nearest to the true ones they belong to: what a map
 /// that was made from an unknown start cannot be blamed for. (A path's own alignment is another one.)

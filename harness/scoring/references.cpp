@@ -1,32 +1,14 @@
 #include "harness/scoring/references.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "harness/scoring/sighted_landmark.h"
 #include "slam/batch.h"
-#include "slam/measurement.h"
 #include "slam/posterior_bound.h"
 
 namespace stereobench::harness {
 namespace {
-
-/// The index of the landmark that a sighting is of; kUnknown when there is no such landmark.
-int landmark_of(const slam::RangeBearing& sighting, const slam::Pose& truth,
-                std::span<const LandmarkTruth> landmarks) {
-  const Eigen::Vector2d place_m = slam::locate(truth, {sighting.range_m, sighting.bearing_rad});
-  int nearest = slam::kUnknown;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const bool named = sighting.landmark_id != slam::kUnknown;
-    if (named && sighting.landmark_id == landmarks[i].landmark_id) return static_cast<int>(i);
-    const double distance_m = (landmarks[i].position_m - place_m).norm();
-    if (named || sighting.colour_class != landmarks[i].colour_class || distance_m >= nearest_m) continue;
-    nearest = static_cast<int>(i);
-    nearest_m = distance_m;
-  }
-  return nearest;
-}
 
 template <typename Matrix, typename Size>
 double rms(const std::vector<Matrix>& covariances, Size size_squared) {
@@ -50,10 +32,8 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
     std::vector<slam::TrueSighting> frame;
     const LogStep& step = log.steps[k];
     for (std::size_t i = 0; i < step.measurements.size(); ++i) {
-      const slam::RangeBearing& sighting = step.measurements[i];
-      const int landmark = step.true_landmarks.empty() ? landmark_of(sighting, path[k].pose, log.landmarks)
-                                                       : step.true_landmarks[i];
-      if (landmark != slam::kUnknown) frame.push_back({landmark, sighting.covariance});
+      const auto landmark = sighted_landmark(step, i, log.landmarks);
+      if (landmark) frame.push_back({static_cast<int>(*landmark), step.measurements[i].covariance});
     }
     bound.look(frame);
     run.poses.push_back(bound.pose().covariance);

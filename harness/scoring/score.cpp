@@ -5,8 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "harness/scoring/consistency.h"
-
 namespace stereobench::harness {
 
 namespace {
@@ -63,17 +61,25 @@ void add_map_counts(std::span<const FilterScore> scores, FilterSummary& summary)
   }
 }
 
-void add_consistency(std::span<const FilterScore> scores, FilterSummary& summary) {
-  std::vector<std::vector<std::optional<double>>> runs;
+/// Of one run, over its steps: an average, from which nothing can be tested, for its steps hang together.
+double mean_normalised_error(const FilterScore& score) {
+  SquaredSum sum;
+  for (const std::optional<SquaredSum>& step : score.normalised_errors) sum += step.value_or(SquaredSum{});
+  return sum.ratio();
+}
+
+void add_consistency(std::span<const FilterScore> scores, Seeds seeds, FilterSummary& summary) {
+  std::vector<std::vector<std::optional<SquaredSum>>> runs;
+  std::vector<ConsistencyScore> consistency;
   for (const FilterScore& score : scores) {
-    if (!score.failed) runs.push_back(score.normalised_errors);
+    if (score.failed) continue;
+    runs.push_back(score.normalised_errors);
+    consistency.push_back(score.consistency);
   }
-  summary.anees_by_step = average_over_seeds(runs);
-  std::vector<double> steps;
-  for (const std::optional<double>& step : summary.anees_by_step) {
-    if (step) steps.push_back(*step);
-  }
-  summary.anees = summarise(steps);
+  summary.nees_by_step = sum_over_seeds(runs, seeds);
+  summary.anees = summarise(collect(scores, mean_normalised_error));
+  summary.nees = judge_steps(summary.nees_by_step);
+  summary.consistency = summarise(consistency, seeds);
 }
 
 }  // namespace
@@ -91,10 +97,11 @@ FilterScore score(const FilterRun& run, const MeasurementLog& log) {
       score_map(run.last.landmarks, log.landmarks, align_map(run.last.landmarks, log.landmarks));
   score.map_path_aligned = score_map(run.last.landmarks, log.landmarks, score.trajectory.truth_from_estimate);
   score.normalised_errors = normalised_errors(run, log);
+  score.consistency = score_consistency(run, log);
   return score;
 }
 
-FilterSummary summarise(std::span<const FilterScore> scores, int particles) {
+FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds) {
   const auto over_seeds = [&](auto metric) { return summarise(collect(scores, metric)); };
   const auto aligned = [](const FilterScore& s) { return s.trajectory.ate_aligned_rms_m; };
   FilterSummary summary;
@@ -112,7 +119,7 @@ FilterSummary summarise(std::span<const FilterScore> scores, int particles) {
   summary.landmark_aligned_rms_m = over_seeds([](const FilterScore& s) { return s.map_aligned.rms_m; });
   summary.landmark_path_aligned_rms_m =
       over_seeds([](const FilterScore& s) { return s.map_path_aligned.rms_m; });
-  add_consistency(scores, summary);
+  add_consistency(scores, seeds, summary);
   add_map_counts(scores, summary);
   return summary;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/scoring/consistency.h"
+#include "harness/scoring/consistency_summary.h"
 #include "harness/scoring/landmark_map.h"
 #include "harness/scoring/statistics.h"
 #include "harness/scoring/trajectory.h"
@@ -17,11 +19,12 @@ namespace stereobench::harness {
 struct FilterScore {
   bool failed = false;
   TrajectoryScore trajectory;
-  double ate_aligned_at_sightings_rms_m = 0.0;           ///< aligned and scored only where something was seen
-  MapScore map;                                          ///< in the world frame, as estimated
-  MapScore map_aligned;                                  ///< after its own best alignment
-  MapScore map_path_aligned;                             ///< after the path's best alignment
-  std::vector<std::optional<double>> normalised_errors;  ///< NEES / rank, one per step
+  double ate_aligned_at_sightings_rms_m = 0.0;  ///< aligned and scored only where something was seen
+  MapScore map;                                 ///< in the world frame, as estimated
+  MapScore map_aligned;                         ///< after its own best alignment
+  MapScore map_path_aligned;                    ///< after the path's best alignment
+  std::vector<std::optional<SquaredSum>> normalised_errors;  ///< NEES and rank, one per step
+  ConsistencyScore consistency;
 };
 
 /// All seeds of one filter.
@@ -38,8 +41,10 @@ struct FilterSummary {
   Summary landmark_aligned_rms_m;
   Summary landmark_path_aligned_rms_m;
   double ate_aligned_median_m = 0.0;
-  Summary anees;  ///< over the steps of `anees_by_step`; mean 1 is honest, above is overconfident
-  std::vector<std::optional<double>> anees_by_step;
+  Summary anees;  ///< over the seeds, of each run's mean; 1 is honest, above is overconfident
+  std::vector<SquaredSum> nees_by_step;  ///< summed over the seeds
+  StepVerdict nees;
+  ConsistencySummary consistency;
   long landmarks_found_once = 0;  ///< these four are sums over the seeds
   long landmarks_duplicated = 0;
   long landmarks_missed = 0;
@@ -52,6 +57,6 @@ struct FilterSummary {
 FilterScore score(const FilterRun& run, const MeasurementLog& log);
 
 /// Puts the seeds of one filter together; failed runs are counted and enter no mean.
-FilterSummary summarise(std::span<const FilterScore> scores, int particles);
+FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds = Seeds::kWorlds);
 
 }  // namespace stereobench::harness

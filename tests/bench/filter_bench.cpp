@@ -29,8 +29,10 @@ std::vector<slam::RangeBearing> circle_of(int landmarks) {
 }
 
 /// @param landmarks in the map; one of them is seen in each cycle, all of them in turn
-void cycle(benchmark::State& state, const std::string& name, int landmarks) {
+/// @param reports whether each update reports its innovations
+void cycle(benchmark::State& state, const std::string& name, int landmarks, bool reports) {
   slam::FilterConfig config;
+  config.report_updates = reports;
   config.particles = static_cast<int>(state.range(0));
   config.odometry_noise = {.v_constant_mps = 0.3, .w_constant_radps = 0.05};
   slam::Filter filter = slam::make_filter(name, config, {}, 0);
@@ -50,12 +52,19 @@ void cycle(benchmark::State& state, const std::string& name, int landmarks) {
 }
 
 #define STEREOBENCH_CYCLE(name, landmarks) \
-  BENCHMARK_CAPTURE(cycle, name##_##landmarks, #name, landmarks)->Unit(benchmark::kMillisecond)
+  BENCHMARK_CAPTURE(cycle, name##_##landmarks, #name, landmarks, false)->Unit(benchmark::kMillisecond)
+#define STEREOBENCH_REPORTED_CYCLE(name, landmarks)                               \
+  BENCHMARK_CAPTURE(cycle, name##_##landmarks##_reported, #name, landmarks, true) \
+      ->Unit(benchmark::kMillisecond)
 
 STEREOBENCH_CYCLE(ufastslam, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(fastslam2, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(fastslam1, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(ekf, 30)->Arg(1);
+STEREOBENCH_REPORTED_CYCLE(ufastslam, 1)->Arg(100);
+STEREOBENCH_REPORTED_CYCLE(fastslam2, 1)->Arg(100);
+STEREOBENCH_REPORTED_CYCLE(fastslam1, 1)->Arg(100);
+STEREOBENCH_REPORTED_CYCLE(ekf, 30)->Arg(1);
 
 }  // namespace
 }  // namespace stereobench

@@ -96,6 +96,36 @@ TEST(ReportErrors, NothingAndNonsenseAreCharts) {
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {}, {0.1, kNaN}})).empty());
 }
 
+/// The row of a filter's curve in the panel below.
+double row_in_panel(const cv::Mat& image, const std::string& filter) {
+  const cv::Mat panel = image(cv::Rect(0, 490, 800, image.rows - 490));
+  return mean_of(pixels_of(panel, filter_stroke(filter).colour, 70.0)).y_px;
+}
+
+// Catches: a linear axis; a panel without its band; a panel where there is nothing to say.
+TEST(ReportErrors, NormalisedErrorsAreAPanelBelow) {
+  ErrorPicture picture = {"", kTime_s, {constant("fastslam2", 2.0)}};
+  const int without = decoded(draw_error_picture(picture)).rows;
+  picture.anees.filters = {{"fastslam2", {kNaN, 10.0, 10.0, 10.0, 10.0}},
+                           {"ufastslam", {kNaN, 100.0, 100.0, 100.0, 100.0}},
+                           {"mine", std::vector<double>(5, 1000.0)}};
+  picture.anees.low = {kNaN, 0.5, 0.5, 0.5, 0.5};
+  picture.anees.high = {kNaN, 1.5, 1.5, 1.5, 1.5};
+  const cv::Mat image = decoded(draw_error_picture(picture));
+  EXPECT_GT(image.rows, without);
+  const double decade = row_in_panel(image, "fastslam2") - row_in_panel(image, "ufastslam");
+  EXPECT_GT(decade, 10.0);
+  EXPECT_NEAR(row_in_panel(image, "ufastslam") - row_in_panel(image, "mine"), decade, 1.5);
+  const auto is_white = [&](double row) {
+    return image.at<cv::Vec3b>(490 + static_cast<int>(row), 485)[2] > 250;
+  };
+  const double row_of_1 = row_in_panel(image, "fastslam2") + decade;
+  EXPECT_FALSE(is_white(row_of_1 + 0.2 * decade));
+  EXPECT_TRUE(is_white(row_of_1 - 0.4 * decade));
+  for (AneesCurve& curve : picture.anees.filters) curve.anees.assign(5, kNaN);
+  EXPECT_EQ(decoded(draw_error_picture(picture)).rows, without);
+}
+
 TEST(ReportErrors, TheSameErrorsAreTheSameBytes) {
   const ErrorPicture picture = {"t", kTime_s, {constant("ufastslam", 1.0), constant("fastslam2", 2.0)}};
   EXPECT_EQ(draw_error_picture(picture), draw_error_picture(picture));

@@ -25,6 +25,7 @@ FilterRun run_at(double value) {
   run.covariances[0](0, 2) = value;
   run.last.landmarks = {{3, 5, {value, 1.0}, Eigen::Matrix2d::Identity()}};
   run.last.counters.resamplings = 11;
+  run.updates = {{{{6, 2.5, true}}, 4.5, 3}};
   return run;
 }
 
@@ -66,6 +67,11 @@ TEST(Serialise, CarriesWhatARunIs) {
   EXPECT_EQ(back.last.landmarks.at(0).landmark_id, 3);
   EXPECT_EQ(back.last.landmarks.at(0).colour_class, 5);
   EXPECT_EQ(back.last.counters.resamplings, 11);
+  EXPECT_EQ(back.updates.at(0).innovations.at(0).sighting, 6);
+  EXPECT_EQ(back.updates[0].innovations[0].squared_length, 2.5);
+  EXPECT_TRUE(back.updates[0].innovations[0].refused);
+  EXPECT_EQ(back.updates[0].effective_particles, 4.5);
+  EXPECT_EQ(back.updates[0].distinct_ancestors, 3);
 }
 
 TEST(Serialise, CarriesADriveWithAndWithoutTruthAndPixels) {

@@ -38,7 +38,7 @@ TEST(Score, PutsPathMapAndConsistencyTogether) {
   EXPECT_DOUBLE_EQ(result.map.rms_m, 0.5);
   EXPECT_NEAR(result.map_aligned.rms_m, 0.0,
               1e-12);  // a single landmark aligns with the truth wherever it is
-  EXPECT_DOUBLE_EQ(result.normalised_errors[2].value(), 3.0);
+  EXPECT_DOUBLE_EQ(result.normalised_errors[2].value().ratio(), 3.0);
   EXPECT_FALSE(result.normalised_errors[0].has_value());
 }
 
@@ -94,10 +94,13 @@ TEST(SummariseScores, CountsFailuresAndLeavesThemOutOfMeans) {
   EXPECT_DOUBLE_EQ(summary.landmark_rms_m.mean, 0.5);
   EXPECT_EQ(summary.landmarks_found_once, 2);
   EXPECT_EQ(summary.landmarks_missed, 0);
-  ASSERT_EQ(summary.anees_by_step.size(), 4U);
-  EXPECT_DOUBLE_EQ(summary.anees_by_step[2].value(), (1.0 / 3.0 + 3.0) / 2.0);
+  ASSERT_EQ(summary.nees_by_step.size(), 4U);
+  EXPECT_DOUBLE_EQ(summary.nees_by_step[2].ratio(), (1.0 / 3.0 + 3.0) / 2.0);
+  EXPECT_EQ(summary.nees_by_step[2].degrees_of_freedom, 6);
+  EXPECT_EQ(summary.nees.steps, 2);
   EXPECT_DOUBLE_EQ(summary.anees.mean, (1.0 / 3.0 + 3.0) / 2.0);
-  EXPECT_EQ(summary.anees.count, 2);
+  EXPECT_EQ(summary.anees.count, 2);  // seeds, for steps of one run hang together
+  EXPECT_DOUBLE_EQ(summary.anees.max, 3.0);
 }
 
 TEST(SummariseScores, OfNothingButFailuresIsNotZero) {
@@ -108,7 +111,7 @@ TEST(SummariseScores, OfNothingButFailuresIsNotZero) {
   EXPECT_EQ(summary.failures, 1);
   EXPECT_TRUE(std::isnan(summary.ate_rms_m.mean));
   EXPECT_TRUE(std::isnan(summary.ate_aligned_median_m));
-  EXPECT_TRUE(summary.anees_by_step.empty());
+  EXPECT_TRUE(summary.nees_by_step.empty());
 }
 
 TEST(SummariseScores, MedianOfEvenAndOddNumbers) {
