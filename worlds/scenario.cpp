@@ -42,11 +42,6 @@ std::vector<std::uint64_t> read_seeds(const YamlValue& value) {
   }
 }
 
-CameraSensor read_camera(const YamlValue& value) {
-  const YamlMap map(value, {"noise_sd_levels"});
-  return {map.number("noise_sd_levels", {0.0, 255.0}, 0.0)};
-}
-
 /// What is done with the world: who looks at it, how often, and what the outcome must be.
 void read_run(const YamlMap& map, Scenario& scenario) {
   if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
@@ -63,6 +58,8 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
+  const auto believed = map.find("believed_rig");
+  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : as_believed(scenario.rig);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
     scenario.oracle = read_oracle(*oracle);
@@ -80,7 +77,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlDocument document = load_yaml(file, overrides);
   const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
                     {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity",
-                     "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise",
+                     "colour_spacing_m", "rig", "believed_rig", "camera", "oracle", "odometry_noise",
                      "believed_odometry_noise", "path", "placement_jitter_m", "world"});
   Scenario scenario;
   scenario.name = read_name(map.at("name"));
