@@ -9,15 +9,16 @@
 
 namespace stereobench::renderer {
 
-/// Adds the camera's noise: Gaussian, independent for each pixel, channel, eye and frame, then rounded to
-/// whole levels (which adds a variance of 1/12 of its own) and clamped to 0..255.
+/// Takes the picture: lens, chip and encoding as the sensor says (develop.h), independent for each pixel,
+/// channel, eye and frame, rounded to whole levels (which adds a variance of 1/12 of its own), clamped to
+/// 0..255.
 ///
 /// Noise is a function of (seed, frame, eye, position) alone, the numbers of
-/// slam::RandomStream(seed, kImageNoise, 2 * frame + eye): frame 17 alone gets what frame 17 of a run gets.
+/// slam::RandomStream(seed, stream, 2 * frame + eye): frame 17 alone gets what frame 17 of a run gets.
 /// @param frame both eyes' colour, CV_8UC3
 /// @param frame_index >= 0, counts the instants of a run
-/// @return pictures of the same size; without noise they share the frame's pixels
-/// @throws std::invalid_argument when the noise is negative or not finite, or a picture is not CV_8UC3
+/// @return pictures of the same size; a sensor that changes nothing leaves them the frame's pixels
+/// @throws std::invalid_argument when a number of the sensor is out of range, or a picture is not CV_8UC3
 vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& sensor, std::uint64_t seed,
                           std::uint64_t frame_index);
 

@@ -92,12 +92,13 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
-StereoFrame Renderer::render(const slam::Pose& world_from_robot) {
-  require(std::isfinite(world_from_robot.x_m) && std::isfinite(world_from_robot.y_m) &&
-              std::isfinite(world_from_robot.heading_rad),
-          "Renderer::render: the pose is not finite");
-  const EyeView left = eye_view(parts_->rig, vision::Eye::kLeft, world_from_robot);
-  const EyeView right = eye_view(parts_->rig, vision::Eye::kRight, world_from_robot);
+StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose) {
+  for (const slam::Pose& pose : {left_pose, right_pose}) {
+    require(std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad),
+            "Renderer::render: the pose is not finite");
+  }
+  const EyeView left = eye_view(parts_->rig, vision::Eye::kLeft, left_pose);
+  const EyeView right = eye_view(parts_->rig, vision::Eye::kRight, right_pose);
   parts_->context->make_current();
   parts_->framebuffer.bind();
   parts_->gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

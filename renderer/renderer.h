@@ -28,7 +28,13 @@ class Renderer {
   /// @param world_from_robot where the robot stands
   /// @return the same bytes for the same pose, whatever was rendered before
   /// @throws std::invalid_argument when the pose is not finite
-  StereoFrame render(const slam::Pose& world_from_robot);
+  StereoFrame render(const slam::Pose& world_from_robot) {
+    return render(world_from_robot, world_from_robot);
+  }
+
+  /// The same with eyes that open at different times.
+  /// @param left_pose, right_pose where the robot stands when the eye looks
+  StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose);
 
  private:
   struct Parts;

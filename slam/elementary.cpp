@@ -29,6 +29,10 @@ double logarithm_of_one_plus(double x) {
   return Sleef_cinz_log1pd1_u10purec(x);
 }
 
+double power(double base, double exponent) {
+  return Sleef_cinz_powd1_u10purec(base, exponent);
+}
+
 double complementary_error(double x) {
   return Sleef_cinz_erfcd1_u15purec(x);
 }

@@ -33,6 +33,9 @@ double logarithm(double x);
 /// @return log(1 + x), within 1 unit in the last place; -infinity for -1, NaN below
 double logarithm_of_one_plus(double x);
 
+/// @return base^exponent for base >= 0, within 1 unit in the last place
+double power(double base, double exponent);
+
 /// @return erfc(x) = 1 - erf(x), within 1.5 units in the last place
 double complementary_error(double x);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/moments.h"
@@ -63,7 +64,7 @@ std::optional<NormalisedInnovation> innovation(const Expectations& all, std::siz
   double total = 0.0;
   double refusing = 0.0;
   for (std::size_t i = 0; i < log_weights.size(); ++i) {
-    const double weight = std::exp(log_weights[i] - largest);
+    const double weight = exponential(log_weights[i] - largest);
     if (!(weight > 0.0)) continue;
     total += weight;
     const ExpectedSighting& one = all.expected[all.at(i, k)];

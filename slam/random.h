@@ -7,7 +7,17 @@
 namespace stereobench::slam {
 
 /// Who draws. Each purpose has numbers of its own, so that a draw added to one moves no other.
-enum class Stream : std::uint32_t { kWorld, kOdometry, kImageNoise, kOracle, kFilter, kClutter };
+enum class Stream : std::uint32_t {
+  kWorld,
+  kOdometry,
+  kImageNoise,
+  kOracle,
+  kFilter,
+  kClutter,
+  kShotNoise,
+  kReadNoise,
+  kFrameLoss
+};
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).
 ///

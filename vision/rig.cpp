@@ -5,6 +5,25 @@
 #include "slam/elementary.h"
 
 namespace stereobench::vision {
+namespace {
+
+/// R = Rx Ry Rz.
+Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [s, c] = slam::sine_cosine(turn_rad[axis]);
+    const int j = (axis + 1) % 3;
+    const int k = (axis + 2) % 3;
+    Eigen::Matrix3d about_axis = Eigen::Matrix3d::Identity();
+    about_axis(j, j) = about_axis(k, k) = c;
+    about_axis(j, k) = -s;
+    about_axis(k, j) = s;
+    result = result * about_axis;
+  }
+  return result;
+}
+
+}  // namespace
 
 Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
   const auto [sin_pitch, cos_pitch] = slam::sine_cosine(rig.pitch_down_rad);
@@ -14,12 +33,14 @@ Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
   result.linear().col(1) = Eigen::Vector3d(-sin_pitch, 0.0, -cos_pitch);  // down
   result.linear().col(2) = Eigen::Vector3d(cos_pitch, 0.0, -sin_pitch);   // forward
   result.translation() = Eigen::Vector3d(0.0, side * rig.baseline_m, rig.height_m);
+  if (eye == Eye::kRight) result.linear() *= rotation(rig.right_turn_rad);
   return result;
 }
 
 Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye) {
-  const double shift_m = eye == Eye::kLeft ? 0.0 : rig.baseline_m;
-  return point_in_left_camera - Eigen::Vector3d(shift_m, 0.0, 0.0);
+  if (eye == Eye::kLeft) return point_in_left_camera;
+  const Eigen::Vector3d shifted = point_in_left_camera - Eigen::Vector3d(rig.baseline_m, 0.0, 0.0);
+  return rotation(rig.right_turn_rad).transpose() * shifted;
 }
 
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
@@ -45,7 +66,7 @@ bool is_usable(const StereoRig& rig) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   return rig.camera.width_px > 0 && rig.camera.height_px > 0 && positive(rig.camera.focal_px) &&
          positive(rig.baseline_m) && std::isfinite(rig.camera.cx_px) && std::isfinite(rig.camera.cy_px) &&
-         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad);
+         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad) && rig.right_turn_rad.allFinite();
 }
 
 }  // namespace stereobench::vision

@@ -12,11 +12,11 @@ namespace stereobench::vision {
 
 /// Where an eye is on the robot: the optical centre at height_m, half a baseline to its side, tilted by the
 /// pitch.
-/// @param eye the right eye is the left one moved by the baseline along its own x axis
+/// @param eye the right eye is the left one moved by the baseline along its own x axis, and turned
 /// @return the transform that takes points of the eye's camera frame to the robot frame, metres
 Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye = Eye::kLeft);
 
-/// The same point as another eye of the rectified rig sees it.
+/// The same point as another eye of the rig sees it.
 /// @param point_in_left_camera metres
 /// @return the point in the frame of the eye's camera, metres
 Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye);

@@ -22,13 +22,16 @@ struct Intrinsics {
   double cy_px = 383.5;
 };
 
-/// A rectified stereo rig and how it sits on the robot: both optical centres at `height_m` above the
-/// floor, half a baseline left and right of the robot's origin, looking forward and `pitch_down_rad` down.
+/// A stereo rig and how it sits on the robot: both optical centres at `height_m` above the floor, half a
+/// baseline left and right of the robot's origin, looking forward and `pitch_down_rad` down. It is rectified
+/// unless the right eye is turned.
 struct StereoRig {
   Intrinsics camera;
   double baseline_m = 0.12;     ///< > 0
   double height_m = 0.30;       ///< above the floor
   double pitch_down_rad = 0.0;  ///< positive looks at the floor
+  /// How the right eye is turned against the left one: first about its z axis, then y, then x.
+  Eigen::Vector3d right_turn_rad = Eigen::Vector3d::Zero();
 };
 
 /// The two images of one instant, 8-bit BGR, linear light.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -179,6 +180,25 @@ GroundTruth drive_polyline(const PolylinePath& path) {
   if (path.overlap_m > 0.0) pieces = with_overlap(std::move(pieces), path.overlap_m / path.speed_mps);
   return drive({start_m.x(), start_m.y(), heading_of(along)}, std::move(pieces), path.step_s,
                path.odometry_s);
+}
+
+slam::Pose pose_near(const GroundTruth& path, std::size_t index, double offset_s) {
+  slam::Pose pose = path.at(index).pose;
+  double left_s = std::abs(offset_s);
+  const auto follow = [&](slam::Control control, double direction) {
+    const double used_s = std::min(left_s, control.duration_s);
+    control.duration_s = direction * used_s;
+    pose = slam::advance(pose, control);
+    left_s -= used_s;
+  };
+  if (offset_s > 0.0) {
+    for (std::size_t i = index + 1; i < path.size() && left_s > 0.0; ++i)
+      for (const Control& control : path[i].controls) follow(control, 1.0);
+  } else {
+    for (std::size_t i = index; i > 0 && left_s > 0.0; --i)
+      for (const Control& control : path[i].controls | std::views::reverse) follow(control, -1.0);
+  }
+  return pose;
 }
 
 double length_m(const GroundTruth& path) {

@@ -50,6 +50,12 @@ GroundTruth drive_circle(const CirclePath& path);
 ///         or readings
 GroundTruth drive_polyline(const PolylinePath& path);
 
+/// Where the robot is a little before or after a step, on its way.
+///
+/// @param index of the step, below path.size()
+/// @param offset_s since the step, may be negative; beyond the drive's ends the robot stands still
+slam::Pose pose_near(const GroundTruth& path, std::size_t index, double offset_s);
+
 /// The length of a drive: the sum of |v| x duration over its controls, in metres.
 double length_m(const GroundTruth& path);
 

@@ -64,7 +64,7 @@ GroundTruth read_path(const YamlValue& value) {
 
 vision::StereoRig read_rig(const YamlValue& value) {
   const YamlMap map(value, {"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
-                            "pitch_down_deg"});
+                            "pitch_down_deg", "right_turn_deg"});
   vision::StereoRig rig;
   rig.camera.width_px = map.at("width_px").integer(16, 4096);
   rig.camera.height_px = map.at("height_px").integer(16, 4096);
@@ -76,7 +76,26 @@ vision::StereoRig read_rig(const YamlValue& value) {
   rig.baseline_m = map.number("baseline_m", {1e-3, 10.0});
   rig.height_m = map.number("height_m", {1e-3, 100.0});
   rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, 0.0) * kDegree;
+  if (const auto turn = map.find("right_turn_deg"))
+    rig.right_turn_rad = read_vector<3>(*turn, {-45.0, 45.0}) * kDegree;
   return rig;
+}
+
+vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth) {
+  const YamlMap map(value, {"focal_px", "cx_px", "cy_px", "baseline_m", "height_m", "pitch_down_deg"});
+  vision::StereoRig rig = as_believed(truth);
+  rig.camera.focal_px = map.number("focal_px", {1.0, 1e5}, rig.camera.focal_px);
+  rig.camera.cx_px = map.number("cx_px", {0.0, rig.camera.width_px - 1.0}, rig.camera.cx_px);
+  rig.camera.cy_px = map.number("cy_px", {0.0, rig.camera.height_px - 1.0}, rig.camera.cy_px);
+  rig.baseline_m = map.number("baseline_m", {1e-3, 10.0}, rig.baseline_m);
+  rig.height_m = map.number("height_m", {1e-3, 100.0}, rig.height_m);
+  rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, rig.pitch_down_rad / kDegree) * kDegree;
+  return rig;
+}
+
+vision::StereoRig as_believed(vision::StereoRig truth) {
+  truth.right_turn_rad.setZero();
+  return truth;
 }
 
 slam::OdometryNoise read_odometry_noise(const YamlValue& value) {

@@ -42,11 +42,6 @@ std::vector<std::uint64_t> read_seeds(const YamlValue& value) {
   }
 }
 
-CameraSensor read_camera(const YamlValue& value) {
-  const YamlMap map(value, {"noise_sd_levels"});
-  return {map.number("noise_sd_levels", {0.0, 255.0}, 0.0)};
-}
-
 /// What is done with the world: who looks at it, how often, and what the outcome must be.
 void read_run(const YamlMap& map, Scenario& scenario) {
   if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
@@ -66,9 +61,11 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
     scenario.association = static_cast<slam::Association>(association->choice(kAssociations));
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
+  const auto believed = map.find("believed_rig");
+  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : as_believed(scenario.rig);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto noise = map.find("believed_measurement_noise")) {
-    const auto rig = map.find("rig") ? std::optional(scenario.rig) : std::nullopt;
+    const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;
     scenario.believed_measurement_noise = read_measurement_noise(*noise, rig);
   }
   if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
@@ -85,11 +82,27 @@ void read_odometry(const YamlMap& map, Scenario& scenario) {
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const YamlDocument document = load_yaml(file, overrides);
-  const YamlMap map(
-      YamlValue(document, "", document.root, document.root.Mark()),
-      {"name", "description", "filters", "particles", "seeds", "gates", "sensor", "identity", "association",
-       "colour_spacing_m", "rig", "camera", "oracle", "odometry_noise", "believed_odometry_noise",
-       "believed_measurement_noise", "path", "placement_jitter_m", "world"});
+  const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
+                    {"name",
+                     "description",
+                     "filters",
+                     "particles",
+                     "seeds",
+                     "gates",
+                     "sensor",
+                     "identity",
+                     "association",
+                     "colour_spacing_m",
+                     "rig",
+                     "believed_rig",
+                     "camera",
+                     "oracle",
+                     "odometry_noise",
+                     "believed_odometry_noise",
+                     "believed_measurement_noise",
+                     "path",
+                     "placement_jitter_m",
+                     "world"});
   Scenario scenario;
   scenario.name = read_name(map.at("name"));
   if (const auto description = map.find("description")) scenario.description = description->text();

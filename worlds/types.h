@@ -14,6 +14,7 @@
 #include "slam/filter_names.h"
 #include "slam/types.h"
 #include "vision/types.h"
+#include "worlds/camera_sensor.h"
 
 namespace stereobench::worlds {
 
@@ -82,11 +83,6 @@ struct OracleSensor {
   double false_per_look = 0.0;  ///< sightings of nothing, on average; Poisson, uniform in the sector
 };
 
-/// What the camera adds to a perfect picture.
-struct CameraSensor {
-  double noise_sd_levels = 0.0;  ///< Gaussian, per pixel, channel and eye, in levels of 255
-};
-
 /// How the robot tells landmarks apart.
 enum class Identity {
   kKnown,        ///< every sighting carries the landmark's identity (stereo: colours are unique)
@@ -107,7 +103,8 @@ struct Scenario {
   std::string description;
   World world;
   double placement_jitter_m = 0.0;  ///< each seed moves each ball by up to this much in x and y
-  vision::StereoRig rig;
+  vision::StereoRig rig;            ///< as it is
+  vision::StereoRig believed_rig;   ///< as vision takes it to be: rectified
   GroundTruth path;
   slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
   slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told

@@ -50,13 +50,19 @@ int render(const RenderArguments& arguments) {
       arguments.out.empty() ? std::filesystem::path("out") / (scenario.name + "_dataset") : arguments.out;
   const RenderedDataset dataset(out, identity_of(arguments));
   Progress progress("render " + scenario.name, 1.0);
+  long pairs = 0;
   const Recording recording = record(scenario, arguments.seed,
-                                     {.on_look = [&](const Look& look) { dataset.write(look); },
+                                     {.on_look =
+                                          [&](const Look& look) {
+                                            dataset.write(look);
+                                            ++pairs;
+                                          },
                                       .on_progress = [&](double done) { progress.show(done); }},
                                      arguments.backend);
-  dataset.finish(worlds::world_for_seed(scenario, arguments.seed), scenario.rig, recording.log);
-  fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name,
-             recording.log.steps.size(), (out / "").string());
+  dataset.finish(worlds::world_for_seed(scenario, arguments.seed), scenario.rig, scenario.believed_rig,
+                 recording.log);
+  fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name, pairs,
+             (out / "").string());
   return kPassed;
 }
 
@@ -76,7 +82,8 @@ void add_render_command(CLI::App& program, Action& action) {
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "
       "metres),\n"
-      "calibration.yaml, balls.csv and the log that `stereobench slam` reads. Interrupted, it goes on where "
+      "calibration.yaml (as believed), true_calibration.yaml, balls.csv and the log that `stereobench slam` "
+      "reads. Interrupted, it goes on where "
       "it was.\n\n"
       "Example: stereobench render assets/scenarios/ball_circle.yaml --set path.laps=1 --out out/dataset");
   command->callback([arguments, &action] { action = [arguments] { return render(*arguments); }; });

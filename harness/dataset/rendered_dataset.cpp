@@ -82,8 +82,9 @@ void RenderedDataset::write(const Look& look) const {
 }
 
 void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig& rig,
-                             const MeasurementLog& log) const {
-  write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(rig));
+                             const vision::StereoRig& believed_rig, const MeasurementLog& log) const {
+  write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(believed_rig));
+  write_file_atomically(folder_ / "true_calibration.yaml", calibration_yaml(rig));
   write_file_atomically(folder_ / "balls.csv", balls_csv(world));
   write_log(folder_, log);
   write_file_atomically(folder_ / kFinished, identity_);

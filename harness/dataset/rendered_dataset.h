@@ -30,8 +30,9 @@ class RenderedDataset {
   /// Writes a step's pictures that are not there yet.
   void write(const Look& look) const;
 
-  /// Writes calibration, balls and the log, and last of all dataset.json.
-  void finish(const worlds::World& world, const vision::StereoRig& rig, const MeasurementLog& log) const;
+  /// Writes calibration (as it is believed, and as it is), balls and the log, and last of all dataset.json.
+  void finish(const worlds::World& world, const vision::StereoRig& rig, const vision::StereoRig& believed_rig,
+              const MeasurementLog& log) const;
 
  private:
   std::filesystem::path folder_;

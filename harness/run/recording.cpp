@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "harness/run/shutter.h"
 #include "harness/run/stopwatch.h"
+#include "renderer/develop.h"
 #include "renderer/expose.h"
 #include "renderer/renderer.h"
 #include "slam/motion.h"
@@ -13,6 +15,8 @@
 
 namespace stereobench::harness {
 namespace {
+
+constexpr double kTypicalLevel = 128.0;  ///< at which vision is told how large the camera's noise is
 
 /// What a robot senses at a step of its path, and whose each measurement is.
 struct Sensed {
@@ -62,16 +66,18 @@ class StereoSense {
               renderer::Backend backend)
       : scenario_(scenario), world_(world), seed_(seed), renderer_(world, scenario.rig, backend) {
     settings_.ball_radius_m = world.balls.empty() ? settings_.ball_radius_m : world.balls.front().radius_m;
-    settings_.noise_sd_levels = scenario.camera.noise_sd_levels;
+    settings_.noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel);
   }
 
   Sensed look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {
     Stopwatch watch(timing_);
-    const renderer::StereoFrame frame = watch.time("render", [&] { return renderer_.render(pose); });
+    if (is_dropped(index)) return {};
+    const renderer::StereoFrame frame = watch.time(
+        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.camera); });
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
     const auto observations =
-        watch.time("observe", [&] { return vision::observe(pair, scenario_.rig, settings_); });
+        watch.time("observe", [&] { return vision::observe(pair, scenario_.believed_rig, settings_); });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
     on_look({index, frame, pair, observations});
@@ -82,6 +88,11 @@ class StereoSense {
   const Timing& timing() const { return timing_; }
 
  private:
+  bool is_dropped(std::size_t index) const {
+    return slam::RandomStream(seed_, slam::Stream::kFrameLoss, index).uniform() <
+           scenario_.camera.drop_probability;
+  }
+
   const worlds::Scenario& scenario_;
   const worlds::World& world_;
   std::uint64_t seed_;

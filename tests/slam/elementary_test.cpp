@@ -36,6 +36,7 @@ TEST(Elementary, FunctionsAreThoseOfTheCLibrary) {
     EXPECT_TRUE(close(tangent(x), std::tan(x), 4.5)) << x;
     EXPECT_TRUE(close(arc_tangent(y, x), std::atan2(y, x), 4.5)) << y << ", " << x;
     EXPECT_TRUE(close(logarithm(std::abs(x)), std::log(std::abs(x)), 4.5)) << x;
+    EXPECT_TRUE(close(power(std::abs(x), 1.0 / 2.2), std::pow(std::abs(x), 1.0 / 2.2), 2.0)) << x;
     EXPECT_TRUE(close(logarithm_of_one_plus(std::abs(x)), std::log1p(std::abs(x)), 2.0)) << x;
   }
 }

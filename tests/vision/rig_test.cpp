@@ -41,12 +41,28 @@ TEST(Rig, BothEyesSeeTheSamePoint) {
   StereoRig rig;
   rig.pitch_down_rad = 0.2;
   for (int i = 0; i < 100; ++i) {
+    if (i == 50) rig.right_turn_rad = {0.01, -0.02, 0.03};
     const Eigen::Vector3d in_left(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(0.5, 9));
     const Eigen::Vector3d in_right = point_in_eye(rig, in_left, Eye::kRight);
     ASSERT_LT((robot_from_camera(rig) * in_left - robot_from_camera(rig, Eye::kRight) * in_right).norm(),
               1e-12);
-    ASSERT_GT(project(rig.camera, in_left).x(), project(rig.camera, in_right).x());
+    if (rig.right_turn_rad.isZero())
+      ASSERT_GT(project(rig.camera, in_left).x(), project(rig.camera, in_right).x());
   }
+}
+
+// Small turns: about x what is seen moves along the column, about y along the row.
+TEST(Rig, ATurnedRightEyeSeesPointsElsewhere) {
+  StereoRig rig;
+  const Eigen::Vector3d ahead(rig.baseline_m, 0.0, 5.0);
+  rig.right_turn_rad = {0.001, 0.0, 0.0};
+  Eigen::Vector2d moved = project(rig.camera, point_in_eye(rig, ahead, Eye::kRight));
+  EXPECT_NEAR(moved.x(), rig.camera.cx_px, 1e-9);
+  EXPECT_NEAR(moved.y(), rig.camera.cy_px + 0.001 * rig.camera.focal_px, 1e-3);
+  rig.right_turn_rad = {0.0, 0.001, 0.0};
+  moved = project(rig.camera, point_in_eye(rig, ahead, Eye::kRight));
+  EXPECT_NEAR(moved.x(), rig.camera.cx_px - 0.001 * rig.camera.focal_px, 1e-3);
+  EXPECT_NEAR(moved.y(), rig.camera.cy_px, 1e-9);
 }
 
 // Catches: half a pixel in one of the two.

@@ -175,6 +175,27 @@ TEST(Drive, ReadingsLeadFromPoseToPose) {
   EXPECT_EQ(path[1].controls.size(), 8U);
 }
 
+// Catches: a side of the step taken for the other, controls not reversed on the way back, ends that are
+// passed.
+TEST(Drive, IsFollowedBetweenItsSteps) {
+  PolylinePath rounded = rectangle();
+  rounded.odometry_s = 0.1;
+  const GroundTruth path = drive_polyline(rounded);
+  for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+    const double ahead_s = duration_s(path[k + 1]);
+    const double behind_s = duration_s(path[k]);
+    EXPECT_LT(distance_m(pose_near(path, k, ahead_s), path[k + 1].pose), 1e-12);
+    EXPECT_LT(distance_m(pose_near(path, k, -behind_s), path[k - 1].pose), 1e-12);
+    EXPECT_NEAR(distance_m(pose_near(path, k, 0.01), path[k].pose), 0.007, 1e-6);
+    const slam::Pose between = pose_near(path, k, 0.3 * ahead_s);
+    const slam::Pose same = pose_near(path, k + 1, -0.7 * ahead_s);
+    EXPECT_LT(distance_m(between, same), 1e-12);
+    EXPECT_NEAR(slam::wrap_angle(between.heading_rad - same.heading_rad), 0.0, 1e-12);
+  }
+  EXPECT_EQ(distance_m(pose_near(path, 0, -1.0), path.front().pose), 0.0);
+  EXPECT_EQ(distance_m(pose_near(path, path.size() - 1, 1.0), path.back().pose), 0.0);
+}
+
 TEST(Drive, RefusesWhatCannotBeDriven) {
   EXPECT_THROW(drive_circle({{}, 0.0, 1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(drive_circle({{}, 1, -1, 1, 1}), std::invalid_argument);

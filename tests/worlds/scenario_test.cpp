@@ -130,6 +130,30 @@ TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
   EXPECT_NEAR(stereo.bearing_sd_rad, 0.0002, 1e-15);
 }
 
+TEST(Scenario, ReadsTheCamera) {
+  const CameraSensor camera =
+      read_small(
+          {"camera={noise_sd_levels: 1.5, defocus_sd_px: 0.8, vignette: 0.3, exposure: 0.5, "
+           "full_well_electrons: 8000, read_noise_electrons: 6, gain: 2, white_balance_rgb: [1, 1.1, 0.9], "
+           "encoding: gamma, gamma: 1.8, shutter_s: 0.01, shutter_samples: 4, right_delay_s: 0.002, "
+           "drop_probability: 0.1}"})
+          .camera;
+  EXPECT_EQ(camera,
+            (CameraSensor{
+                1.5, 0.8, 0.3, 0.5, 8000, 6, 2, {1, 1.1, 0.9}, 0.01, 4, 0.002, 0.1, Encoding::kGamma, 1.8}));
+}
+
+// Catches: a belief that stays at the file's rig when the true rig is overridden.
+TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
+  const Scenario scenario =
+      read_small({"rig.baseline_m=0.2", "rig.right_turn_deg=[0, 0.5, 0]", "believed_rig={focal_px: 505}"});
+  EXPECT_EQ(scenario.rig.right_turn_rad.y(), 0.5 * std::numbers::pi / 180.0);
+  EXPECT_EQ(scenario.believed_rig.baseline_m, 0.2);
+  EXPECT_EQ(scenario.believed_rig.camera.focal_px, 505.0);
+  EXPECT_EQ(scenario.believed_rig.right_turn_rad, Eigen::Vector3d::Zero()) << "it is taken to be rectified";
+  EXPECT_EQ(scenario.rig.camera.focal_px, read_small().believed_rig.camera.focal_px);
+}
+
 /// A language that writes a comma where C++ writes a point.
 struct DecimalComma : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }

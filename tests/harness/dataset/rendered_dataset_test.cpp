@@ -85,7 +85,7 @@ TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   EXPECT_EQ(folder.read("left/000000.png"), left);
   EXPECT_NE(folder.read("right_depth/000000.pfm"), depth);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
-  again.finish({}, kRig, kOneStep);
+  again.finish({}, kRig, kRig, kOneStep);
   EXPECT_EQ(folder.read("dataset.json"), "one");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
 }
@@ -96,7 +96,7 @@ TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   const RenderedDataset dataset(folder.path(), "one");
   const auto take_up = [&] { RenderedDataset(folder.path(), "another"); };
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
-  dataset.finish({}, kRig, kOneStep);
+  dataset.finish({}, kRig, kRig, kOneStep);
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
 }
 

@@ -1,0 +1,20 @@
+/// What a moving camera sees while its shutter is open.
+#pragma once
+
+#include <cstddef>
+
+#include "renderer/renderer.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Renders a step of a drive as its camera sees it: the average of the instants while the shutter is open,
+/// the right eye later by its delay.
+///
+/// @param index of the step; the left shutter opens half its time before the step and closes half after
+/// @return light as an average over camera.shutter_samples instants, rounded; identity and depth are those of
+///   the middle of each eye's exposure
+renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
+                                   std::size_t index, const worlds::CameraSensor& camera);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,230 @@
+#include "renderer/develop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "renderer/image_noise.h"
+#include "slam/elementary.h"
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr float kWhite = 255.0F;
+constexpr float kFewElectrons = 16.0F;  // up to here their number is drawn by inversion
+constexpr int kStepsPerLevel = 64;      // of the encoder's table: finer than the steepest part of sRGB
+
+/// A row of light, three channels a pixel.
+using Row = std::vector<float>;
+
+/// Half a Gaussian, normalised as the whole one: the weight of the centre, then of each neighbour outwards.
+std::vector<float> half_gaussian(double sd_px) {
+  std::vector<double> weights(static_cast<std::size_t>(std::ceil(4.0 * sd_px)) + 1);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double x = static_cast<double>(i) / sd_px;
+    weights[i] = slam::exponential(-0.5 * x * x);
+    sum += i == 0 ? weights[i] : 2.0 * weights[i];
+  }
+  std::vector<float> normalised;
+  for (const double weight : weights) normalised.push_back(static_cast<float>(weight / sum));
+  return normalised;
+}
+
+/// The picture blurred along rows, then along columns; beyond the border lies what is at the border.
+/// OpenCV's blur of floats has other bits on other processors.
+cv::Mat blurred(const cv::Mat& light, double sd_px) {
+  const std::vector<float> weights = half_gaussian(sd_px);
+  const int reach = static_cast<int>(weights.size()) - 1;
+  cv::Mat wide;
+  cv::copyMakeBorder(light, wide, reach, reach, reach, reach, cv::BORDER_REPLICATE);
+  wide.convertTo(wide, CV_32FC3);
+  const int width = 3 * light.cols;
+  cv::Mat across(wide.rows, light.cols, CV_32FC3);
+  for (int y = 0; y < wide.rows; ++y) {
+    const float* centre = wide.ptr<float>(y) + 3 * reach;
+    float* sum = across.ptr<float>(y);
+    for (int x = 0; x < width; ++x) sum[x] = weights[0] * centre[x];
+    for (int k = 1; k <= reach; ++k) {
+      const float weight = weights[static_cast<std::size_t>(k)];
+      for (int x = 0; x < width; ++x) sum[x] += weight * (centre[x - 3 * k] + centre[x + 3 * k]);
+    }
+  }
+  cv::Mat both(light.size(), CV_32FC3);
+  for (int y = 0; y < light.rows; ++y) {
+    float* sum = both.ptr<float>(y);
+    const float* centre = across.ptr<float>(y + reach);
+    for (int x = 0; x < width; ++x) sum[x] = weights[0] * centre[x];
+    for (int k = 1; k <= reach; ++k) {
+      const float weight = weights[static_cast<std::size_t>(k)];
+      const float* above = across.ptr<float>(y + reach - k);
+      const float* below = across.ptr<float>(y + reach + k);
+      for (int x = 0; x < width; ++x) sum[x] += weight * (above[x] + below[x]);
+    }
+  }
+  return both;
+}
+
+/// Keeps of each pixel's light what the vignette leaves.
+void darken_corners(Row& row, int y, const cv::Size& size, double vignette) {
+  const double middle_x = 0.5 * (size.width - 1);
+  const double middle_y = 0.5 * (size.height - 1);
+  const double corner2 = middle_x * middle_x + middle_y * middle_y;
+  for (int x = 0; x < size.width; ++x) {
+    const double radius2 = (x - middle_x) * (x - middle_x) + (y - middle_y) * (y - middle_y);
+    const auto kept = static_cast<float>(1.0 - vignette * radius2 / corner2);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      row[3 * static_cast<std::size_t>(x) + channel] *= kept;
+  }
+}
+
+/// Sixteen random bits for each number of a picture, in order.
+class Draws {
+ public:
+  explicit Draws(const NoiseKey& key) : blocks_(key) {}
+  std::uint16_t next() {
+    if (used_ == kNumbersPerBlock) {
+      numbers_ = blocks_(block_++);
+      used_ = 0;
+    }
+    return numbers_[used_++];
+  }
+
+ private:
+  NoiseBlocks blocks_;
+  std::uint64_t block_ = 0;
+  std::array<std::uint16_t, kNumbersPerBlock> numbers_{};
+  std::size_t used_ = kNumbersPerBlock;
+};
+
+/// @return the smallest count whose cumulative Poisson probability exceeds the number's
+float poisson_by_inversion(float expected, std::uint16_t bits) {
+  const double uniform = (static_cast<double>(bits) + 0.5) / static_cast<double>(kQuantiles);
+  double term = slam::exponential(-static_cast<double>(expected));
+  double cumulative = term;
+  int count = 0;
+  while (cumulative < uniform && term > 0.0) {
+    ++count;
+    term *= static_cast<double>(expected) / count;
+    cumulative += term;
+  }
+  return static_cast<float>(count);
+}
+
+float shot_noise(float expected, std::uint16_t bits, const std::vector<float>& normal) {
+  if (expected < kFewElectrons) return poisson_by_inversion(expected, bits);
+  const float z = normal[bits];
+  return expected + std::sqrt(expected - 1.0F / 18.0F) * z + (z * z - 1.0F) / 6.0F;
+}
+
+const std::vector<float>& float_quantiles() {
+  static const std::vector<float> quantiles(standard_normal_quantiles().begin(),
+                                            standard_normal_quantiles().end());
+  return quantiles;
+}
+
+/// What one pixel of a camera does, the same for all pixels.
+class Chip {
+ public:
+  Chip(const worlds::CameraSensor& sensor, std::uint64_t seed, std::uint64_t sequence)
+      : grains_(sensor.full_well_electrons > 0.0),
+        // Without a well to fill, electrons are levels.
+        electrons_per_level_(grains_ ? static_cast<float>(sensor.full_well_electrons) / kWhite : 1.0F),
+        exposure_(static_cast<float>(sensor.exposure)),
+        read_noise_(grains_ ? static_cast<float>(sensor.read_noise_electrons) : 0.0F),
+        added_noise_(static_cast<float>(sensor.noise_sd_levels)),
+        shot_({seed, slam::Stream::kShotNoise, sequence}),
+        read_({seed, slam::Stream::kReadNoise, sequence}),
+        added_({seed, slam::Stream::kImageNoise, sequence}) {
+    for (int channel = 0; channel < 3; ++channel) {
+      gain_bgr_[static_cast<std::size_t>(channel)] =
+          static_cast<float>(sensor.gain * sensor.white_balance_rgb[2 - channel]);
+    }
+  }
+
+  /// @param light in levels
+  /// @return the level it becomes, before encoding
+  float level(float light, std::size_t channel) {
+    float electrons = light * exposure_ * electrons_per_level_;
+    if (grains_) electrons = shot_noise(electrons, shot_.next(), normal_);
+    if (read_noise_ > 0.0F) electrons += read_noise_ * normal_[read_.next()];
+    const float clean = gain_bgr_[channel] * electrons / electrons_per_level_;
+    return added_noise_ > 0.0F ? clean + added_noise_ * normal_[added_.next()] : clean;
+  }
+
+ private:
+  bool grains_;
+  float electrons_per_level_;
+  float exposure_;
+  float read_noise_;
+  float added_noise_;
+  std::array<float, 3> gain_bgr_{};
+  Draws shot_;
+  Draws read_;
+  Draws added_;
+  const std::vector<float>& normal_ = float_quantiles();
+};
+
+double encode(double light, const worlds::CameraSensor& sensor) {
+  if (sensor.encoding == worlds::Encoding::kGamma) return slam::power(light, 1.0 / sensor.gamma);
+  if (sensor.encoding == worlds::Encoding::kLinear) return light;
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * slam::power(light, 1.0 / 2.4) - 0.055;
+}
+
+/// The stored byte of a level, by table.
+class Encoder {
+ public:
+  explicit Encoder(const worlds::CameraSensor& sensor)
+      : linear_(sensor.encoding == worlds::Encoding::kLinear) {
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      const double light = static_cast<double>(i) / (255.0 * kStepsPerLevel);
+      codes_[i] = static_cast<std::uint8_t>(std::lround(255.0 * encode(std::min(light, 1.0), sensor)));
+    }
+  }
+
+  std::uint8_t operator()(float level) const {
+    const float clamped = std::clamp(level, 0.0F, kWhite);  // NaN cannot be: all that goes in is finite
+    if (linear_) return static_cast<std::uint8_t>(clamped + 0.5F);
+    return codes_[static_cast<std::size_t>(clamped * kStepsPerLevel + 0.5F)];
+  }
+
+ private:
+  bool linear_;
+  std::array<std::uint8_t, 255 * kStepsPerLevel + 1> codes_{};
+};
+
+}  // namespace
+
+cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                std::uint64_t sequence) {
+  const bool sharp = sensor.defocus_sd_px == 0.0;
+  const cv::Mat focused = sharp ? light : blurred(light, sensor.defocus_sd_px);
+  Chip chip(sensor, seed, sequence);
+  const Encoder encoder(sensor);
+  cv::Mat levels(light.size(), CV_8UC3);
+  Row row(3 * static_cast<std::size_t>(light.cols));
+  for (int y = 0; y < light.rows; ++y) {
+    if (sharp)
+      std::copy_n(light.ptr(y), row.size(), row.begin());
+    else
+      std::copy_n(focused.ptr<float>(y), row.size(), row.begin());
+    if (sensor.vignette > 0.0) darken_corners(row, y, light.size(), sensor.vignette);
+    std::uint8_t* stored = levels.ptr(y);
+    for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(chip.level(row[i], i % 3));
+  }
+  return levels;
+}
+
+double noise_sd_levels(const worlds::CameraSensor& sensor, double level) {
+  double variance = sensor.noise_sd_levels * sensor.noise_sd_levels;
+  if (sensor.full_well_electrons > 0.0) {
+    const double electrons = level / 255.0 * sensor.exposure * sensor.full_well_electrons;
+    const double levels_per_electron = sensor.gain * 255.0 / sensor.full_well_electrons;
+    variance += levels_per_electron * levels_per_electron *
+                (electrons + sensor.read_noise_electrons * sensor.read_noise_electrons);
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,31 @@
+/// From light to levels: the whole camera, pixel by pixel.
+#pragma once
+
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+
+#include "worlds/camera_sensor.h"
+
+namespace stereobench::renderer {
+
+/// What the camera stores of a perfect picture.
+///
+/// A pixel gathers e = L V exposure / 255 full_well electrons, L its light in levels and V the vignette. The
+/// number counted is Poisson's for e below 16, drawn by inversion, and above it e + sqrt(e - 1/18) z +
+/// (z^2 - 1) / 6 with a standard normal z, which has Poisson's first three moments. Read noise and gain make
+/// levels of it. A camera without a full well has neither shot nor read noise.
+/// @param light CV_8UC3, BGR, linear
+/// @param seed, sequence key of the noise, sequence = 2 * frame + eye; shot noise and the rest draw from
+/// streams of their own
+/// @return CV_8UC3 of the same size, encoded
+cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                std::uint64_t sequence);
+
+/// The noise of a pixel that a camera without vignette has at a level of linear light.
+///
+/// @param level of the perfect picture, in [0, 255]
+/// @return standard deviation in levels, gain included, before encoding and rounding
+double noise_sd_levels(const worlds::CameraSensor& sensor, double level);
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,131 @@
+/// A camera that moves while it looks, that is late, that loses frames, and that is not the one believed in.
+///
+/// Mutations seen red here: the delay given to the left eye, half the shutter time, the first instant for the
+/// average, vision told of the true rig, every frame kept.
+
+#include "harness/run/shutter.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "harness/run/recording.h"
+#include "worlds/path.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// Two balls ahead of a robot that drives a bend.
+worlds::Scenario bend() {
+  worlds::Scenario scenario{.name = "bend"};
+  scenario.world.balls = {{{2.0, 0.2, 0.3}, 0.1, 0}, {{2.5, -0.4, 0.3}, 0.1, 6}};
+  scenario.rig.camera = {320, 240, 280.0, 159.5, 119.5};
+  scenario.believed_rig = scenario.rig;
+  scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.05, 0.1});
+  return scenario;
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+TEST(Shutter, WithoutTimeOrDelayIsARendering) {
+  const worlds::Scenario scenario = bend();
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, scenario.camera);
+  const renderer::StereoFrame rendered = renderer.render(scenario.path[2].pose);
+  EXPECT_TRUE(same(seen.left.colour, rendered.left.colour));
+  EXPECT_TRUE(same(seen.right.colour, rendered.right.colour));
+  EXPECT_TRUE(same(seen.right.ball_id, rendered.right.ball_id));
+}
+
+TEST(Shutter, ADelayMovesTheRightEyeAlone) {
+  const worlds::Scenario scenario = bend();
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, {.right_delay_s = 0.05});
+  const renderer::StereoFrame now = renderer.render(scenario.path[2].pose);
+  const renderer::StereoFrame later = renderer.render(worlds::pose_near(scenario.path, 2, 0.05));
+  EXPECT_TRUE(same(seen.left.colour, now.left.colour));
+  EXPECT_TRUE(same(seen.right.colour, later.right.colour));
+  EXPECT_FALSE(same(now.right.colour, later.right.colour));
+}
+
+// Light is not lost, and a rim that moves by d pixels is smeared over d: a uniform blur has variance d^2
+// / 12.
+TEST(Shutter, BlursWhatMovesByHowFarItMoves) {
+  worlds::Scenario scenario = bend();
+  scenario.world.sky_rgb = {0.0, 0.0, 0.0};
+  scenario.world.balls.resize(1);
+  scenario.world.light.ambient = 1.0;
+  scenario.world.light.diffuse = 0.0;
+  scenario.rig.pitch_down_rad = -0.5;  // the ball before the sky
+  scenario.world.balls[0].centre_m = {2.0, 0.0, 1.4};
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  const auto moments = [&](const cv::Mat& picture) {
+    cv::Mat channel;
+    cv::extractChannel(picture, channel, 2);
+    return cv::moments(channel);
+  };
+  const auto column_at = [&](double offset_s) {
+    const cv::Moments m = moments(renderer.render(worlds::pose_near(scenario.path, 2, offset_s)).left.colour);
+    return m.m10 / m.m00;
+  };
+  const cv::Moments sharp = moments(renderer.render(scenario.path[2].pose).left.colour);
+  const worlds::CameraSensor camera{.shutter_s = 0.2, .shutter_samples = 40};
+  const cv::Moments blurred = moments(open_shutter(renderer, scenario.path, 2, camera).left.colour);
+  const double moved_px = column_at(0.1) - column_at(-0.1);
+  EXPECT_GT(std::abs(moved_px), 5.0);
+  EXPECT_NEAR(blurred.m00 / sharp.m00, 1.0, 0.01);
+  EXPECT_NEAR(blurred.mu20 / blurred.m00 - sharp.mu20 / sharp.m00, moved_px * moved_px / 12.0,
+              0.03 * moved_px * moved_px / 12.0);
+}
+
+double mean_range_ratio(const worlds::Scenario& scenario) {
+  const MeasurementLog log = record(scenario, 0, {}).log;
+  double sum = 0.0;
+  int count = 0;
+  for (const LogStep& step : log.steps) {
+    for (const slam::RangeBearing& seen : step.measurements) {
+      const Eigen::Vector2d ball =
+          scenario.world.balls[static_cast<std::size_t>(seen.landmark_id)].centre_m.head<2>();
+      sum += seen.range_m / (ball - Eigen::Vector2d(step.truth->x_m, step.truth->y_m)).norm();
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 5);
+  return sum / count;
+}
+
+// Range is f B / d: who believes in a baseline that is 2 % longer measures ranges that are 2 % longer.
+TEST(Rigs, VisionBelievesInTheBelievedOne) {
+  worlds::Scenario scenario = bend();
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
+  scenario.believed_rig.baseline_m *= 1.02;
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.02, 0.003);
+}
+
+// About the vertical axis a turn of the right eye adds to the disparity: dZ / Z = -Z turn / B.
+TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
+  worlds::Scenario scenario = bend();
+  scenario.rig.right_turn_rad.y() = 0.0005;
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0 - 2.2 * 0.0005 / 0.12, 0.003);
+}
+
+TEST(Frames, AreLostAsOftenAsAsked) {
+  worlds::Scenario scenario = bend();
+  scenario.camera.drop_probability = 1.0;
+  const auto looks = [&] {
+    int count = 0;
+    const Recording recording = record(scenario, 1, {.on_look = [&](const Look&) { ++count; }});
+    EXPECT_EQ(recording.log.steps.size(), scenario.path.size());
+    return count;
+  };
+  EXPECT_EQ(looks(), 0);
+  scenario.camera.drop_probability = 0.5;
+  scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.4, 0.1});
+  const double steps = static_cast<double>(scenario.path.size());
+  EXPECT_NEAR(looks(), 0.5 * steps, 3.29 * std::sqrt(0.25 * steps));
+}
+
+}  // namespace
+}  // namespace stereobench::harness
