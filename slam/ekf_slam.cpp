@@ -66,7 +66,8 @@ EkfSlam::Decided EkfSlam::associate(std::span<const Sighting> frame) {
       decided.targets[k] = {Fate::kUse, landmark_of_slot_[static_cast<std::size_t>(frame[k].slot)]};
     }
   }
-  if (config_.association == Association::kJoint && compete(candidates)) associate_jointly(frame, candidates);
+  if (config_.association == Association::kJoint && !(near_m_ > 0.0) && compete(candidates))
+    associate_jointly(frame, candidates);
   if (!candidates.empty()) assign(candidates, near_m_ > 0.0, decided.targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
     if (decided.targets[k].fate == Fate::kUse) decided.order.push_back(k);

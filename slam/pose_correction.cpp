@@ -151,7 +151,7 @@ void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief
       targets[k] = {Fate::kUse, frame[k].slot};
     }
   }
-  if (association_ == Association::kJoint && compete(candidates_))
+  if (association_ == Association::kJoint && !(near_m_ > 0.0) && compete(candidates_))
     associate_jointly(particle, predicted, frame, counters);
   if (candidates_.empty()) return;
   assign(candidates_, near_m_ > 0.0, targets);

@@ -212,6 +212,7 @@ TYPED_TEST(Corrections, AnUncertainHeadingExcusesTheWay) {
 // A map of a thousand landmarks, searched through its bounds, and the same search done one by one. Catches a
 // search that is narrower than the gate.
 TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
+  this->config_.association = Association::kIndividual;
   RandomStream random(5, Stream::kWorld);
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector2d place(20.0 * random.uniform(), 20.0 * random.uniform());
