@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/measurement.h"
+#include "slam/pose_correction.h"
 
 namespace stereobench::slam {
 namespace {
@@ -116,6 +117,27 @@ TEST(PredictiveMixture, IsRefusedByHalfOfTheWeight) {
   EXPECT_FALSE(mixture.innovations().at(0).refused);
   mixture.targets = {{Fate::kUse, 0}, {Fate::kMove, 0}};
   EXPECT_TRUE(mixture.innovations().at(0).refused);
+}
+
+// What a frame is worth to a particle is what its sightings are, one by one. Mutation: the sum so far in
+// place of each.
+TEST(PredictiveMixture, SightingsAreWorthWhatTheFrameIs) {
+  PoseCorrection<Linearised> correction({.report_updates = true});
+  Particle particle;
+  std::vector<Sighting> frame;
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(3.0, 1.0), Eigen::Vector2d(2.0, -2.0)}) {
+    particle.known.push_back({{place, 1e-2 * Eigen::Matrix2d::Identity()}});
+    frame.push_back(
+        {{predict_sighting({}, place) + Eigen::Vector2d(0.05, 0.02), 1e-2 * Eigen::Matrix2d::Identity()},
+         static_cast<int>(frame.size())});
+  }
+  std::vector<Target> targets(frame.size());
+  FilterCounters counters;
+  const PoseBelief predicted{{}, 1e-3 * Eigen::Matrix3d::Identity()};
+  const Posterior posterior = correction.correct(particle, predicted, frame, targets, counters);
+  double sum = 0.0;
+  for (const ExpectedSighting& one : correction.expected()) sum += one.log_likelihood;
+  EXPECT_NEAR(sum, posterior.log_likelihood, 1e-12);
 }
 
 TEST(PredictiveMixture, WeightsThatVanishAreNoNumbersInTheReport) {

@@ -86,7 +86,7 @@ class Reports : public ::testing::Test {
 using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
 TYPED_TEST_SUITE(Reports, MappingNames);
 
-// Mutation: a report that draws, or a mended covariance that is counted.
+// A report draws nothing and mends nothing that counts.
 TYPED_TEST(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {
   const Drive world;
   FilterConfig config = reporting(world, 20);
@@ -132,8 +132,7 @@ TYPED_TEST(Reports, NameEachSightingOfAKnownLandmarkOnce) {
 }
 
 // Where all is linear a filter is right, and its squared lengths have a mean of 2. Twenty laps of about 500
-// sightings: five standard errors. Mutations: S without the landmark's covariance (1.9), after the update,
-// or of the pose after the frame.
+// sightings: five standard errors.
 TYPED_TEST(Reports, SquaredLengthsAreChiSquareWhenTheFilterIsRight) {
   typename TestFixture::Lengths all;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -169,7 +168,7 @@ TYPED_TEST(Reports, TellRefusedSightingsApart) {
 }
 
 // The squared lengths of a frame, each given those before it, add up to that of the frame as a whole, S of
-// all sightings at once. Mutation: S of each sighting as if it were the frame's only one.
+// all sightings at once. Mutation: S smaller by a tenth.
 TYPED_TEST(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
   const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {5.0, 4.0}};
   const double sd = 1e-4;
@@ -228,7 +227,7 @@ TYPED_TEST(Reports, ExpectationsAreThoseOfThePosesDrawn) {
   EXPECT_EQ(*greatest > *least, TypeParam::kName == std::string("fastslam1"));
 }
 
-// Mutations: numbers of descendants for ancestors; ancestors of the update before.
+// Mutation: the ancestors of an update before.
 TYPED_TEST(Reports, AncestorsComeWithEachResampling) {
   Drive world;
   world.side_m = 8.0;

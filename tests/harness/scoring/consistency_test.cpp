@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "slam/motion.h"

@@ -56,8 +56,8 @@ FilterSummary summary_of(std::uint64_t seeds, double claimed_variance = 1.0) {
 }
 
 // Everything that is a test has its own level (1 %, 1 %, 5 %); a fraction's interval comes from the seeds:
-// four standard errors. Mutations: S after the update (NIS, runs and landmarks); P without the correlation of
-// x and y (steps, coverage); a landmark's covariance given the path alone (map); the first two steps counted.
+// four standard errors. Mutations: squared lengths halved in the filter, or of one degree of freedom;
+// ellipses of one degree of freedom.
 TEST(Honesty, OfAFilterThatIsExactIsNotDoubted) {
   const FilterSummary exact = summary_of(100);
   const ConsistencySummary& c = exact.consistency;
@@ -75,8 +75,8 @@ TEST(Honesty, OfAFilterThatIsExactIsNotDoubted) {
   }
 }
 
-// Half of the measurement's true variance is claimed: one run is enough, with every filter. Mutation: a band
-// for the mean of squared lengths of one degree of freedom.
+// Half of the measurement's true variance is claimed: one run is enough, with every filter. Mutation: squared
+// lengths halved.
 TEST(Honesty, NisFindsAWrongNoiseInOneRun) {
   const slam::Drive world = precise_lap();
   for (const char* filter : {"ekf", "fastslam1", "fastslam2", "ufastslam"}) {
