@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "slam/elementary.h"
 #include "slam/gaussian.h"
 
 namespace stereobench::slam {
@@ -30,7 +31,7 @@ Posterior correct_at_once(const PoseBelief& predicted, std::span<const Expectati
   }
   const Eigen::LLT<Eigen::Matrix3d> factor(information);
   const Eigen::Vector3d u = factor.solve(evidence);
-  const double log_det = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  const double log_det = 2.0 * logarithm(factor.matrixLLT().diagonal().prod());
   const Eigen::Matrix3d covariance = root * factor.solve(root.transpose());
   return {{displace(predicted.mean, root * u), 0.5 * (covariance + covariance.transpose())},
           -0.5 * (cost - evidence.dot(u) + log_det),
