@@ -16,7 +16,7 @@ Observation observed(double range_m, double bearing_rad) {
   return {{range_m, bearing_rad}, Eigen::Vector2d(0.1 * 0.1, 0.02 * 0.02).asDiagonal()};
 }
 
-// Mutation tried: any of the four that does not ask whether a sector is declared.
+// Meant to catch: any of the four that does not ask whether a sector is declared.
 TEST(Existence, WithoutADeclaredSectorEverythingIsTakenForReal) {
   const Existence existence{SensorSector{}};
   EXPECT_FALSE(existence.is_tracked());
@@ -25,7 +25,7 @@ TEST(Existence, WithoutADeclaredSectorEverythingIsTakenForReal) {
   EXPECT_EQ(existence.cost_of_new(observed(5.0, 0.0)), INFINITY);
 }
 
-// Mutation tried: the sign of either kind of evidence.
+// Meant to catch: the sign of either kind of evidence.
 TEST(Existence, SightingsSpeakForALandmarkAndLooksWithoutOneAgainstIt) {
   const Existence existence(kSector);
   EXPECT_FALSE(Existence::is_believed(existence.founded())) << "likelier clutter";
@@ -40,7 +40,7 @@ TEST(Existence, SightingsSpeakForALandmarkAndLooksWithoutOneAgainstIt) {
   EXPECT_LE(looks, 10) << "what was seen a thousand times can go";
 }
 
-// The better the sensor, the less can clutter pass for a landmark. Mutation tried: the clutter of the whole
+// The better the sensor, the less can clutter pass for a landmark. Meant to catch: the clutter of the whole
 // sector in place of that of the gate.
 TEST(Existence, APreciseSightingSaysMore) {
   const Existence existence(kSector);
@@ -50,7 +50,7 @@ TEST(Existence, APreciseSightingSaysMore) {
   EXPECT_GE(existence.seen(0.0F, rough), 0.0F) << "a sighting never speaks against what it shows";
 }
 
-// Mutations tried: the whole angle for the half, the margin left out.
+// Meant to catch: the whole angle for the half, the margin left out.
 TEST(Existence, OnlyWhatIsSafelyWithinTheSectorIsMissed) {
   const Existence existence(kSector);
   const Pose robot{1.0, 2.0, 0.5};
@@ -68,7 +68,7 @@ TEST(Existence, OnlyWhatIsSafelyWithinTheSectorIsMissed) {
   EXPECT_TRUE(at(10.0, 0.0, 0.5));
 }
 
-// Over the sector the density holds all clutter and the few new landmarks of a look. Mutation tried: a
+// Over the sector the density holds all clutter and the few new landmarks of a look. Meant to catch: a
 // density that is flat in range, and the half angle taken for the whole.
 TEST(Existence, TheDensityOfTheNewAddsUpOverTheSector) {
   const Existence existence(kSector);

@@ -122,7 +122,7 @@ Chosen within_gate(const std::vector<Candidate>& candidates) {
 
 // Subsets of a compatible set need not be compatible under a quantile, so that the search, which asks on its
 // way, may rightly end with less than brute force: it must never end with more, and nearly always with as
-// much. Mutations tried: the tie left out, its transpose, a landmark given twice, cost in place of length.
+// much. Mutations tried: the tie left out, a landmark given twice.
 TEST(JointCompatibility, FindsWhatTryingEverythingFinds) {
   int equal = 0;
   int compared = 0;
@@ -144,7 +144,7 @@ TEST(JointCompatibility, FindsWhatTryingEverythingFinds) {
   EXPECT_GE(equal, compared * 95 / 100);
 }
 
-// Mutation tried: sightings searched in the order in which they come.
+// Meant to catch: sightings searched in the order in which they come.
 TEST(JointCompatibility, DoesNotCareForTheOrderOfCandidates) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Frame frame(seed, 4, 4);
@@ -193,7 +193,7 @@ TEST(JointCompatibility, WithoutCompetitorsNothingCompetes) {
   EXPECT_TRUE(compete(std::vector<Candidate>{{0, 0, 1.0, false}, {0, 1, 1.0, false}}));
 }
 
-// Twelve sightings of twelve landmarks on one spot: 13 billion ways. Mutation tried: no limit.
+// Twelve sightings of twelve landmarks on one spot: 13 billion ways. Meant to catch: no limit.
 TEST(JointCompatibility, GivesUpInTimeAndSaysSo) {
   std::vector<Candidate> candidates;
   std::vector<Pairing> pairings;

@@ -92,7 +92,7 @@ class WithoutIdentities : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Filters, WithoutIdentities,
                          ::testing::Values("ekf", "fastslam1", "fastslam2", "ufastslam"));
 
-// Mutations tried: matches within the gate turned away; landmarks of one class not told apart.
+// Meant to catch: matches within the gate turned away; landmarks of one class not told apart.
 TEST_P(WithoutIdentities, LandmarksFarApartAreAsGoodAsNamed) {
   Unlabelled drive{.sparse = true};
   drive.world.odometry_noise = {0.005, 0.0, 0.0, 0.002, 0.0, 0.0};
@@ -113,7 +113,7 @@ TEST_P(WithoutIdentities, LandmarksFarApartAreAsGoodAsNamed) {
   EXPECT_GE(compared, 4);
 }
 
-// Mutation tried: the first sighting that comes gets the landmark.
+// Meant to catch: the first sighting that comes gets the landmark.
 TEST_P(WithoutIdentities, TheOrderOfSightingsDecidesNothing) {
   Unlabelled drive{.false_per_look = 1.0, .miss_probability = 0.1};
   Unlabelled reversed = drive;
@@ -128,7 +128,7 @@ TEST_P(WithoutIdentities, TheOrderOfSightingsDecidesNothing) {
   }
 }
 
-// Mutation tried: the joint test asked where nothing competes, with a gate of its own.
+// Meant to catch: the joint test asked where nothing competes, with a gate of its own.
 TEST_P(WithoutIdentities, WhereNothingCompetesTheJointTestIsSilent) {
   const Unlabelled drive;
   FilterConfig individual = drive.config();
@@ -140,7 +140,7 @@ TEST_P(WithoutIdentities, WhereNothingCompetesTheJointTestIsSilent) {
   EXPECT_EQ(other.counters.joint_searches_cut, 0);
 }
 
-// Mutations tried: nothing loses odds; the dead stay in the report; the unseen includes what is out of view.
+// Meant to catch: nothing loses odds; the dead stay in the report; the unseen includes what is out of view.
 TEST_P(WithoutIdentities, ClutterVanishesAndLandmarksStay) {
   const Unlabelled drive{.false_per_look = 1.0, .miss_probability = 0.1};
   FilterConfig ignorant = drive.config();
@@ -156,7 +156,7 @@ TEST_P(WithoutIdentities, ClutterVanishesAndLandmarksStay) {
   EXPECT_GE(real, landmarks - 2);
 }
 
-// Mutations tried: any landmark trusted; a sighting of a doubtful one weighed like one of a landmark.
+// Meant to catch: any landmark trusted; a sighting of a doubtful one weighed like one of a landmark.
 TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
   const FilterConfig config{.sector = {10.0, 1.5, 0.1, 2.0}};
   PoseCorrection<Linearised> correction(config);
