@@ -23,8 +23,11 @@ struct Mixture {
 
   explicit Mixture(const std::vector<Eigen::Vector2d>& seen) {
     for (std::size_t k = 0; k < seen.size(); ++k)
-      frame.push_back(
-          {{seen[k], Eigen::Matrix2d::Identity()}, static_cast<int>(k), kUnknown, static_cast<int>(k)});
+      frame.push_back({{seen[k], Eigen::Matrix2d::Identity()},
+                       static_cast<int>(k),
+                       kUnknown,
+                       static_cast<int>(k),
+                       static_cast<int>(k)});
   }
   void add_particle(double weight, const std::vector<ExpectedSighting>& by_sighting) {
     log_weights.push_back(std::log(weight));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "harness/run/recording.h"
 #include "worlds/path.h"
