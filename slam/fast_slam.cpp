@@ -23,6 +23,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size(), -logarithm(static_cast<double>(config.particles))),
+      weights_(weights_of(log_weights_)),
       posteriors_(particles_.size()),
       belief_{start, Eigen::Matrix3d::Zero()},
       effective_(static_cast<double>(config.particles)) {}
@@ -105,8 +106,9 @@ template <class Model>
 void FastSlam<Model>::reweigh() {
   for (std::size_t i = 0; i < particles_.size(); ++i) log_weights_[i] += posteriors_[i].log_likelihood;
   if (!normalise(log_weights_)) ++counters_.weight_collapses;
-  effective_ = effective_particles(log_weights_);
-  belief_ = mixed_pose(posteriors_, log_weights_);
+  weights_ = weights_of(log_weights_);
+  effective_ = effective_particles(weights_);
+  belief_ = mixed_pose(posteriors_, weights_);
 }
 
 /// Before resampling, which the heaviest particle survives in its place, and before landmarks are moved.
@@ -123,8 +125,7 @@ void FastSlam<Model>::note_decisions(std::span<const Sighting> frame) {
 
 template <class Model>
 void FastSlam<Model>::resample() {
-  const std::vector<int> ancestors =
-      ancestors_in_place(systematic_descendants(log_weights_, random_.uniform()));
+  const std::vector<int> ancestors = ancestors_in_place(systematic_descendants(weights_, random_.uniform()));
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const auto from = static_cast<std::size_t>(ancestors[i]);
     if (from == i) continue;
@@ -133,7 +134,9 @@ void FastSlam<Model>::resample() {
     std::ranges::copy(targets_of(from), targets_of(i).begin());
   }
   if (config_.report_updates) report_.ancestors = ancestors;
-  std::fill(log_weights_.begin(), log_weights_.end(), -logarithm(static_cast<double>(particles_.size())));
+  const double equal = -logarithm(static_cast<double>(particles_.size()));
+  std::ranges::fill(log_weights_, equal);
+  std::ranges::fill(weights_, exponential(equal));
   ++counters_.resamplings;
 }
 
@@ -222,7 +225,7 @@ Estimate FastSlam<Model>::estimate() const {
   const auto heaviest = std::max_element(log_weights_.begin(), log_weights_.end()) - log_weights_.begin();
   const Particle& reported = particles_[static_cast<std::size_t>(heaviest)];
   for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
-    const LandmarkBelief mixed = mixed_landmark(particles_, log_weights_, slot);
+    const LandmarkBelief mixed = mixed_landmark(particles_, weights_, slot);
     const RangeBearing& first = reader_.first_sighting(slot);
     estimate.landmarks.push_back(
         {first.landmark_id, first.colour_class, mixed.mean, mixed.covariance, reported.known[slot].origin});
@@ -231,7 +234,7 @@ Estimate FastSlam<Model>::estimate() const {
     const Landmark& own = reported.classed[i];
     if (!Existence::is_believed(own.log_odds)) continue;
     const LandmarkBelief mixed =
-        mixed_landmark_near(particles_, log_weights_, own, 0.5 * config_.colour_spacing_m);
+        mixed_landmark_near(particles_, weights_, own, 0.5 * config_.colour_spacing_m);
     estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance, own.origin});
   }
   return estimate;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/elementary.h"
 #include "slam/existence.h"
 #include "slam/moments.h"
 
@@ -26,36 +25,35 @@ const Landmark* nearest(const LandmarkMap& map, const Landmark& own, double with
 
 }  // namespace
 
-PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vector<double>& log_weights) {
-  const auto heaviest = std::max_element(log_weights.begin(), log_weights.end()) - log_weights.begin();
+PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vector<double>& weights) {
+  const auto heaviest = std::max_element(weights.begin(), weights.end()) - weights.begin();
   const Pose reference = posteriors[static_cast<std::size_t>(heaviest)].pose.mean;
   Moments<3> moments;
   for (std::size_t i = 0; i < posteriors.size(); ++i) {
     const PoseBelief& belief = posteriors[i].pose;
-    moments.add(exponential(log_weights[i]), displacement(belief.mean, reference), belief.covariance);
+    moments.add(weights[i], displacement(belief.mean, reference), belief.covariance);
   }
   return {displace(reference, moments.mean()), moments.covariance()};
 }
 
-LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& log_weights,
+LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& weights,
                               std::size_t slot) {
   const Eigen::Vector2d reference = particles.front().known[slot].belief.mean;
   Moments<2> moments;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const LandmarkBelief& belief = particles[i].known[slot].belief;
-    moments.add(exponential(log_weights[i]), belief.mean - reference, belief.covariance);
+    moments.add(weights[i], belief.mean - reference, belief.covariance);
   }
   return {reference + moments.mean(), moments.covariance()};
 }
 
-LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles,
-                                   const std::vector<double>& log_weights, const Landmark& own,
-                                   double within_m) {
+LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& weights,
+                                   const Landmark& own, double within_m) {
   Moments<2> moments;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Landmark* same = nearest(particles[i].classed, own, within_m);
     if (same == nullptr) continue;
-    moments.add(exponential(log_weights[i]), same->belief.mean - own.belief.mean, same->belief.covariance);
+    moments.add(weights[i], same->belief.mean - own.belief.mean, same->belief.covariance);
   }
   return {own.belief.mean + moments.mean(), moments.covariance()};
 }

@@ -27,20 +27,26 @@ bool normalise(std::vector<double>& log_weights) {
   return true;
 }
 
-double effective_particles(const std::vector<double>& log_weights) {
-  double sum = 0.0;
-  for (const double w : log_weights) sum += exponential(2.0 * w);
-  return std::clamp(1.0 / sum, 1.0, static_cast<double>(log_weights.size()));
+std::vector<double> weights_of(const std::vector<double>& log_weights) {
+  std::vector<double> weights(log_weights.size());
+  std::ranges::transform(log_weights, weights.begin(), exponential);
+  return weights;
 }
 
-std::vector<int> systematic_descendants(const std::vector<double>& log_weights, double uniform) {
-  const std::size_t count = log_weights.size();
+double effective_particles(const std::vector<double>& weights) {
+  double sum = 0.0;
+  for (const double w : weights) sum += w * w;
+  return std::clamp(1.0 / sum, 1.0, static_cast<double>(weights.size()));
+}
+
+std::vector<int> systematic_descendants(const std::vector<double>& weights, double uniform) {
+  const std::size_t count = weights.size();
   std::vector<int> descendants(count, 0);
   std::size_t particle = 0;
-  double reached = exponential(log_weights[0]);
+  double reached = weights[0];
   for (std::size_t i = 0; i < count; ++i) {
     const double position = (static_cast<double>(i) + uniform) / static_cast<double>(count);
-    while (reached <= position && particle + 1 < count) reached += exponential(log_weights[++particle]);
+    while (reached <= position && particle + 1 < count) reached += weights[++particle];
     ++descendants[particle];
   }
   return descendants;

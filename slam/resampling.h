@@ -11,19 +11,22 @@ namespace stereobench::slam {
 /// @return false when every weight had vanished
 bool normalise(std::vector<double>& log_weights);
 
-/// @param log_weights normalised
+/// @return the weights of log weights: each of them is asked for several times
+std::vector<double> weights_of(const std::vector<double>& log_weights);
+
+/// @param weights normalised
 /// @return 1 / sum of squared weights (eq. 36), in [1, M]
-double effective_particles(const std::vector<double>& log_weights);
+double effective_particles(const std::vector<double>& weights);
 
 /// Systematic resampling: M equally spaced positions behind one uniform number.
 ///
 /// Particle i gets floor(M w_i) or ceil(M w_i) descendants. Positions are counted in integers, so there are
 /// always exactly M descendants, whatever rounding does to the sum of the weights.
 ///
-/// @param log_weights normalised
+/// @param weights normalised
 /// @param uniform in [0, 1)
 /// @return the number of descendants of each particle; they sum to M
-std::vector<int> systematic_descendants(const std::vector<double>& log_weights, double uniform);
+std::vector<int> systematic_descendants(const std::vector<double>& weights, double uniform);
 
 /// Gives each descendant a place: a particle that lives on keeps its own, copies move into vacant ones.
 ///

@@ -12,11 +12,11 @@
 namespace stereobench::slam {
 namespace {
 
-std::vector<double> any_log_weights(RandomStream& random, std::size_t count, double spread) {
+std::vector<double> any_weights(RandomStream& random, std::size_t count, double spread) {
   std::vector<double> log_weights(count);
   for (double& w : log_weights) w = spread * random.normal();
   EXPECT_TRUE(normalise(log_weights));
-  return log_weights;
+  return weights_of(log_weights);
 }
 
 // A public implementation loops over floats and yields the wrong count. Catches that, and rounding at both
@@ -25,12 +25,12 @@ TEST(SystematicDescendants, KeepCountAndExpectation) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     RandomStream random(seed, Stream::kFilter);
     const std::size_t count = 1 + random.bits() % 300;
-    const std::vector<double> log_weights = any_log_weights(random, count, 3.0 * random.uniform());
+    const std::vector<double> weights = any_weights(random, count, 3.0 * random.uniform());
     for (const double uniform : {0.0, random.uniform(), 1.0 - 0x1p-53}) {
-      const std::vector<int> descendants = systematic_descendants(log_weights, uniform);
+      const std::vector<int> descendants = systematic_descendants(weights, uniform);
       ASSERT_EQ(std::accumulate(descendants.begin(), descendants.end(), 0), static_cast<int>(count));
       for (std::size_t i = 0; i < count; ++i) {
-        const double expected = static_cast<double>(count) * std::exp(log_weights[i]);
+        const double expected = static_cast<double>(count) * weights[i];
         ASSERT_GE(descendants[i], std::floor(expected - 1e-9));
         ASSERT_LE(descendants[i], std::ceil(expected + 1e-9));
       }
@@ -53,8 +53,8 @@ TEST(Normalise, SurvivesWeightsThatUnderflow) {
   std::vector<double> log_weights = {-5000.0, -5001.0, -9000.0};
   EXPECT_TRUE(normalise(log_weights));
   EXPECT_NEAR(std::exp(log_weights[0]), 1.0 / (1.0 + std::exp(-1.0)), 1e-12);
-  EXPECT_NEAR(effective_particles(log_weights), std::pow(1.0 + std::exp(-1.0), 2) / (1.0 + std::exp(-2.0)),
-              1e-12);
+  EXPECT_NEAR(effective_particles(weights_of(log_weights)),
+              std::pow(1.0 + std::exp(-1.0), 2) / (1.0 + std::exp(-2.0)), 1e-12);
 }
 
 TEST(Normalise, MakesVanishedWeightsEqualAndSaysSo) {
@@ -62,7 +62,7 @@ TEST(Normalise, MakesVanishedWeightsEqualAndSaysSo) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> vanished = {none, nan, none, none};
   EXPECT_FALSE(normalise(vanished));
-  EXPECT_NEAR(effective_particles(vanished), 4.0, 1e-12);
+  EXPECT_NEAR(effective_particles(weights_of(vanished)), 4.0, 1e-12);
   std::vector<double> partly = {nan, 0.0, none};
   EXPECT_TRUE(normalise(partly));
   EXPECT_EQ(std::exp(partly[0]), 0.0);
@@ -88,7 +88,7 @@ TEST(MixedPose, MeansHeadingsAcrossTheSeamAndAddsSpread) {
   std::vector<Posterior> posteriors(2);
   posteriors[0].pose = {{1.0, 0.0, 3.1}, Eigen::Matrix3d::Identity()};
   posteriors[1].pose = {{3.0, 0.0, -3.1}, Eigen::Matrix3d::Identity()};
-  const PoseBelief mixed = mixed_pose(posteriors, {std::log(0.5), std::log(0.5)});
+  const PoseBelief mixed = mixed_pose(posteriors, {0.5, 0.5});
   EXPECT_TRUE(near(mixed.mean, Pose{2.0, 0.0, M_PI}, 1e-12));
   EXPECT_NEAR(mixed.covariance(0, 0), 2.0, 1e-12);
   EXPECT_NEAR(mixed.covariance(2, 2), 1.0 + std::pow(M_PI - 3.1, 2), 1e-12);
