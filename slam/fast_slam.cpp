@@ -184,13 +184,7 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
     landmark.origin = sighting.number;
     landmark.log_odds = upkeep_.existence().founded();
   } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
-    const LandmarkBelief refined =
-        model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
-    if (refined.mean.allFinite() && refined.covariance.allFinite()) {
-      landmark.belief = refined;
-    } else {
-      ++repairs;
-    }
+    landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
     landmark.refusals = 0;
     ++landmark.uses;
     landmark.log_odds = upkeep_.existence().seen(landmark.log_odds, sighting.observation);

@@ -64,13 +64,6 @@ void mend(Eigen::Matrix<double, kSize, kSize>& covariance, long& repairs) {
   if (repairs != before) covariance = root * root.transpose();
 }
 
-/// The same for two dimensions, where a glance tells that nothing is wrong.
-inline void mend(Eigen::Matrix2d& covariance, long& repairs) {
-  const bool definite = covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0 &&
-                        covariance(1, 0) * covariance(1, 0) < covariance(0, 0) * covariance(1, 1);
-  if (!definite) mend<2>(covariance, repairs);
-}
-
 /// A positive definite 2x2 covariance, factored once and used for gain, distance and density.
 class Factor2 {
  public:

@@ -73,7 +73,7 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
     at(first + 1, j) = with_other.y();
   }
   Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
-  mend(own, repairs);
+  mend<2>(own, repairs);
   at(first, first) = own(0, 0);
   at(first + 1, first) = own(1, 0);
   at(first + 1, first + 1) = own(1, 1);

@@ -64,11 +64,9 @@ LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& ro
   const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
   // Joseph's form stays semidefinite under rounding.
   const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * slope;
-  Eigen::Matrix2d covariance =
+  const Eigen::Matrix2d covariance =
       kept * landmark.covariance * kept.transpose() + gain * noise * gain.transpose();
-  covariance = 0.5 * (covariance + covariance.transpose()).eval();
-  mend(covariance, repairs);
-  return {landmark.mean + gain * surprise, covariance};
+  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
 }
 
 LandmarkBelief Linearised::found(const Pose& robot, const Observation& observation, long&) const {

@@ -72,10 +72,8 @@ LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& rob
   if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
   const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
-  Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
-  covariance = 0.5 * (covariance + covariance.transpose()).eval();
-  mend(covariance, repairs);
-  return {landmark.mean + gain * surprise, covariance};
+  const Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
+  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
 }
 
 LandmarkBelief Unscented::found(const Pose& robot, const Observation& observation, long& repairs) const {
