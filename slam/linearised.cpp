@@ -44,21 +44,27 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
   by_pose.col(2) << 0.0, -1.0;
   Innovation innovation;
   innovation.expected = predict_sighting(belief.mean, landmark.mean);
-  innovation.cross = belief.covariance * by_pose.transpose();
-  innovation.covariance = by_pose * innovation.cross +
-                          by_landmark * landmark.covariance * by_landmark.transpose() +
-                          noise_at(observation, innovation.expected);
+  // Products that are not told so go through temporaries of their own.
+  innovation.cross.noalias() = belief.covariance * by_pose.transpose();
+  innovation.covariance.noalias() = by_pose * innovation.cross;
+  Eigen::Matrix2d from_landmark;
+  from_landmark.noalias() = by_landmark * landmark.covariance;
+  innovation.covariance.noalias() += from_landmark * by_landmark.transpose();
+  innovation.covariance += noise_at(observation, innovation.expected);
   return innovation;
 }
 
 LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
                                   const Observation& observation, long& repairs) const {
   const Eigen::Matrix2d slope = sighting_by_landmark(robot, landmark.mean);
-  const Eigen::Matrix2d cross = landmark.covariance * slope.transpose();
+  Eigen::Matrix2d cross;
+  cross.noalias() = landmark.covariance * slope.transpose();
   const Eigen::Vector2d expected = predict_sighting(robot, landmark.mean);
   const Eigen::Matrix2d noise = noise_at(observation, expected);
   const long before = repairs;
-  const Factor2 factor(slope * cross + noise, repairs);
+  Eigen::Matrix2d seen = noise;
+  seen.noalias() += slope * cross;
+  const Factor2 factor(seen, repairs);
   if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
   const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
