@@ -2,8 +2,8 @@
 ///
 /// Mutations seen red here: electrons not scaled by the exposure, gain applied to the read noise's variance
 /// only, white balance in the order of BGR, the third moment's sign, the vignette linear in the radius, a
-/// Gaussian cut off at two standard deviations, sRGB without its straight part, shot and read noise from one
-/// stream.
+/// Gaussian cut off at one and a half standard deviations, sRGB without its straight part, shot and read
+/// noise from one stream.
 
 #include "renderer/develop.h"
 
