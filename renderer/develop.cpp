@@ -172,6 +172,11 @@ double encode(double light, const worlds::CameraSensor& sensor) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * slam::power(light, 1.0 / 2.4) - 0.055;
 }
 
+double decode(double stored, const worlds::CameraSensor& sensor) {
+  if (sensor.encoding == worlds::Encoding::kGamma) return slam::power(stored, sensor.gamma);
+  return stored <= 0.04045 ? stored / 12.92 : slam::power((stored + 0.055) / 1.055, 2.4);
+}
+
 /// The stored byte of a level, by table.
 class Encoder {
  public:
@@ -214,6 +219,16 @@ cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::u
     for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(chip.level(row[i], i % 3));
   }
   return levels;
+}
+
+cv::Mat decode(const cv::Mat& levels, const worlds::CameraSensor& sensor) {
+  if (sensor.encoding == worlds::Encoding::kLinear) return levels;
+  cv::Mat table(1, 256, CV_8U);
+  for (int i = 0; i < 256; ++i)
+    table.at<std::uint8_t>(i) = static_cast<std::uint8_t>(std::lround(255.0 * decode(i / 255.0, sensor)));
+  cv::Mat light;
+  cv::LUT(levels, table, light);
+  return light;
 }
 
 double noise_sd_levels(const worlds::CameraSensor& sensor, double level) {

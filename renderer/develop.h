@@ -22,6 +22,10 @@ namespace stereobench::renderer {
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
                 std::uint64_t sequence);
 
+/// The light that stored levels stand for: the encoding undone, in whole levels.
+/// @param levels CV_8UC3, as develop() stores them; what is stored linearly is returned as it is
+cv::Mat decode(const cv::Mat& levels, const worlds::CameraSensor& sensor);
+
 /// The noise of a pixel that a camera without vignette has at a level of linear light.
 ///
 /// @param level of the perfect picture, in [0, 255]

@@ -76,8 +76,11 @@ class StereoSense {
         "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.camera); });
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
-    const auto observations =
-        watch.time("observe", [&] { return vision::observe(pair, scenario_.believed_rig, settings_); });
+    const auto observations = watch.time("observe", [&] {
+      const vision::StereoPair light = {renderer::decode(pair.left, scenario_.camera),
+                                        renderer::decode(pair.right, scenario_.camera)};
+      return vision::observe(light, scenario_.believed_rig, settings_);
+    });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
     on_look({index, frame, pair, observations});

@@ -140,6 +140,16 @@ TEST(Develop, EncodesAsTheStandardSays) {
   EXPECT_EQ(stored(Encoding::kGamma, 1.0, 77), 77);
 }
 
+// Bright levels of sRGB are two apart. Mutation: the decoder of the other encoding.
+TEST(Develop, IsDecodedToTheLightThatWasSeen) {
+  cv::Mat light(1, 256, CV_8UC3);
+  for (int i = 0; i < 256; ++i) light.at<cv::Vec3b>(0, i) = cv::Vec3b::all(static_cast<std::uint8_t>(i));
+  for (const Encoding encoding : {Encoding::kLinear, Encoding::kSrgb, Encoding::kGamma}) {
+    const CameraSensor sensor{.encoding = encoding, .gamma = 1.8};
+    EXPECT_LE(cv::norm(decode(develop(light, sensor, 0, 0), sensor), light, cv::NORM_INF), 1.0);
+  }
+}
+
 // A point of light keeps its light and becomes a Gaussian of the size asked for. It is bright and the gain
 // makes its faint skirts visible.
 TEST(Develop, DefocusSpreadsAPointToTheSizeAskedFor) {
