@@ -66,8 +66,11 @@ Stroke filter_stroke(const std::string& filter) {
 
 std::string filter_title(const std::string& filter) {
   if (filter == "dead_reckoning") return "dead reckoning";
+  if (filter == "ekf") return "EKF-SLAM";
+  if (filter == "fastslam1") return "FastSLAM 1.0";
   if (filter == "fastslam2") return "FastSLAM 2.0";
   if (filter == "ufastslam") return "UFastSLAM";
+  if (filter == "ufastslam_kim") return "UFastSLAM, stacked";
   if (filter == "batch") return "whole log at once";
   return filter;
 }
