@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "slam/gaussian.h"
+#include "slam/landmark_search.h"
+#include "slam/linearised.h"
 #include "slam/measurement.h"
-#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
@@ -93,32 +94,21 @@ bool MapUpkeep::has_neighbour(const LandmarkMap& map, const Landmark& landmark) 
 /// none
 int MapUpkeep::lookalike(const Particle& particle, const Sighting& sighting) const {
   const Observation& observation = sighting.observation;
-  const Eigen::Vector2d place = locate(particle.pose, observation.range_bearing);
-  const double range_m = observation.range_bearing.x();
-  const Eigen::Matrix2d noise = noise_at(observation, observation.range_bearing);
-  const double variance_m2 = noise(0, 0) + range_m * range_m * noise(1, 1);
-  constexpr double kMargin = 4.0;  // by how much a squared distance may exceed its first order
+  const PoseBelief known{particle.pose, Eigen::Matrix3d::Zero()};
+  const SightingPlace place(known, observation, {gate_, near_m_});
   double nearest = gate_;
   int like = -1;
-  particle.classed.visit(
-      [&](const LandmarkBounds& bounds) {
-        return bounds.places_m.squaredExteriorDistance(place) <=
-               kMargin * gate_ * (variance_m2 + bounds.largest_variance_m2);
-      },
-      [&](std::size_t j, const Landmark& landmark) {
-        if (landmark.colour_class != sighting.colour_class || Existence::is_dead(landmark.log_odds)) return;
-        if (contains(claimed_, j)) return;
-        const Eigen::Matrix2d slope = sighting_by_landmark(particle.pose, landmark.belief.mean);
-        long mended = 0;  // for a comparison only
-        const Eigen::Vector2d expected = predict_sighting(particle.pose, landmark.belief.mean);
-        const Factor2 factor(
-            slope * landmark.belief.covariance * slope.transpose() + noise_at(observation, expected), mended);
-        const double squared_length =
-            factor.squared_length(sighting_residual(observation.range_bearing, expected));
-        if (!(squared_length <= nearest)) return;
-        nearest = squared_length;
-        like = static_cast<int>(j);
-      });
+  visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
+    if (contains(claimed_, j)) return;
+    long mended = 0;  // for a comparison only
+    const Innovation seen = Linearised().expect(known, landmark.belief, observation, mended);
+    const double squared_length =
+        Factor2(seen.covariance, mended)
+            .squared_length(sighting_residual(observation.range_bearing, seen.expected));
+    if (!(squared_length <= nearest)) return;
+    nearest = squared_length;
+    like = static_cast<int>(j);
+  });
   return like;
 }
 

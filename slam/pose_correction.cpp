@@ -8,13 +8,13 @@
 #include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/joint_compatibility.h"
+#include "slam/landmark_search.h"
 #include "slam/measurement.h"
 #include "slam/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
 
-constexpr double kSearchMargin = 4.0;  ///< by how much a squared distance may exceed its first order
 constexpr double kSlip =
     3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
 
@@ -23,23 +23,6 @@ bool is_finite(const Posterior& posterior) {
   const Pose& pose = posterior.pose.mean;
   return std::isfinite(pose.x_m * pose.x_m + pose.y_m * pose.y_m) && std::isfinite(pose.heading_rad) &&
          posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
-}
-
-/// How uncertain the place is that a sighting points at: the trace of its covariance, to first order.
-double place_variance(const PoseBelief& belief, const Observation& observation) {
-  const double range_m = observation.range_bearing.x();
-  const double direction_rad = belief.mean.heading_rad + observation.range_bearing.y();
-  const Eigen::Matrix3d& p = belief.covariance;
-  const auto [s, c] = sine_cosine(direction_rad);
-  const double turn_and_shift = p(1, 2) * c - p(0, 2) * s;
-  return p(0, 0) + p(1, 1) + 2.0 * range_m * turn_and_shift + observation.noise(0, 0) +
-         range_m * range_m * (p(2, 2) + observation.noise(1, 1));
-}
-
-/// How far from a pose anything within bounds can be.
-double farthest_m(const Eigen::AlignedBox2d& places_m, const Pose& pose) {
-  const Eigen::Array2d here(pose.x_m, pose.y_m);
-  return (places_m.max().array() - here).max(here - places_m.min().array()).matrix().norm();
 }
 
 /// A sighting's surprise, measured by what was expected.
@@ -208,22 +191,15 @@ template <class Model>
 void PoseCorrection<Model>::find_candidates(const Particle& particle, const PoseBelief& predicted,
                                             const Sighting& sighting, int index, FilterCounters& counters) {
   const Observation& observation = sighting.observation;
-  const Eigen::Vector2d place = locate(predicted.mean, observation.range_bearing);
-  const double variance_m2 = place_variance(predicted, observation);
+  const SightingPlace place(predicted, observation, {gate_, near_m_});
   const double cost_of_new = existence_.cost_of_new(observation);
-  const auto may_match = [&](const LandmarkBounds& bounds) {
-    const double growth_m2 = range_variance_growth(observation, farthest_m(bounds.places_m, predicted.mean));
-    const double gated_m2 = kSearchMargin * gate_ * (variance_m2 + growth_m2 + bounds.largest_variance_m2);
-    return bounds.places_m.squaredExteriorDistance(place) <= std::max(gated_m2, near_m_ * near_m_);
-  };
-  particle.classed.visit(may_match, [&](std::size_t j, const Landmark& landmark) {
-    if (landmark.colour_class != sighting.colour_class || Existence::is_dead(landmark.log_odds)) return;
+  visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
     long& repairs = counters.covariance_repairs;
     const Surprise surprise(model_.expect(predicted, landmark.belief, observation, repairs), observation,
                             repairs);
     const double cost = -2.0 * surprise.log_likelihood();
     const bool gated = !(surprise.squared_length <= gate_ && cost <= cost_of_new);
-    if (gated && !((place - landmark.belief.mean).norm() < near_m_)) return;
+    if (gated && !((place.mean_m() - landmark.belief.mean).norm() < near_m_)) return;
     candidates_.push_back({index, static_cast<int>(j), cost, gated});
   });
 }

@@ -9,29 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/slam/checks.h"
+#include "tests/slam/named_filters.h"
 
 namespace stereobench::slam {
 namespace {
-
-struct DeadReckoningName {
-  static constexpr const char* kName = "dead_reckoning";
-};
-struct EkfName {
-  static constexpr const char* kName = "ekf";
-};
-struct FastSlam1Name {
-  static constexpr const char* kName = "fastslam1";
-};
-struct FastSlam2Name {
-  static constexpr const char* kName = "fastslam2";
-};
-struct UFastSlamName {
-  static constexpr const char* kName = "ufastslam";
-};
-
-struct UFastSlamKimName {
-  static constexpr const char* kName = "ufastslam_kim";
-};
 
 template <class Name>
 class EveryFilter : public ::testing::Test {

@@ -6,22 +6,10 @@
 
 #include "slam/predictive_mixture.h"
 #include "tests/slam/checks.h"
+#include "tests/slam/named_filters.h"
 
 namespace stereobench::slam {
 namespace {
-
-struct EkfName {
-  static constexpr const char* kName = "ekf";
-};
-struct FastSlam1Name {
-  static constexpr const char* kName = "fastslam1";
-};
-struct FastSlam2Name {
-  static constexpr const char* kName = "fastslam2";
-};
-struct UFastSlamName {
-  static constexpr const char* kName = "ufastslam";
-};
 
 // A lap so precise that everything is linear in what is unknown.
 Drive precise_lap() {
