@@ -12,6 +12,14 @@ enum class Encoding {
   kGamma    ///< light^(1 / gamma)
 };
 
+/// When the cameras look. The defaults are an instant, the same for both, and every time.
+struct Shutter {
+  double open_s = 0.0;            ///< how long, centred on the frame's time: what moves is blurred
+  int samples = 8;                ///< instants that the blur is the average of
+  double right_delay_s = 0.0;     ///< of the right eye's shutter behind the left one's
+  double drop_probability = 0.0;  ///< that a frame is lost
+};
+
 /// A camera whose defaults change nothing. Light of 255 levels is what a perfect picture calls white.
 ///
 /// In the order in which light goes through it: the lens blurs and darkens the corners; a pixel gathers
@@ -28,12 +36,6 @@ struct CameraSensor {
   double read_noise_electrons = 0.0;  ///< standard deviation
   double gain = 1.0;                  ///< levels per electron, 1 = a full well is level 255
   Eigen::Vector3d white_balance_rgb = Eigen::Vector3d::Ones();  ///< further gains of the channels
-
-  /// How long the shutter is open, centred on the frame's time: what moves is blurred.
-  double shutter_s = 0.0;
-  int shutter_samples = 8;        ///< instants that the blur is the average of
-  double right_delay_s = 0.0;     ///< of the right eye's shutter behind the left one's
-  double drop_probability = 0.0;  ///< that a frame is lost
 
   Encoding encoding = Encoding::kLinear;
   double gamma = 2.2;  ///< of kGamma

@@ -4,8 +4,7 @@ namespace stereobench::worlds {
 
 CameraSensor read_camera(const YamlValue& value) {
   const YamlMap map(value, {"noise_sd_levels", "defocus_sd_px", "vignette", "exposure", "full_well_electrons",
-                            "read_noise_electrons", "gain", "white_balance_rgb", "shutter_s",
-                            "shutter_samples", "right_delay_s", "drop_probability", "encoding", "gamma"});
+                            "read_noise_electrons", "gain", "white_balance_rgb", "encoding", "gamma"});
   constexpr Interval kGain = {1e-3, 1e3};
   constexpr std::array<std::string_view, 3> kEncodings = {"linear", "srgb", "gamma"};
   CameraSensor sensor;
@@ -22,10 +21,6 @@ CameraSensor read_camera(const YamlValue& value) {
   sensor.gain = map.number("gain", kGain, sensor.gain);
   if (const auto balance = map.find("white_balance_rgb"))
     sensor.white_balance_rgb = read_vector<3>(*balance, kGain);
-  sensor.shutter_s = map.number("shutter_s", {0.0, 10.0}, sensor.shutter_s);
-  if (const auto samples = map.find("shutter_samples")) sensor.shutter_samples = samples->integer(1, 1000);
-  sensor.right_delay_s = map.number("right_delay_s", {-10.0, 10.0}, sensor.right_delay_s);
-  sensor.drop_probability = map.number("drop_probability", {0.0, 1.0}, sensor.drop_probability);
   if (const auto encoding = map.find("encoding"))
     sensor.encoding = static_cast<Encoding>(encoding->choice(kEncodings));
   if (const auto gamma = map.find("gamma")) {
@@ -33,6 +28,16 @@ CameraSensor read_camera(const YamlValue& value) {
     if (sensor.encoding != Encoding::kGamma) gamma->refuse("a gamma needs `encoding: gamma`");
   }
   return sensor;
+}
+
+Shutter read_shutter(const YamlValue& value) {
+  const YamlMap map(value, {"open_s", "samples", "right_delay_s", "drop_probability"});
+  Shutter shutter;
+  shutter.open_s = map.number("open_s", {0.0, 10.0}, shutter.open_s);
+  if (const auto samples = map.find("samples")) shutter.samples = samples->integer(1, 1000);
+  shutter.right_delay_s = map.number("right_delay_s", {-10.0, 10.0}, shutter.right_delay_s);
+  shutter.drop_probability = map.number("drop_probability", {0.0, 1.0}, shutter.drop_probability);
+  return shutter;
 }
 
 }  // namespace stereobench::worlds

@@ -64,6 +64,7 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   const auto believed = map.find("believed_rig");
   scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : as_believed(scenario.rig);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
+  if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
   if (const auto noise = map.find("believed_measurement_noise")) {
     const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;
     scenario.believed_measurement_noise = read_measurement_noise(*noise, rig);
@@ -96,6 +97,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "rig",
                      "believed_rig",
                      "camera",
+                     "shutter",
                      "oracle",
                      "odometry_noise",
                      "believed_odometry_noise",

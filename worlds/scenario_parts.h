@@ -32,6 +32,9 @@ vision::StereoRig read_believed_rig(const YamlValue& value, const vision::Stereo
 /// `camera:` the lens, the chip, and how levels are stored.
 CameraSensor read_camera(const YamlValue& value);
 
+/// `shutter:` when the cameras look.
+Shutter read_shutter(const YamlValue& value);
+
 /// `odometry_noise:` and `believed_odometry_noise:`.
 slam::OdometryNoise read_odometry_noise(const YamlValue& value);
 

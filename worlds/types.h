@@ -112,6 +112,7 @@ struct Scenario {
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
   CameraSensor camera;
+  Shutter shutter;
   Identity identity = Identity::kKnown;
   /// kColourClass: two balls of one colour are at least this far apart; kNone: any two.
   double colour_spacing_m = 0.0;

@@ -73,7 +73,7 @@ class StereoSense {
     Stopwatch watch(timing_);
     if (is_dropped(index)) return {};
     const renderer::StereoFrame frame = watch.time(
-        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.camera); });
+        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.shutter); });
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
     const auto observations = watch.time("observe", [&] {
@@ -93,7 +93,7 @@ class StereoSense {
  private:
   bool is_dropped(std::size_t index) const {
     return slam::RandomStream(seed_, slam::Stream::kFrameLoss, index).uniform() <
-           scenario_.camera.drop_probability;
+           scenario_.shutter.drop_probability;
   }
 
   const worlds::Scenario& scenario_;

@@ -12,9 +12,9 @@ namespace stereobench::harness {
 /// the right eye later by its delay.
 ///
 /// @param index of the step; the left shutter opens half its time before the step and closes half after
-/// @return light as an average over camera.shutter_samples instants, rounded; identity and depth are those of
+/// @return light as an average over shutter.samples instants, rounded; identity and depth are those of
 ///   the middle of each eye's exposure
 renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
-                                   std::size_t index, const worlds::CameraSensor& camera);
+                                   std::size_t index, const worlds::Shutter& shutter);
 
 }  // namespace stereobench::harness

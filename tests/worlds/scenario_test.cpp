@@ -130,17 +130,18 @@ TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
   EXPECT_NEAR(stereo.bearing_sd_rad, 0.0002, 1e-15);
 }
 
-TEST(Scenario, ReadsTheCamera) {
-  const CameraSensor camera =
-      read_small(
-          {"camera={noise_sd_levels: 1.5, defocus_sd_px: 0.8, vignette: 0.3, exposure: 0.5, "
-           "full_well_electrons: 8000, read_noise_electrons: 6, gain: 2, white_balance_rgb: [1, 1.1, 0.9], "
-           "encoding: gamma, gamma: 1.8, shutter_s: 0.01, shutter_samples: 4, right_delay_s: 0.002, "
-           "drop_probability: 0.1}"})
-          .camera;
-  EXPECT_EQ(camera,
-            (CameraSensor{
-                1.5, 0.8, 0.3, 0.5, 8000, 6, 2, {1, 1.1, 0.9}, 0.01, 4, 0.002, 0.1, Encoding::kGamma, 1.8}));
+TEST(Scenario, ReadsTheCameraAndItsShutter) {
+  const Scenario scenario = read_small(
+      {"camera={noise_sd_levels: 1.5, defocus_sd_px: 0.8, vignette: 0.3, exposure: 0.5, "
+       "full_well_electrons: 8000, read_noise_electrons: 6, gain: 2, white_balance_rgb: [1, 1.1, 0.9], "
+       "encoding: gamma, gamma: 1.8}",
+       "shutter={open_s: 0.01, samples: 4, right_delay_s: 0.002, drop_probability: 0.1}"});
+  EXPECT_EQ(scenario.camera,
+            (CameraSensor{1.5, 0.8, 0.3, 0.5, 8000, 6, 2, {1, 1.1, 0.9}, Encoding::kGamma, 1.8}));
+  EXPECT_EQ(scenario.shutter.open_s, 0.01);
+  EXPECT_EQ(scenario.shutter.samples, 4);
+  EXPECT_EQ(scenario.shutter.right_delay_s, 0.002);
+  EXPECT_EQ(scenario.shutter.drop_probability, 0.1);
 }
 
 // Catches: a belief that stays at the file's rig when the true rig is overridden.

@@ -33,7 +33,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 TEST(Shutter, WithoutTimeOrDelayIsARendering) {
   const worlds::Scenario scenario = bend();
   renderer::Renderer renderer(scenario.world, scenario.rig);
-  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, scenario.camera);
+  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, scenario.shutter);
   const renderer::StereoFrame rendered = renderer.render(scenario.path[2].pose);
   EXPECT_TRUE(same(seen.left.colour, rendered.left.colour));
   EXPECT_TRUE(same(seen.right.colour, rendered.right.colour));
@@ -72,8 +72,8 @@ TEST(Shutter, BlursWhatMovesByHowFarItMoves) {
     return m.m10 / m.m00;
   };
   const cv::Moments sharp = moments(renderer.render(scenario.path[2].pose).left.colour);
-  const worlds::CameraSensor camera{.shutter_s = 0.2, .shutter_samples = 40};
-  const cv::Moments blurred = moments(open_shutter(renderer, scenario.path, 2, camera).left.colour);
+  const worlds::Shutter shutter{.open_s = 0.2, .samples = 40};
+  const cv::Moments blurred = moments(open_shutter(renderer, scenario.path, 2, shutter).left.colour);
   const double moved_px = column_at(0.1) - column_at(-0.1);
   EXPECT_GT(std::abs(moved_px), 5.0);
   EXPECT_NEAR(blurred.m00 / sharp.m00, 1.0, 0.01);
@@ -114,7 +114,7 @@ TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
 
 TEST(Frames, AreLostAsOftenAsAsked) {
   worlds::Scenario scenario = bend();
-  scenario.camera.drop_probability = 1.0;
+  scenario.shutter.drop_probability = 1.0;
   const auto looks = [&] {
     int count = 0;
     const Recording recording = record(scenario, 1, {.on_look = [&](const Look&) { ++count; }});
@@ -122,7 +122,7 @@ TEST(Frames, AreLostAsOftenAsAsked) {
     return count;
   };
   EXPECT_EQ(looks(), 0);
-  scenario.camera.drop_probability = 0.5;
+  scenario.shutter.drop_probability = 0.5;
   scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.4, 0.1});
   const double steps = static_cast<double>(scenario.path.size());
   EXPECT_NEAR(looks(), 0.5 * steps, 3.29 * std::sqrt(0.25 * steps));
