@@ -39,10 +39,21 @@ void write_once(const std::filesystem::path& path, const char* extension, const 
   if (!std::filesystem::exists(path)) write_file_atomically(path, encoded(extension, image));
 }
 
-cv::Mat projection(const vision::StereoRig& rig, double baseline_m) {
-  const vision::Intrinsics& c = rig.camera;
-  return (cv::Mat_<double>(3, 4) << c.focal_px, 0, c.cx_px, -c.focal_px * baseline_m, 0, c.focal_px, c.cy_px,
-          0, 0, 0, 1, 0);
+cv::Mat camera_matrix(const vision::Intrinsics& c) {
+  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, c.focal_px, c.cy_px, 0, 0, 1);
+}
+
+/// From the left camera's frame to an eye's pixels, K [R | t].
+cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
+  const Eigen::Vector3d origin = vision::point_in_eye(rig, Eigen::Vector3d::Zero(), eye);
+  cv::Mat eye_from_left(3, 4, CV_64F);
+  for (int column = 0; column < 4; ++column) {
+    const Eigen::Vector3d axis =
+        column < 3 ? Eigen::Vector3d(vision::point_in_eye(rig, Eigen::Vector3d::Unit(column), eye) - origin)
+                   : origin;
+    for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
+  }
+  return camera_matrix(rig.camera) * eye_from_left;
 }
 
 cv::Mat matrix_of(const Eigen::Isometry3d& transform) {
@@ -95,9 +106,9 @@ std::string calibration_yaml(const vision::StereoRig& rig) {
   cv::FileStorage file(".yaml",
                        cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
-  file << "K" << projection(rig, 0.0).colRange(0, 3).clone();
+  file << "K" << camera_matrix(rig.camera);
   file << "D" << cv::Mat::zeros(1, 5, CV_64F);
-  file << "P1" << projection(rig, 0.0) << "P2" << projection(rig, rig.baseline_m);
+  file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
   file << "baseline_m" << rig.baseline_m;
   file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft));
   file << "robot_from_right_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight));

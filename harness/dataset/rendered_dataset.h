@@ -15,7 +15,8 @@ namespace stereobench::harness {
 ///     left/000000.png         right/000000.png        what the sensor saw, 8-bit BGR
 ///     left_id/000000.png      right_id/000000.png     0 = no ball, k = ball_id k - 1 of balls.csv
 ///     left_depth/000000.pfm   right_depth/000000.pfm  planar Z in metres, +inf = nothing
-///     calibration.yaml        balls.csv
+///     calibration.yaml        true_calibration.yaml   the rig as it is believed to be, and as it is
+///     balls.csv
 ///     odometry.csv observations.csv landmarks.csv groundtruth.csv instants.csv   what `stereobench slam`
 ///     reads dataset.json            written last: where it is, the folder is complete
 ///
@@ -39,7 +40,8 @@ class RenderedDataset {
   std::string identity_;
 };
 
-/// The rig as an OpenCV YAML file: image size, K, P1 and P2 (P2[3] = -f B), baseline, and robot_from_camera.
+/// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
+/// rectified rig), baseline, and robot_from_camera.
 std::string calibration_yaml(const vision::StereoRig& rig);
 
 /// The balls as CSV: ball_id, colour, its RGB, centre and radius.

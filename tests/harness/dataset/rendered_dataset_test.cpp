@@ -27,24 +27,29 @@ Eigen::Vector2d projected(const cv::Mat& projection, const Eigen::Vector3d& poin
 }
 
 // Property: P1 and P2 take points of the left camera's frame to the pixels at which the rig's eyes have them.
-// Mutation: P2[3] = +f B.
-TEST(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
-  const cv::Mat p1 = matrix_of(kRig, "P1");
-  const cv::Mat p2 = matrix_of(kRig, "P2");
+// Mutations: P2[3] = +f B, a P2 that knows of no turn.
+class Calibration : public testing::TestWithParam<double> {};
+
+TEST_P(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
+  vision::StereoRig rig = kRig;
+  rig.right_turn_rad = GetParam() * Eigen::Vector3d(0.01, -0.02, 0.03);
+  const cv::Mat p1 = matrix_of(rig, "P1");
+  const cv::Mat p2 = matrix_of(rig, "P2");
   slam::RandomStream random(4, slam::Stream::kWorld);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d point(random.normal(), random.normal(), 1.0 + 4.0 * random.uniform());
-    const Eigen::Vector2d left = vision::project(kRig.camera, point);
+    const Eigen::Vector2d left = vision::project(rig.camera, point);
     const Eigen::Vector2d right =
-        vision::project(kRig.camera, vision::point_in_eye(kRig, point, vision::Eye::kRight));
+        vision::project(rig.camera, vision::point_in_eye(rig, point, vision::Eye::kRight));
     EXPECT_LT((projected(p1, point) - left).norm(), 1e-9);
     EXPECT_LT((projected(p2, point) - right).norm(), 1e-9);
   }
   EXPECT_LT(p2.at<double>(0, 3), 0.0);  // as OpenCV has it: -f B
 }
+INSTANTIATE_TEST_SUITE_P(Turns, Calibration, testing::Values(0.0, 1.0));
 
 // Mutation: the left eye twice.
-TEST(Calibration, HasTheEyesABaselineApart) {
+TEST(CalibrationFile, HasTheEyesABaselineApart) {
   const cv::Mat left = matrix_of(kRig, "robot_from_left_camera");
   const cv::Mat right = matrix_of(kRig, "robot_from_right_camera");
   EXPECT_NEAR(left.at<double>(1, 3) - right.at<double>(1, 3), kRig.baseline_m, 1e-12);  // y is left
