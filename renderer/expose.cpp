@@ -71,8 +71,8 @@ cv::Mat noisy(const cv::Mat& picture, const Shifts& shifts, const NoiseBlocks& n
   return result;
 }
 
-/// Whether nothing is asked of a camera but noise of one size: then all is done in whole numbers, four times
-/// as fast.
+/// Whether nothing is asked of a camera but noise of one size: then all is done in whole numbers, in a
+/// third of the time.
 bool only_adds_noise(const worlds::CameraSensor& sensor) {
   worlds::CameraSensor plain;
   plain.noise_sd_levels = sensor.noise_sd_levels;

@@ -93,12 +93,28 @@ void render_pair(benchmark::State& state, const Scene& scene) {
   }
 }
 
-void expose_pair(benchmark::State& state, const Scene& scene, double noise_sd_levels) {
+void expose_pair(benchmark::State& state, const Scene& scene, const worlds::CameraSensor& sensor) {
   Bench bench(scene);
   std::uint64_t index = 0;
-  bench.run(state, [&] {
-    benchmark::DoNotOptimize(renderer::expose(bench.frame, {.noise_sd_levels = noise_sd_levels}, 0, index++));
-  });
+  bench.run(state, [&] { benchmark::DoNotOptimize(renderer::expose(bench.frame, sensor, 0, index++)); });
+}
+
+worlds::CameraSensor plain_noise() {
+  return {.noise_sd_levels = 2.0};
+}
+
+/// The same noise for a camera that also darkens its corners: it is developed pixel by pixel.
+worlds::CameraSensor noise_and_vignette() {
+  return {.noise_sd_levels = 2.0, .vignette = 0.2};
+}
+
+/// A camera that does everything.
+worlds::CameraSensor whole_camera() {
+  return {.defocus_sd_px = 0.7,
+          .vignette = 0.2,
+          .full_well_electrons = 10000.0,
+          .read_noise_electrons = 10.0,
+          .encoding = worlds::Encoding::kSrgb};
 }
 
 void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_levels) {
@@ -117,7 +133,9 @@ void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_l
 STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls())->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"))->DenseRange(0, kLastBackend);
-STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), 2.0);
+STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), plain_noise());
+STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle"), noise_and_vignette());
+STEREOBENCH_STAGE(expose_pair, whole_camera, scenario_scene("ball_circle"), whole_camera());
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_2, eighteen_balls(), 2.0);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_8, eighteen_balls(), 8.0);
 STEREOBENCH_STAGE(observe_pair, corridor_noise_2, scenario_scene("corridor"), 2.0);
