@@ -6,6 +6,23 @@
 #include "slam/motion.h"
 
 namespace stereobench::slam {
+namespace {
+
+/// T P T' for a turn T of x and y, whose result is as symmetric as P.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& p, const SineCosine& heading) {
+  const auto [s, c] = heading;
+  const double across = 2.0 * s * c * p(0, 1);
+  const double xy = s * c * (p(0, 0) - p(1, 1)) + (c * c - s * s) * p(0, 1);
+  const double x_heading = c * p(0, 2) - s * p(1, 2);
+  const double y_heading = s * p(0, 2) + c * p(1, 2);
+  Eigen::Matrix3d result;
+  result << c * c * p(0, 0) - across + s * s * p(1, 1), xy, x_heading,  //
+      xy, s * s * p(0, 0) + across + c * c * p(1, 1), y_heading,        //
+      x_heading, y_heading, p(2, 2);
+  return result;
+}
+
+}  // namespace
 
 Pose displace(const Pose& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.heading_rad + step.z())};
@@ -22,11 +39,9 @@ Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point
 }
 
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now) {
-  const auto [s, c] = sine_cosine(world_from_start.heading_rad);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() << c, -s, s, c;
-  const Eigen::Matrix3d covariance = turn * start_from_now.covariance * turn.transpose();
-  return {compose(world_from_start, start_from_now.mean), 0.5 * (covariance + covariance.transpose())};
+  const SineCosine heading = sine_cosine(world_from_start.heading_rad);
+  return {compose(world_from_start, heading, start_from_now.mean),
+          turned(start_from_now.covariance, heading)};
 }
 
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now) {

@@ -2,14 +2,9 @@
 #pragma once
 
 #include "slam/particle.h"
+#include "slam/track_record.h"
 
 namespace stereobench::slam {
-
-/// How often a landmark was agreed with and contradicted.
-struct TrackRecord {
-  int uses = 1;      ///< sightings that agreed with it, the first included
-  int refusals = 0;  ///< sightings since the last agreement that contradicted it
-};
 
 /// Decides who is wrong: the sighting, the landmark or the pose.
 ///

@@ -189,7 +189,7 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
   TrackRecord& record = landmark.record;
   landmark.claimed = true;
   if (target.fate == Fate::kRefuse) {
-    ++record.refusals;
+    record.contradict();
   } else if (target.fate == Fate::kMove) {
     long& repairs = counters_.covariance_repairs;
     place(belief_, target.landmark, model_.found(belief_.pose, sighting.observation, repairs), repairs);
@@ -197,7 +197,7 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
     landmark.origin = sighting.number;
     landmark.log_odds = existence_.founded();
   } else {
-    record = {record.uses + 1, 0};
+    record.agree();
     landmark.log_odds = existence_.seen(landmark.log_odds, sighting.observation);
   }
 }

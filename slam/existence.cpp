@@ -44,8 +44,7 @@ float Existence::seen(float log_odds, const Observation& observation) const {
 }
 
 bool Existence::should_be_seen(const Pose& robot, const LandmarkBelief& landmark) const {
-  const Eigen::Vector2d expected = predict_sighting(robot, landmark.mean);
-  const Eigen::Matrix2d slope = sighting_by_landmark(robot, landmark.mean);
+  const auto [expected, slope] = linearise_sighting(robot, landmark.mean);
   const Eigen::Vector2d sd =
       (slope * landmark.covariance * slope.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
   return expected.x() + kWithin * sd.x() < sector_.range_m &&

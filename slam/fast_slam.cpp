@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/elementary.h"
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/mixture.h"
@@ -22,11 +21,13 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       upkeep_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
-      log_weights_(particles_.size(), -logarithm(static_cast<double>(config.particles))),
-      weights_(weights_of(log_weights_)),
+      log_weights_(particles_.size()),
+      weights_(particles_.size()),
       posteriors_(particles_.size()),
       belief_{start, Eigen::Matrix3d::Zero()},
-      effective_(static_cast<double>(config.particles)) {}
+      effective_(static_cast<double>(config.particles)) {
+  make_equal(log_weights_, weights_);
+}
 
 template <class Model>
 void FastSlam<Model>::predict(const Control& control) {
@@ -105,8 +106,7 @@ void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
 template <class Model>
 void FastSlam<Model>::reweigh() {
   for (std::size_t i = 0; i < particles_.size(); ++i) log_weights_[i] += posteriors_[i].log_likelihood;
-  if (!normalise(log_weights_)) ++counters_.weight_collapses;
-  weights_ = weights_of(log_weights_);
+  if (!normalise(log_weights_, weights_)) ++counters_.weight_collapses;
   effective_ = effective_particles(weights_);
   belief_ = mixed_pose(posteriors_, weights_);
 }
@@ -134,9 +134,7 @@ void FastSlam<Model>::resample() {
     std::ranges::copy(targets_of(from), targets_of(i).begin());
   }
   if (config_.report_updates) report_.ancestors = ancestors;
-  const double equal = -logarithm(static_cast<double>(particles_.size()));
-  std::ranges::fill(log_weights_, equal);
-  std::ranges::fill(weights_, exponential(equal));
+  make_equal(log_weights_, weights_);
   ++counters_.resamplings;
 }
 
@@ -178,15 +176,14 @@ void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const 
   Landmark landmark = landmark_of(particle, sighting, target);
   long& repairs = counters_.covariance_repairs;
   if (target.fate == Fate::kRefuse) {
-    ++landmark.refusals;
+    landmark.record.contradict();
   } else if (target.fate == Fate::kMove) {
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
     landmark.origin = sighting.number;
     landmark.log_odds = upkeep_.existence().founded();
   } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
     landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
-    landmark.refusals = 0;
-    ++landmark.uses;
+    landmark.record.agree();
     landmark.log_odds = upkeep_.existence().seen(landmark.log_odds, sighting.observation);
   }
   map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);

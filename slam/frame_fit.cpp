@@ -27,11 +27,9 @@ Quadratic expand(const Pose& pose, const Eigen::Matrix3d& root, const Eigen::Vec
                  std::span<const Match> matches, long& repairs) {
   Quadratic sum{.cost = u.squaredNorm(), .gradient = u};
   for (const auto& [landmark, observation] : matches) {
-    const Eigen::Matrix2d by_landmark = sighting_by_landmark(pose, landmark.mean);
-    Eigen::Matrix<double, 2, 3> by_pose;
-    by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
-    const Eigen::Matrix<double, 2, 3> by_u = by_pose * root;
-    const Eigen::Vector2d expected = predict_sighting(pose, landmark.mean);
+    const LinearSighting linear = linearise_sighting(pose, landmark.mean);
+    const auto& [expected, by_landmark] = linear;
+    const Eigen::Matrix<double, 2, 3> by_u = linear.by_pose() * root;
     const Factor2 factor(
         by_landmark * landmark.covariance * by_landmark.transpose() + noise_at(observation, expected),
         repairs);

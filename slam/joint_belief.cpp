@@ -16,14 +16,12 @@ void follow(JointBelief& belief, const PoseBelief& motion) {
 JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
                        const Observation& observation, long& repairs) {
   const auto j = static_cast<std::size_t>(landmark);
-  const Eigen::Matrix2d by_landmark = sighting_by_landmark(at.pose, at.landmarks[j]);
+  const LinearSighting linear = linearise_sighting(at.pose, at.landmarks[j]);
   Eigen::Matrix<double, 2, 5> slope;
-  slope.leftCols<2>() = -by_landmark;
-  slope.col(2) << 0.0, -1.0;
-  slope.rightCols<2>() = by_landmark;
+  slope << linear.by_pose(), linear.by_landmark;
   Eigen::Matrix<double, 5, 1> off;
   off << displacement(belief.pose, at.pose), belief.landmarks[j] - at.landmarks[j];
-  const Eigen::Vector2d expected = predict_sighting(at.pose, at.landmarks[j]) + slope * off;
+  const Eigen::Vector2d expected = linear.expected + slope * off;
   const Eigen::Matrix2d covariance =
       slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() +
       noise_at(observation, expected);

@@ -50,11 +50,9 @@ LandmarkMap LandmarkMap::share() const {
 const Landmark& LandmarkMap::operator[](std::size_t index) const {
   const Node* node = root_;
   for (int height = height_; height > 0; --height) {
-    const std::size_t below = capacity(height - 1);
-    node = static_cast<const Branch*>(node)->children[index / below];
-    index %= below;
+    node = static_cast<const Branch*>(node)->children[place(index, height)];
   }
-  return static_cast<const Leaf*>(node)->landmarks[index];
+  return static_cast<const Leaf*>(node)->landmarks[place(index, 0)];
 }
 
 void LandmarkMap::replace(std::size_t index, const Landmark& landmark) {
@@ -115,6 +113,7 @@ void LandmarkMap::make_own(Node*& node, int height) {
 }
 
 /// Writes a landmark below a node, behind the last one or over another.
+/// @param index in the whole map
 /// @param bounds of the node; receives what they are after that
 /// @return whether the bounds have changed
 bool LandmarkMap::put(Node*& node, int height, std::size_t index, const Landmark& landmark,
@@ -123,15 +122,13 @@ bool LandmarkMap::put(Node*& node, int height, std::size_t index, const Landmark
   LandmarkBounds after;
   if (height == 0) {
     auto* leaf = static_cast<Leaf*>(node);
-    leaf->landmarks[index] = landmark;
-    leaf->count = std::max(leaf->count, index + 1);
+    leaf->landmarks[place(index, 0)] = landmark;
+    leaf->count = std::max(leaf->count, place(index, 0) + 1);
     for (std::size_t i = 0; i < leaf->count; ++i) extend(after, bounds_of(leaf->landmarks[i]));
   } else {
     auto* branch = static_cast<Branch*>(node);
-    const std::size_t below = capacity(height - 1);
-    const std::size_t child = index / below;
-    if (!put(branch->children[child], height - 1, index % below, landmark, branch->bounds[child]))
-      return false;
+    const std::size_t child = place(index, height);
+    if (!put(branch->children[child], height - 1, index, landmark, branch->bounds[child])) return false;
     for (const LandmarkBounds& part : branch->bounds) extend(after, part);
   }
   const bool changed = !equal(after, bounds);
@@ -140,7 +137,11 @@ bool LandmarkMap::put(Node*& node, int height, std::size_t index, const Landmark
 }
 
 std::size_t LandmarkMap::capacity(int height) {
-  return kWidth << (3 * height);
+  return kWidth << (kWidthBits * height);
+}
+
+std::size_t LandmarkMap::place(std::size_t index, int height) {
+  return (index >> (kWidthBits * height)) % kWidth;
 }
 
 void LandmarkMap::swap(LandmarkMap& other) noexcept {

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "slam/belief.h"
+#include "slam/track_record.h"
 
 namespace stereobench::slam {
 
@@ -16,8 +17,7 @@ namespace stereobench::slam {
 struct Landmark {
   LandmarkBelief belief;
   int colour_class = kUnknown;
-  int uses = 1;           ///< sightings that agreed with it, the first included
-  int refusals = 0;       ///< sightings since the last agreement that contradicted it
+  TrackRecord record;
   int origin = kUnknown;  ///< the sighting that founded it
   float log_odds = 0.0F;  ///< that it exists at all
 };
@@ -69,7 +69,8 @@ class LandmarkMap {
   }
 
  private:
-  static constexpr std::size_t kWidth = 8;
+  static constexpr int kWidthBits = 3;
+  static constexpr std::size_t kWidth = 1 << kWidthBits;
   struct Node {
     int owners = 1;
   };
@@ -82,6 +83,7 @@ class LandmarkMap {
   static bool put(Node*& node, int height, std::size_t index, const Landmark& landmark,
                   LandmarkBounds& bounds);
   static std::size_t capacity(int height);
+  static std::size_t place(std::size_t index, int height);  ///< among the children of a node on its way
   void swap(LandmarkMap& other) noexcept;
 
   template <class MayMatter, class Visit>

@@ -38,12 +38,11 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
 
 Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
                               const Observation& observation, long&) const {
-  const Eigen::Matrix2d by_landmark = sighting_by_landmark(belief.mean, landmark.mean);
-  Eigen::Matrix<double, 2, 3> by_pose;
-  by_pose.leftCols<2>() = -by_landmark;
-  by_pose.col(2) << 0.0, -1.0;
+  const LinearSighting linear = linearise_sighting(belief.mean, landmark.mean);
+  const Eigen::Matrix2d& by_landmark = linear.by_landmark;
+  const Eigen::Matrix<double, 2, 3> by_pose = linear.by_pose();
   Innovation innovation;
-  innovation.expected = predict_sighting(belief.mean, landmark.mean);
+  innovation.expected = linear.expected;
   // Products that are not told so go through temporaries of their own.
   innovation.cross.noalias() = belief.covariance * by_pose.transpose();
   innovation.covariance.noalias() = by_pose * innovation.cross;
@@ -56,10 +55,9 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
 
 LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
                                   const Observation& observation, long& repairs) const {
-  const Eigen::Matrix2d slope = sighting_by_landmark(robot, landmark.mean);
+  const auto [expected, slope] = linearise_sighting(robot, landmark.mean);
   Eigen::Matrix2d cross;
   cross.noalias() = landmark.covariance * slope.transpose();
-  const Eigen::Vector2d expected = predict_sighting(robot, landmark.mean);
   const Eigen::Matrix2d noise = noise_at(observation, expected);
   const long before = repairs;
   Eigen::Matrix2d seen = noise;

@@ -30,18 +30,36 @@ inline Eigen::Vector2d locate(const Pose& robot, const Eigen::Vector2d& range_be
   return {robot.x_m + range_bearing.x() * c, robot.y_m + range_bearing.x() * s};
 }
 
-/// d(range, bearing) / d(landmark x, y). From the landmark's own place the bearing has no slope: the range is
-/// taken as at least a millimetre, and the direction as zero when there is none.
-inline Eigen::Matrix2d sighting_by_landmark(const Pose& robot, const Eigen::Vector2d& point) {
+/// A predicted sighting, and its slopes in what it is predicted from.
+struct LinearSighting {
+  Eigen::Vector2d expected;     ///< of predict_sighting
+  Eigen::Matrix2d by_landmark;  ///< d(range, bearing) / d(landmark x, y)
+
+  /// d(range, bearing) / d(robot x, y, heading)
+  Eigen::Matrix<double, 2, 3> by_pose() const {
+    Eigen::Matrix<double, 2, 3> slope;
+    slope.leftCols<2>() = -by_landmark;
+    slope.col(2) << 0.0, -1.0;
+    return slope;
+  }
+};
+
+/// Predicts a sighting to first order. From the landmark's own place the bearing has no slope: for the slopes
+/// the range is taken as at least a millimetre, and the direction as zero when there is none.
+///
+/// @param robot world_from_robot
+/// @param point_in_world m
+inline LinearSighting linearise_sighting(const Pose& robot, const Eigen::Vector2d& point_in_world) {
   constexpr double kNearest_m = 1e-3;
-  const double dx = point.x() - robot.x_m;
-  const double dy = point.y() - robot.y_m;
-  const double range = std::max(std::sqrt(dx * dx + dy * dy), kNearest_m);
-  const double c = dx / range;
-  const double s = dy / range;
-  Eigen::Matrix2d slope;
-  slope << c, s, -s / range, c / range;
-  return slope;
+  const double dx = point_in_world.x() - robot.x_m;
+  const double dy = point_in_world.y() - robot.y_m;
+  const double range = std::sqrt(dx * dx + dy * dy);
+  const double nearness = 1.0 / std::max(range, kNearest_m);
+  const double c = dx * nearness;
+  const double s = dy * nearness;
+  LinearSighting sighting{{range, wrap_angle(arc_tangent(dy, dx) - robot.heading_rad)}, {}};
+  sighting.by_landmark << c, s, -s * nearness, c * nearness;
+  return sighting;
 }
 
 /// The difference a - b of two sightings: the bearing is wrapped, the range is not.

@@ -1,9 +1,6 @@
 #include "slam/motion.h"
 
 #include <cmath>
-#include <numbers>
-
-#include "slam/elementary.h"
 
 namespace stereobench::slam {
 namespace {
@@ -15,13 +12,6 @@ double sinc(double x) {
 
 }  // namespace
 
-double wrap_angle(double angle_rad) {
-  constexpr double kPi = std::numbers::pi;
-  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
-  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
-  return wrapped <= -kPi ? kPi : wrapped;
-}
-
 Pose advance(const Pose& pose, const Control& control) {
   const double half_turn_rad = 0.5 * control.w_radps * control.duration_s;
   const double chord_m = control.v_mps * control.duration_s * sinc(half_turn_rad);
@@ -31,7 +21,11 @@ Pose advance(const Pose& pose, const Control& control) {
 }
 
 Pose compose(const Pose& a_from_b, const Pose& b_from_c) {
-  const auto [s, c] = sine_cosine(a_from_b.heading_rad);
+  return compose(a_from_b, sine_cosine(a_from_b.heading_rad), b_from_c);
+}
+
+Pose compose(const Pose& a_from_b, const SineCosine& heading, const Pose& b_from_c) {
+  const auto [s, c] = heading;
   return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
           a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
           wrap_angle(a_from_b.heading_rad + b_from_c.heading_rad)};

@@ -1,15 +1,24 @@
 /// How a robot moves in the plane: poses, velocities held for a while, and the odometry's noise.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include <Eigen/Core>
 
+#include "slam/elementary.h"
 #include "slam/random.h"
 #include "slam/types.h"
 
 namespace stereobench::slam {
 
 /// Brings an angle into (-pi, pi].
-double wrap_angle(double angle_rad);
+inline double wrap_angle(double angle_rad) {
+  constexpr double kPi = std::numbers::pi;
+  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
+  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
+  return wrapped <= -kPi ? kPi : wrapped;
+}
 
 /// Moves a pose along the arc of a control: eq. 4 put right.
 ///
@@ -20,6 +29,9 @@ Pose advance(const Pose& pose, const Control& control);
 
 /// The product of two poses: a_from_c = a_from_b * b_from_c.
 Pose compose(const Pose& a_from_b, const Pose& b_from_c);
+
+/// The same where the sine and cosine of a_from_b's heading are at hand.
+Pose compose(const Pose& a_from_b, const SineCosine& heading, const Pose& b_from_c);
 
 /// The pose b_from_a of a_from_b.
 Pose inverse(const Pose& a_from_b);

@@ -156,11 +156,9 @@ void PoseCorrection<Model>::associate_jointly(const Particle& particle, const Po
   for (const Candidate& pair : candidates_) {
     const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
     const LandmarkBelief& landmark = particle.classed[static_cast<std::size_t>(pair.landmark)].belief;
-    const Eigen::Matrix2d by_landmark = sighting_by_landmark(predicted.mean, landmark.mean);
-    Eigen::Matrix<double, 2, 3> by_pose;
-    by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
-    by_error.push_back(by_pose * root);
-    const Eigen::Vector2d expected = predict_sighting(predicted.mean, landmark.mean);
+    const LinearSighting linear = linearise_sighting(predicted.mean, landmark.mean);
+    const auto& [expected, by_landmark] = linear;
+    by_error.push_back(linear.by_pose() * root);
     pairings.push_back({sighting_residual(observation.range_bearing, expected),
                         by_error.back() * by_error.back().transpose() +
                             by_landmark * landmark.covariance * by_landmark.transpose() +
@@ -271,7 +269,7 @@ Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighti
   }
   ++counters.gated_measurements;
   const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
-  const Fate fate = judge_contradiction({landmark.uses, landmark.refusals}, certain, posterior.vouched);
+  const Fate fate = judge_contradiction(landmark.record, certain, posterior.vouched);
   if (fate == Fate::kUse) {
     posterior.pulled = true;
     posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);

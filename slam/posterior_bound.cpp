@@ -12,13 +12,6 @@
 namespace stereobench::slam {
 namespace {
 
-/// d(range, bearing) / d(x, y, heading), given that by the landmark.
-Eigen::Matrix<double, 2, 3> by_pose(const Eigen::Matrix2d& by_landmark) {
-  Eigen::Matrix<double, 2, 3> slope;
-  slope << -by_landmark, Eigen::Vector2d(0.0, -1.0);
-  return slope;
-}
-
 /// d(x, y, heading) / d(x0, y0, heading0) of any motion that leads from one pose to another.
 Eigen::Matrix3d lever(const Pose& from, const Pose& to) {
   Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
@@ -111,11 +104,11 @@ void PosteriorBound::inform(std::span<const TrueSighting> frame) {
   for (Eigen::Index k = 0; k < rows; k += 2) {
     const TrueSighting& sighting = frame[static_cast<std::size_t>(k / 2)];
     const auto index = static_cast<std::size_t>(sighting.landmark);
-    const Eigen::Matrix2d by_landmark = sighting_by_landmark(pose_.mean, landmarks_[index]);
-    slope.block<2, 3>(k, 0) = by_pose(by_landmark);
-    slope.block<2, 2>(k, row_[index]) = by_landmark;
+    const LinearSighting linear = linearise_sighting(pose_.mean, landmarks_[index]);
+    slope.block<2, 3>(k, 0) = linear.by_pose();
+    slope.block<2, 2>(k, row_[index]) = linear.by_landmark;
     cross.middleRows<2>(k) =
-        by_pose(by_landmark) * joint.topRows<3>() + by_landmark * joint.middleRows<2>(row_[index]);
+        linear.by_pose() * joint.topRows<3>() + linear.by_landmark * joint.middleRows<2>(row_[index]);
     surprise.block<2, 2>(k, k) = sighting.noise;
   }
   surprise += cross * slope.transpose();

@@ -8,29 +8,32 @@
 
 namespace stereobench::slam {
 
-bool normalise(std::vector<double>& log_weights) {
+bool normalise(std::vector<double>& log_weights, std::vector<double>& weights) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const double w : log_weights) {
     if (w > largest) largest = w;
   }
   if (!std::isfinite(largest)) {
-    std::fill(log_weights.begin(), log_weights.end(), -logarithm(static_cast<double>(log_weights.size())));
+    make_equal(log_weights, weights);
     return false;
   }
   double sum = 0.0;
-  for (double& w : log_weights) {
-    w = std::isnan(w) ? -std::numeric_limits<double>::infinity() : w - largest;
-    sum += exponential(w);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    double& log_weight = log_weights[i];
+    log_weight = std::isnan(log_weight) ? -std::numeric_limits<double>::infinity() : log_weight - largest;
+    weights[i] = exponential(log_weight);
+    sum += weights[i];
   }
   const double log_sum = logarithm(sum);
   for (double& w : log_weights) w -= log_sum;
+  for (double& w : weights) w /= sum;
   return true;
 }
 
-std::vector<double> weights_of(const std::vector<double>& log_weights) {
-  std::vector<double> weights(log_weights.size());
-  std::ranges::transform(log_weights, weights.begin(), exponential);
-  return weights;
+void make_equal(std::vector<double>& log_weights, std::vector<double>& weights) {
+  const auto count = static_cast<double>(log_weights.size());
+  std::ranges::fill(log_weights, -logarithm(count));
+  std::ranges::fill(weights, 1.0 / count);
 }
 
 double effective_particles(const std::vector<double>& weights) {

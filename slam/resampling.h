@@ -8,11 +8,12 @@ namespace stereobench::slam {
 /// Scales log weights so that the weights sum to 1. Weights that have all vanished become equal.
 ///
 /// @param log_weights at least one; minus infinity and NaN are weights of zero
+/// @param weights as many; receives the weights themselves
 /// @return false when every weight had vanished
-bool normalise(std::vector<double>& log_weights);
+bool normalise(std::vector<double>& log_weights, std::vector<double>& weights);
 
-/// @return the weights of log weights: each of them is asked for several times
-std::vector<double> weights_of(const std::vector<double>& log_weights);
+/// Makes all weights one over their number.
+void make_equal(std::vector<double>& log_weights, std::vector<double>& weights);
 
 /// @param weights normalised
 /// @return 1 / sum of squared weights (eq. 36), in [1, M]

@@ -68,11 +68,9 @@ SightingResidual::SightingResidual(const Observation& observation) : seen_(obser
 }
 
 SightingResidual::Value SightingResidual::at(const Pose& robot, const Eigen::Vector2d& landmark) const {
-  const Eigen::Matrix2d by_landmark = sighting_by_landmark(robot, landmark);
-  Eigen::Matrix<double, 2, 3> by_pose;
-  by_pose << -by_landmark, Eigen::Vector2d(0.0, -1.0);
-  return {whitener_ * sighting_residual(predict_sighting(robot, landmark), seen_), whitener_ * by_pose,
-          whitener_ * by_landmark};
+  const LinearSighting linear = linearise_sighting(robot, landmark);
+  return {whitener_ * sighting_residual(linear.expected, seen_), whitener_ * linear.by_pose(),
+          whitener_ * linear.by_landmark};
 }
 
 }  // namespace stereobench::slam

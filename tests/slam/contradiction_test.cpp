@@ -20,6 +20,18 @@ TEST(JudgeContradiction, BlamesSightingThenLandmarkThenPose) {
   EXPECT_EQ(judge_contradiction(unconfirmed, false, false), Fate::kMove);
 }
 
+// Mutation: counts that wrap around, so that a landmark seen 65,536 times is one that nobody knows.
+TEST(TrackRecord, CountsAndStopsAtTheEnd) {
+  TrackRecord record;
+  record.contradict();
+  EXPECT_EQ(record.refusals, 1);
+  record.agree();
+  EXPECT_EQ(record.uses, 2);
+  EXPECT_EQ(record.refusals, 0);
+  for (int i = 0; i < 70'000; ++i) record.agree();
+  EXPECT_EQ(record.uses, 65'535);
+}
+
 // Where nothing else can have been seen, no patience is needed, and no confirmation.
 TEST(JudgeContradiction, BlamesThePoseAtOnceWhenTheLandmarkIsCertain) {
   EXPECT_EQ(judge_contradiction({.uses = 1}, true, false), Fate::kUse);

@@ -33,6 +33,32 @@ TEST(PredictSighting, IsFiniteOnTopOfTheLandmark) {
   EXPECT_TRUE(near(predict_sighting({1.0, 1.0, 0.5}, {1.0, 1.0}), Eigen::Vector2d(0.0, -0.5), 1e-15));
 }
 
+// Against central differences. Mutations: the sign of by_landmark's third entry, +1 for the heading's slope.
+TEST(LinearSighting, PredictsTheSameAndHasItsSlopes) {
+  constexpr double kStep = 1e-6;
+  RandomStream random(5, Stream::kWorld);
+  for (int i = 0; i < 200; ++i) {
+    const Pose robot{random.normal(), random.normal(), wrap_angle(3.0 * random.normal())};
+    const double direction = 3.0 * random.normal();
+    const double range = 0.5 + 10.0 * random.uniform();
+    const Eigen::Vector2d point = locate(robot, {range, direction});
+    const LinearSighting linear = linearise_sighting(robot, point);
+    EXPECT_EQ(linear.expected, predict_sighting(robot, point));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector2d by_pose = sighting_residual(predict_sighting(displace(robot, step), point),
+                                                        predict_sighting(displace(robot, -step), point)) /
+                                      (2.0 * kStep);
+      EXPECT_TRUE(near(linear.by_pose().col(axis), by_pose, 1e-7));
+      if (axis < 2) {
+        EXPECT_TRUE(near(linear.by_landmark.col(axis), -by_pose, 1e-7));
+      }
+    }
+  }
+  const LinearSighting none = linearise_sighting({1.0, 1.0, 0.5}, {1.0, 1.0});
+  EXPECT_TRUE(none.by_landmark.isZero());
+}
+
 // A public implementation wraps the range in place of the bearing.
 TEST(SightingResidual, WrapsTheBearingAndNotTheRange) {
   const Eigen::Vector2d residual = sighting_residual({10.0, 3.1}, {1.0, -3.1});

@@ -22,11 +22,11 @@ class Corrections : public ::testing::Test {
   std::vector<Target> targets_;
   FilterCounters counters_;
 
-  void know(const Eigen::Vector2d& place, int uses = 5) {
-    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, uses, 0});
+  void know(const Eigen::Vector2d& place, std::uint16_t uses = 5) {
+    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, {uses, 0}});
   }
   void know_well(const Eigen::Vector2d& place) {
-    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, kUnknown, 5, 0});
+    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, kUnknown, {5, 0}});
   }
   void change(std::size_t slot, const std::function<void(Landmark&)>& by) {
     Landmark landmark = particle_.known[slot];
@@ -259,7 +259,7 @@ TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
 TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVouchedFor) {
   this->know({3.0, 1.0});
   this->know({3.0, -1.0});
-  this->change(1, [](Landmark& landmark) { landmark.refusals = 10; });
+  this->change(1, [](Landmark& landmark) { landmark.record.refusals = 10; });
   this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
   EXPECT_EQ(this->targets_[1].fate, Fate::kMove);
@@ -267,11 +267,11 @@ TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVou
 
 TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
   this->know({3.0, 1.0});
-  this->change(0, [](Landmark& landmark) { landmark.refusals = 10; });
+  this->change(0, [](Landmark& landmark) { landmark.record.refusals = 10; });
   const Posterior pulled = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
   EXPECT_GT(displacement(pulled.pose.mean, this->predicted_.mean).norm(), 0.5);
-  this->change(0, [](Landmark& landmark) { landmark.uses = 1; });
+  this->change(0, [](Landmark& landmark) { landmark.record.uses = 1; });
   this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].fate, Fate::kMove);
 }

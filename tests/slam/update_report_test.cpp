@@ -179,8 +179,8 @@ TYPED_TEST(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
   Eigen::Matrix<double, 6, 1> off;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(2 * i);
-    const Eigen::Matrix2d by_place = sighting_by_landmark(now, places[i]);
-    const Eigen::Matrix2d by_place_then = sighting_by_landmark({}, places[i]);
+    const Eigen::Matrix2d by_place = linearise_sighting(now, places[i]).by_landmark;
+    const Eigen::Matrix2d by_place_then = linearise_sighting({}, places[i]).by_landmark;
     const Eigen::Matrix2d place = sd * sd * (by_place_then.transpose() * by_place_then).inverse();
     s.block<2, 2>(row, row) = by_place * place * by_place.transpose() + sd * sd * Eigen::Matrix2d::Identity();
     by_pose.block<2, 3>(row, 0) << -by_place, Eigen::Vector2d(0.0, -1.0);
