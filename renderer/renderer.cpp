@@ -1,9 +1,11 @@
 #include "renderer/renderer.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "renderer/ball_painter.h"
+#include "renderer/lens.h"
 #include "renderer/readback.h"
 #include "renderer/surface_painter.h"
 #include "vision/palette.h"
@@ -56,10 +58,16 @@ void set_state(const Gl& gl, const worlds::World& world) {
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
+/// Lenses that distort; none where they do not.
+std::optional<Lens> lens_of(const vision::StereoRig& rig) {
+  return rig.distortion == vision::Distortion{} ? std::nullopt : std::optional<Lens>(rig);
+}
+
 }  // namespace
 
 struct Renderer::Parts {
-  vision::StereoRig rig;
+  std::optional<Lens> lens;
+  vision::StereoRig rig;  ///< without distortion
   std::unique_ptr<Context> context;
   Gl gl;
   Framebuffer framebuffer;
@@ -67,7 +75,8 @@ struct Renderer::Parts {
   BallPainter balls;
 
   Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
-      : rig(checked(asked)),
+      : lens(lens_of(checked(asked))),
+        rig(lens ? lens->pinhole_rig() : asked),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
@@ -105,8 +114,9 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
   parts_->draw(left);
   parts_->draw(right);
   const cv::Size size_px(parts_->rig.camera.width_px, parts_->rig.camera.height_px);
-  return {read_eye(parts_->gl, left.first_column_px, size_px),
-          read_eye(parts_->gl, right.first_column_px, size_px)};
+  const StereoFrame frame = {read_eye(parts_->gl, left.first_column_px, size_px),
+                             read_eye(parts_->gl, right.first_column_px, size_px)};
+  return parts_->lens ? parts_->lens->bend(frame) : frame;
 }
 
 }  // namespace stereobench::renderer

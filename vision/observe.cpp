@@ -110,4 +110,19 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
   return balls;
 }
 
+std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
+                                     const ObserverSettings& settings) {
+  constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
+  std::vector<BallObservation> observations =
+      observe(rectification.apply(pair), rectification.rig(), settings);
+  for (BallObservation& seen : observations) {
+    const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
+                       rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);
+    seen.truncated = seen.truncated || !whole;
+    seen.left_px = rectification.taken_px(seen.left_px, Eye::kLeft);
+    seen.right_px = rectification.taken_px(seen.right_px, Eye::kRight);
+  }
+  return observations;
+}
+
 }  // namespace stereobench::vision

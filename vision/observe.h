@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "vision/rectify.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
@@ -25,6 +26,12 @@ struct ObserverSettings {
 /// rig
 ///         or the settings are not positive and finite
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
+                                     const ObserverSettings& settings);
+
+/// The same in pictures as they were taken, of a rig with faults: finds and measures in rectified pictures.
+/// @return as above; centres are those of the pictures as taken
+/// @throws std::invalid_argument as above
+std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
                                      const ObserverSettings& settings);
 
 }  // namespace stereobench::vision

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slam/elementary.h"
+#include "vision/distortion.h"
 
 namespace stereobench::vision {
 namespace {
@@ -23,6 +24,11 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
   return result;
 }
 
+bool is_finite(const Distortion& lens) {
+  return std::isfinite(lens.k1) && std::isfinite(lens.k2) && std::isfinite(lens.p1) &&
+         std::isfinite(lens.p2) && std::isfinite(lens.k3);
+}
+
 }  // namespace
 
 Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
@@ -39,8 +45,17 @@ Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
 
 Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye) {
   if (eye == Eye::kLeft) return point_in_left_camera;
-  const Eigen::Vector3d shifted = point_in_left_camera - Eigen::Vector3d(rig.baseline_m, 0.0, 0.0);
-  return rotation(rig.right_turn_rad).transpose() * shifted;
+  return direction_in_eye(rig, point_in_left_camera - Eigen::Vector3d(rig.baseline_m, 0.0, 0.0), eye);
+}
+
+Eigen::Vector3d direction_in_eye(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
+                                 Eye eye) {
+  if (eye == Eye::kLeft) return direction_in_left_camera;
+  return rotation(rig.right_turn_rad).transpose() * direction_in_left_camera;
+}
+
+Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_eye) {
+  return project(rig.camera, distort(rig.distortion, point_in_eye.hnormalized()).homogeneous());
 }
 
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
@@ -48,13 +63,23 @@ Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_i
           camera.cy_px + camera.focal_px * point_in_camera.y() / point_in_camera.z()};
 }
 
+std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px) {
+  if (rig.distortion == Distortion{}) return taken_px;
+  const auto direction = undistort(rig.distortion, pixel_ray(rig.camera, taken_px).head<2>());
+  if (!direction) return std::nullopt;
+  return project(rig.camera, direction->homogeneous());
+}
+
+bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
+         pixel.y() <= camera.height_px - 0.5;
+}
+
 std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
                                                   const Eigen::Vector3d& point_in_camera) {
   if (!(point_in_camera.z() > 0.0)) return std::nullopt;
   const Eigen::Vector2d pixel = project(camera, point_in_camera);
-  const bool inside = pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
-                      pixel.y() <= camera.height_px - 0.5;
-  return inside ? std::optional(pixel) : std::nullopt;
+  return is_inside(camera, pixel) ? std::optional(pixel) : std::nullopt;
 }
 
 Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px) {
@@ -66,7 +91,8 @@ bool is_usable(const StereoRig& rig) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   return rig.camera.width_px > 0 && rig.camera.height_px > 0 && positive(rig.camera.focal_px) &&
          positive(rig.baseline_m) && std::isfinite(rig.camera.cx_px) && std::isfinite(rig.camera.cy_px) &&
-         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad) && rig.right_turn_rad.allFinite();
+         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad) && rig.right_turn_rad.allFinite() &&
+         is_finite(rig.distortion);
 }
 
 }  // namespace stereobench::vision

@@ -21,10 +21,26 @@ Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye = Eye::kLeft);
 /// @return the point in the frame of the eye's camera, metres
 Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye);
 
+/// The same direction as another eye of the rig sees it.
+Eigen::Vector3d direction_in_eye(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
+                                 Eye eye);
+
+/// Where an eye's picture shows a point: the pinhole projection after the lens has bent the light.
+/// @param point_in_eye metres, in the frame of the eye's camera, Z > 0
+/// @return pixels; may lie outside the image
+Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_eye);
+
 /// The pinhole projection u = f X/Z + cx, v = f Y/Z + cy.
 /// @param point_in_camera metres, Z > 0 (for Z <= 0 the result has no meaning)
 /// @return pixels, (0, 0) is the centre of the top-left pixel; may lie outside the image
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera);
+
+/// Where a camera without distortion would show what a pixel of an eye's picture shows.
+/// @return empty where the lens folds its picture
+std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px);
+
+/// Whether a place lies within the area of a picture's pixels.
+bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel);
 
 /// As project, for points that may be anywhere.
 /// @return pixels within the image's area; empty when the point is behind the camera or outside the image

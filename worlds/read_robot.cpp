@@ -2,6 +2,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "vision/distortion.h"
 #include "worlds/path.h"
 #include "worlds/scenario_parts.h"
 
@@ -14,6 +15,7 @@ constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kSpeed_mps = {1e-3, 100.0};
 constexpr Interval kStep_s = {1e-3, 1e3};
 constexpr Interval kNoise = {0.0, 100.0};
+constexpr Interval kTurn_deg = {-45.0, 45.0};
 
 GroundTruth read_circle(const YamlValue& value) {
   const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s",
@@ -48,6 +50,14 @@ GroundTruth read_polyline(const YamlValue& value) {
   return drive_polyline(path);
 }
 
+vision::Distortion read_distortion(const YamlValue& value, const vision::Intrinsics& camera) {
+  const Eigen::Matrix<double, 5, 1> k = read_vector<5>(value, {-100.0, 100.0});
+  const vision::Distortion lens = {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+  if (!vision::directions_seen(lens, camera))
+    value.refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
+  return lens;
+}
+
 }  // namespace
 
 GroundTruth read_path(const YamlValue& value) {
@@ -64,7 +74,7 @@ GroundTruth read_path(const YamlValue& value) {
 
 vision::StereoRig read_rig(const YamlValue& value) {
   const YamlMap map(value, {"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
-                            "pitch_down_deg", "right_turn_deg"});
+                            "pitch_down_deg", "right_turn_deg", "distortion"});
   vision::StereoRig rig;
   rig.camera.width_px = map.at("width_px").integer(16, 4096);
   rig.camera.height_px = map.at("height_px").integer(16, 4096);
@@ -77,25 +87,25 @@ vision::StereoRig read_rig(const YamlValue& value) {
   rig.height_m = map.number("height_m", {1e-3, 100.0});
   rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, 0.0) * kDegree;
   if (const auto turn = map.find("right_turn_deg"))
-    rig.right_turn_rad = read_vector<3>(*turn, {-45.0, 45.0}) * kDegree;
+    rig.right_turn_rad = read_vector<3>(*turn, kTurn_deg) * kDegree;
+  if (const auto lens = map.find("distortion")) rig.distortion = read_distortion(*lens, rig.camera);
   return rig;
 }
 
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth) {
-  const YamlMap map(value, {"focal_px", "cx_px", "cy_px", "baseline_m", "height_m", "pitch_down_deg"});
-  vision::StereoRig rig = as_believed(truth);
+  const YamlMap map(value, {"focal_px", "cx_px", "cy_px", "baseline_m", "height_m", "pitch_down_deg",
+                            "right_turn_deg", "distortion"});
+  vision::StereoRig rig = truth;
   rig.camera.focal_px = map.number("focal_px", {1.0, 1e5}, rig.camera.focal_px);
   rig.camera.cx_px = map.number("cx_px", {0.0, rig.camera.width_px - 1.0}, rig.camera.cx_px);
   rig.camera.cy_px = map.number("cy_px", {0.0, rig.camera.height_px - 1.0}, rig.camera.cy_px);
   rig.baseline_m = map.number("baseline_m", {1e-3, 10.0}, rig.baseline_m);
   rig.height_m = map.number("height_m", {1e-3, 100.0}, rig.height_m);
   rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, rig.pitch_down_rad / kDegree) * kDegree;
+  if (const auto turn = map.find("right_turn_deg"))
+    rig.right_turn_rad = read_vector<3>(*turn, kTurn_deg) * kDegree;
+  if (const auto lens = map.find("distortion")) rig.distortion = read_distortion(*lens, rig.camera);
   return rig;
-}
-
-vision::StereoRig as_believed(vision::StereoRig truth) {
-  truth.right_turn_rad.setZero();
-  return truth;
 }
 
 slam::OdometryNoise read_odometry_noise(const YamlValue& value) {

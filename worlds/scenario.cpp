@@ -62,7 +62,7 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
   const auto believed = map.find("believed_rig");
-  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : as_believed(scenario.rig);
+  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
   if (const auto noise = map.find("believed_measurement_noise")) {

@@ -23,9 +23,6 @@ GroundTruth read_path(const YamlValue& value);
 /// `rig:` the cameras and how they sit on the robot.
 vision::StereoRig read_rig(const YamlValue& value);
 
-/// What is believed of a rig where nothing else is said: all of it, and that it is rectified.
-vision::StereoRig as_believed(vision::StereoRig truth);
-
 /// `believed_rig:` what vision takes the rig for, where it is wrong.
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth);
 

@@ -104,7 +104,7 @@ struct Scenario {
   World world;
   double placement_jitter_m = 0.0;  ///< each seed moves each ball by up to this much in x and y
   vision::StereoRig rig;            ///< as it is
-  vision::StereoRig believed_rig;   ///< as vision takes it to be: rectified
+  vision::StereoRig believed_rig;   ///< as vision takes it to be
   GroundTruth path;
   slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
   slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told

@@ -107,7 +107,8 @@ std::string calibration_yaml(const vision::StereoRig& rig) {
                        cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
   file << "K" << camera_matrix(rig.camera);
-  file << "D" << cv::Mat::zeros(1, 5, CV_64F);
+  const vision::Distortion& lens = rig.distortion;
+  file << "D" << cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
   file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
   file << "baseline_m" << rig.baseline_m;
   file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft));

@@ -64,7 +64,11 @@ class StereoSense {
  public:
   StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
               renderer::Backend backend)
-      : scenario_(scenario), world_(world), seed_(seed), renderer_(world, scenario.rig, backend) {
+      : scenario_(scenario),
+        world_(world),
+        seed_(seed),
+        renderer_(world, scenario.rig, backend),
+        rectification_(scenario.believed_rig) {
     settings_.ball_radius_m = world.balls.empty() ? settings_.ball_radius_m : world.balls.front().radius_m;
     settings_.noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel);
   }
@@ -79,7 +83,7 @@ class StereoSense {
     const auto observations = watch.time("observe", [&] {
       const vision::StereoPair light = {renderer::decode(pair.left, scenario_.camera),
                                         renderer::decode(pair.right, scenario_.camera)};
-      return vision::observe(light, scenario_.believed_rig, settings_);
+      return vision::observe(light, rectification_, settings_);
     });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
@@ -100,6 +104,7 @@ class StereoSense {
   const worlds::World& world_;
   std::uint64_t seed_;
   renderer::Renderer renderer_;
+  vision::Rectification rectification_;
   vision::ObserverSettings settings_;
   VisionScore score_;
   Timing timing_;

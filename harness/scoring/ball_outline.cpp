@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "slam/elementary.h"
+#include "vision/distortion.h"
 #include "vision/rig.h"
 
 namespace stereobench::harness {
@@ -29,6 +30,14 @@ double half_extent_px(const OutlineEllipse& ellipse, int axis) {
   return along.cwiseProduct(Eigen::Vector2d(ellipse.semi_major_px, ellipse.semi_minor_px)).norm();
 }
 
+Eigen::Vector2d point_on(const OutlineEllipse& ellipse, double turn_rad) {
+  const auto [s, c] = slam::sine_cosine(ellipse.angle_rad);
+  const auto [sine, cosine] = slam::sine_cosine(turn_rad);
+  const Eigen::Vector2d major(c, s);
+  const Eigen::Vector2d minor(-s, c);
+  return ellipse.centre_px + ellipse.semi_major_px * cosine * major + ellipse.semi_minor_px * sine * minor;
+}
+
 /// Whether an outline lies within the area of the image's pixels.
 bool lies_inside(const vision::Intrinsics& camera, const OutlineEllipse& ellipse) {
   const Eigen::Vector2d half(half_extent_px(ellipse, 0), half_extent_px(ellipse, 1));
@@ -37,8 +46,25 @@ bool lies_inside(const vision::Intrinsics& camera, const OutlineEllipse& ellipse
   return low.minCoeff() >= -0.5 && high.x() <= camera.width_px - 0.5 && high.y() <= camera.height_px - 0.5;
 }
 
-double whole_area_px(const OutlineEllipse& ellipse) {
-  return std::numbers::pi * ellipse.semi_major_px * ellipse.semi_minor_px;
+/// Whether the picture that a rig takes holds all of an outline.
+bool lies_inside(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
+  constexpr int kPoints = 64;
+  if (rig.distortion == vision::Distortion{}) return lies_inside(rig.camera, ellipse);
+  const auto seen = vision::directions_seen(rig.distortion, rig.camera);
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector3d ray =
+        vision::pixel_ray(rig.camera, point_on(ellipse, 2.0 * std::numbers::pi * i / kPoints));
+    if (!seen || !seen->contains(ray.head<2>())) return false;  // beyond, the lens may fold
+    if (!vision::is_inside(rig.camera, vision::image_point(rig, ray))) return false;
+  }
+  return true;
+}
+
+/// The area that a rig's picture shows of an outline with nothing in its way, to first order in the lens.
+double whole_area_px(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
+  const Eigen::Vector2d direction = vision::pixel_ray(rig.camera, ellipse.centre_px).head<2>();
+  return std::numbers::pi * ellipse.semi_major_px * ellipse.semi_minor_px *
+         vision::distortion_slope(rig.distortion, direction).determinant();
 }
 
 /// Pixels of each identity; index 0 is no ball.
@@ -76,9 +102,9 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     const auto right = vision::sphere_outline(camera, in_right, ball.radius_m);
     if (!left || !right) continue;
     BallOutline outline{static_cast<int>(i), ball_in_robot, *left, *right};
-    outline.left_fraction = static_cast<double>(left_ids.at(i + 1)) / whole_area_px(*left);
-    outline.right_fraction = static_cast<double>(right_ids.at(i + 1)) / whole_area_px(*right);
-    outline.inside_both = lies_inside(camera, *left) && lies_inside(camera, *right);
+    outline.left_fraction = static_cast<double>(left_ids.at(i + 1)) / whole_area_px(truth.rig, *left);
+    outline.right_fraction = static_cast<double>(right_ids.at(i + 1)) / whole_area_px(truth.rig, *right);
+    outline.inside_both = lies_inside(truth.rig, *left) && lies_inside(truth.rig, *right);
     outlines.push_back(outline);
   }
   return outlines;

@@ -23,7 +23,7 @@ struct VisionTruth {
 struct BallOutline {
   int ball = 0;  ///< index into World::balls
   Eigen::Vector3d ball_in_robot = Eigen::Vector3d::Zero();
-  vision::OutlineEllipse left;
+  vision::OutlineEllipse left;  ///< in a picture without distortion
   vision::OutlineEllipse right;
   double left_fraction = 0.0;  ///< pixels of this ball over the area of its whole outline; about 1 at most
   double right_fraction = 0.0;

@@ -9,6 +9,7 @@
 
 #include "slam/elementary.h"
 #include "slam/motion.h"
+#include "vision/rig.h"
 
 namespace stereobench::harness {
 
@@ -36,6 +37,18 @@ std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vecto
     if (!under) under = i;
   }
   return under;
+}
+
+/// The observations with their centres where a true rig without distortion would have them.
+std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
+                                                  std::span<const vision::BallObservation> observations) {
+  const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<vision::BallObservation> straight(observations.begin(), observations.end());
+  for (vision::BallObservation& observation : straight) {
+    observation.left_px = vision::pinhole_point(rig, observation.left_px).value_or(nowhere);
+    observation.right_px = vision::pinhole_point(rig, observation.right_px).value_or(nowhere);
+  }
+  return straight;
 }
 
 void add_errors(const BallOutline& ball, const vision::BallObservation& observation, VisionScore& score) {
@@ -122,7 +135,7 @@ VisionScore score_observations(const VisionTruth& truth,
   const std::vector<BallOutline> balls = ball_outlines(truth);
   std::vector<bool> found(balls.size(), false);
   VisionScore score;
-  for (const vision::BallObservation& observation : observations) {
+  for (const vision::BallObservation& observation : straightened(truth.rig, observations)) {
     if (!observation.whole()) {
       ++score.flagged;
       continue;
@@ -155,7 +168,7 @@ std::vector<int> balls_observed(const VisionTruth& truth,
                                 std::span<const vision::BallObservation> observations) {
   const std::vector<BallOutline> balls = ball_outlines(truth);
   std::vector<int> observed;
-  for (const vision::BallObservation& observation : observations) {
+  for (const vision::BallObservation& observation : straightened(truth.rig, observations)) {
     const auto under = ball_under(truth, balls, observation);
     observed.push_back(under ? balls[*under].ball : slam::kUnknown);
   }

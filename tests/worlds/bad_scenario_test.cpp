@@ -112,6 +112,7 @@ constexpr Fault kValueFaults[] = {
     {"camera: {noise_sd_levels: 1}", "shutter: {samples: 0}",
      "9: shutter.samples: expected a whole number from 1"},
     {"focal_px: 500", "focal_px: 500, right_turn_deg: [0, 90, 0]", "8: rig.right_turn_deg"},
+    {"focal_px: 500", "focal_px: 500, distortion: [-3, 0, 0, 0, 0]", "8: rig.distortion"},
     {"{noise_sd_levels: 1}", "2", "9: camera: expected a group of keys (got 2)"},
     {"bearing_sd_deg: 1", "bearing_sd_deg: inf",
      "10: oracle.bearing_sd_deg: expected a number from 0 to 180 (got inf)"},

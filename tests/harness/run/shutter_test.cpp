@@ -110,6 +110,45 @@ TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
   worlds::Scenario scenario = bend();
   scenario.rig.right_turn_rad.y() = 0.0005;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0 - 2.2 * 0.0005 / 0.12, 0.003);
+  scenario.believed_rig = scenario.rig;
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003) << "who knows of it puts it straight";
+}
+
+// At a direction of 0.1 a lens with k1 = -0.3 is 0.3 % off, and less where the other eye looks: that is a
+// disparity.
+TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
+  worlds::Scenario scenario = bend();
+  scenario.rig.distortion = {.k1 = -0.3, .k2 = 0.05, .p1 = 0.001};
+  scenario.rig.right_turn_rad = {0.01, -0.02, 0.01};
+  scenario.believed_rig = scenario.rig;
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
+  scenario.believed_rig.distortion = {};
+  EXPECT_GT(std::abs(mean_range_ratio(scenario) - 1.0), 0.005);
+}
+
+// Rectified pictures are larger than what was taken, and black there: a ball that the picture's border cuts
+// looks whole in them, of another shape. Mutation: rectification that does not ask what the eye has seen.
+TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
+  for (const double k1 : {-0.3, 0.3}) {
+    worlds::Scenario scenario = bend();
+    scenario.rig.distortion = {.k1 = k1, .k2 = 0.05};
+    scenario.believed_rig = scenario.rig;
+    scenario.world.balls.resize(1);
+    scenario.path.clear();
+    for (int i = 0; i < 45; ++i)
+      scenario.path.push_back({i * 1'000'000'000LL, {0.0, -0.4 - 0.02 * i, 0.0}, {}});
+    int measured = 0;
+    const auto check = [&](const Look& look) {
+      const slam::Pose& pose = scenario.path[look.step].pose;
+      const auto balls = ball_outlines({scenario.world, scenario.rig, pose, look.frame});
+      for (const vision::BallObservation& seen : look.observations) {
+        EXPECT_TRUE(!seen.whole() || balls[0].inside_both) << k1 << ' ' << pose.y_m;
+        measured += seen.whole() ? 1 : 0;
+      }
+    };
+    record(scenario, 0, {.on_look = check});
+    EXPECT_GT(measured, 5);
+  }
 }
 
 TEST(Frames, AreLostAsOftenAsAsked) {

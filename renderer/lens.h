@@ -1,0 +1,34 @@
+/// Pictures through lenses that distort.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "renderer/types.h"
+#include "vision/types.h"
+
+namespace stereobench::renderer {
+
+/// Bends pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is drawn
+/// by a pinhole camera with twice as many pixels each way, and its light gathered per pixel of the bent
+/// picture at four places. Truth is that of the pinhole's pixel nearest to where the bent pixel's centre
+/// looks, a third of a pixel off at most.
+class Lens {
+ public:
+  /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
+  explicit Lens(const vision::StereoRig& rig);
+
+  /// The rig without distortion whose pictures bend() takes.
+  const vision::StereoRig& pinhole_rig() const { return pinhole_; }
+
+  /// @param straight of the pinhole rig
+  StereoFrame bend(const StereoFrame& straight) const { return {bend(straight.left), bend(straight.right)}; }
+
+ private:
+  EyeFrame bend(const EyeFrame& straight) const;
+
+  vision::StereoRig pinhole_;
+  cv::Mat light_places_, light_fractions_;  ///< OpenCV's fixed-point maps, at twice the resolution
+  cv::Mat truth_places_;                    ///< CV_32SC2, the pixel that each pixel's centre sees
+};
+
+}  // namespace stereobench::renderer

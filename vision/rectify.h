@@ -1,0 +1,51 @@
+/// Pictures as a rig without faults would have taken them: what vision measures in.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "vision/types.h"
+
+namespace stereobench::vision {
+
+/// Undoes what is believed of a rig: the lenses' distortion, and the right eye's turn.
+///
+/// The left eye looks where it looked. A turn about the eye's own centre moves pixels in a way that does not
+/// depend on what they see, so that each eye is one remapping, by cubic interpolation, onto a picture that is
+/// large enough for all that either eye has seen (within twice the size); it is black elsewhere. A rig that
+/// has no such faults costs nothing.
+class Rectification {
+ public:
+  /// @param rig as it is believed to be
+  /// @throws std::invalid_argument when it cannot be computed with
+  explicit Rectification(const StereoRig& rig);
+
+  /// The rig that the rectified pictures are of.
+  const StereoRig& rig() const { return rectified_; }
+
+  /// @param pair CV_8UC3 of the rig's size
+  /// @throws std::invalid_argument when a picture is not
+  StereoPair apply(const StereoPair& pair) const;
+
+  /// Where a pixel of a rectified picture is in the picture as it was taken.
+  /// @return a place outside of that picture for what the eye has not seen
+  Eigen::Vector2d taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const;
+
+  /// Whether the eye has seen all within a circle of a rectified picture.
+  bool shows(const Eigen::Vector2d& centre_px, double radius_px, Eye eye) const;
+
+ private:
+  cv::Mat rectified_picture(const cv::Mat& taken, Eye eye) const;
+
+  StereoRig taken_;
+  StereoRig rectified_;
+  Eigen::AlignedBox2d seen_;  ///< directions of each eye
+  struct Maps {
+    cv::Mat places, fractions;  ///< OpenCV's fixed-point maps; empty where nothing moves
+  };
+  std::array<Maps, 2> maps_;
+};
+
+}  // namespace stereobench::vision
