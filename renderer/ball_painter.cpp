@@ -81,4 +81,14 @@ void BallPainter::draw(const EyeView& view) {
   gl_->Disable(GL_BLEND);
 }
 
+void BallPainter::draw_facets(const EyeView& view) {
+  const std::vector<BallOutline> outlines = visible_outlines(view, balls_);
+  if (outlines.empty()) return;
+  if (!facet_) facet_.emplace(make_part(*gl_, BallPart::kFacet));
+  facet_->program.use();
+  outlines_.bind();
+  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
+  gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(outlines.size()), 0);
+}
+
 }  // namespace stereobench::renderer

@@ -1,6 +1,7 @@
 /// Draws balls: ray-cast quads, blended over what lies behind them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "renderer/ball_outline.h"
@@ -17,6 +18,9 @@ class BallPainter {
   /// Draws every ball that the eye can see, far ones first, over a picture whose surfaces are already there.
   void draw(const EyeView& view);
 
+  /// The same with the numbers of facets (facets.h) in place of colours.
+  void draw_facets(const EyeView& view);
+
  private:
   struct Part {
     Program program;
@@ -31,6 +35,7 @@ class BallPainter {
   VertexArray outlines_;
   Part core_;
   Part rim_;
+  std::optional<Part> facet_;  // once somebody asked
 };
 
 }  // namespace stereobench::renderer

@@ -76,15 +76,28 @@ constexpr const char* kRimTest = R"glsl(
   float root = 0.0;
 )glsl";
 
-constexpr const char* kFragmentTail = R"glsl(
+constexpr const char* kFacetTest = R"glsl(
+  if (inside <= 0.0) discard;
+  float root = sqrt(f_shape.w * inside);
+)glsl";
+
+constexpr const char* kDepth = R"glsl(
   vec3 sight = vec3(f_ray.xy + q * f_ray.w, 1.0);
   float along = f_ray.z + f_ray.w * dot(q, f_ball.xy);
   float distance = (along - root) / dot(sight, sight);
+  gl_FragDepth = u_near / distance;
+)glsl";
+
+constexpr const char* kColour = R"glsl(
   vec3 normal = normalize(sight * distance - f_ball.xyz);
   float light = u_light.x + u_light.y * max(dot(normal, u_towards_light), 0.0);
   o_colour = vec4(f_colour.bgr * light, f_colour.a);
   o_weight = vec4(weight);
-  gl_FragDepth = u_near / distance;
+}
+)glsl";
+
+constexpr const char* kFacet = R"glsl(
+  o_colour = vec4(f_colour.a, 0.0, 0.0, 0.0);
 }
 )glsl";
 
@@ -95,7 +108,8 @@ std::string ball_vertex_shader() {
 }
 
 std::string ball_fragment_shader(BallPart part) {
-  return std::string(kFragmentHead) + (part == BallPart::kCore ? kCoreTest : kRimTest) + kFragmentTail;
+  if (part == BallPart::kFacet) return std::string(kFragmentHead) + kFacetTest + kDepth + kFacet;
+  return std::string(kFragmentHead) + (part == BallPart::kCore ? kCoreTest : kRimTest) + kDepth + kColour;
 }
 
 }  // namespace stereobench::renderer

@@ -7,8 +7,9 @@ namespace stereobench::renderer {
 
 /// Which pixels of a ball a program draws. They need different depth writes, hence two programs.
 enum class BallPart {
-  kCore,  ///< whose centre sees the ball: colour blended by coverage, identity and depth written
-  kRim,   ///< whose centre just misses it: colour blended by coverage, nothing else touched
+  kCore,   ///< whose centre sees the ball: colour blended by coverage, identity and depth written
+  kRim,    ///< whose centre just misses it: colour blended by coverage, nothing else touched
+  kFacet,  ///< the core with its identity alone, as the lowest of the facet's four bytes (facets.h)
 };
 
 std::string ball_vertex_shader();

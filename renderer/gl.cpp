@@ -58,6 +58,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glShaderSource", ShaderSource);
   fetch(context, "glUniform1f", Uniform1f);
   fetch(context, "glUniform2f", Uniform2f);
+  fetch(context, "glUniform2i", Uniform2i);
   fetch(context, "glUniform3f", Uniform3f);
   fetch(context, "glUniformMatrix4fv", UniformMatrix4fv);
   fetch(context, "glUseProgram", UseProgram);

@@ -1,6 +1,7 @@
 #include "renderer/readback.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <opencv2/core/hal/intrin.hpp>
 
@@ -46,6 +47,13 @@ void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame) {
 
 void depth_to_metres(cv::Mat& depth, float near_m) {
   for (int row = 0; row < depth.rows; ++row) row_to_metres(depth.ptr<float>(row), depth.cols, near_m);
+}
+
+cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px) {
+  static_assert(std::endian::native == std::endian::little, "the lowest byte is written first");
+  cv::Mat facets(size_px, CV_32SC1);
+  gl.ReadPixels(first_column_px, 0, size_px.width, size_px.height, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
+  return facets;
 }
 
 EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px) {

@@ -14,6 +14,10 @@ void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame);
 /// @param depth CV_32FC1
 void depth_to_metres(cv::Mat& depth, float near_m);
 
+/// Reads one eye's part of the framebuffer that is bound, drawn as facets.
+/// @return CV_32SC1, numbers of facets.h
+cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px);
+
 /// Reads one eye's part of the framebuffer that is bound.
 /// @param first_column_px where the eye's part begins
 EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px);

@@ -1,5 +1,6 @@
 #include "renderer/renderer.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -48,13 +49,11 @@ const vision::StereoRig& checked(const vision::StereoRig& rig) {
 }
 
 /// State that never changes: see eye_view.h for the depth's convention.
-void set_state(const Gl& gl, const worlds::World& world) {
+void set_state(const Gl& gl) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClearDepth(0.0);
-  const Eigen::Vector3f sky = world.sky_rgb.cast<float>();
-  gl.ClearColor(sky.z(), sky.y(), sky.x(), 0.0F);  // the picture's order is blue, green, red, identity
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
@@ -68,6 +67,7 @@ std::optional<Lens> lens_of(const vision::StereoRig& rig) {
 struct Renderer::Parts {
   std::optional<Lens> lens;
   vision::StereoRig rig;  ///< without distortion
+  Eigen::Vector3f sky_rgb;
   std::unique_ptr<Context> context;
   Gl gl;
   Framebuffer framebuffer;
@@ -77,22 +77,37 @@ struct Renderer::Parts {
   Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
       : lens(lens_of(checked(asked))),
         rig(lens ? lens->pinhole_rig() : asked),
+        sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
         surfaces(gl, checked(world)),
         balls(gl, world) {
-    set_state(gl, world);
+    set_state(gl);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
   ~Parts() { context->make_current(); }  // what is deleted next belongs to it
 
-  void draw(const EyeView& view) {
-    gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
-    surfaces.draw(view);
-    balls.draw(view);
+  /// Where the eyes are, with an empty framebuffer of a colour before them.
+  std::array<EyeView, 2> open_eyes(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                                   const Eigen::Vector3f& rgb) {
+    for (const slam::Pose& pose : {left_pose, right_pose}) {
+      require(std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad),
+              "Renderer: the pose is not finite");
+    }
+    context->make_current();
+    framebuffer.bind();
+    gl.ClearColor(rgb.z(), rgb.y(), rgb.x(), 0.0F);  // the picture's order is blue, green, red, identity
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    return {eye_view(rig, vision::Eye::kLeft, left_pose), eye_view(rig, vision::Eye::kRight, right_pose)};
   }
+
+  void look_through(const EyeView& view) {
+    gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
+  }
+
+  cv::Size size_px() const { return {rig.camera.width_px, rig.camera.height_px}; }
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
@@ -102,21 +117,27 @@ Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
 StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose) {
-  for (const slam::Pose& pose : {left_pose, right_pose}) {
-    require(std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad),
-            "Renderer::render: the pose is not finite");
+  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb);
+  for (const EyeView& view : {left, right}) {
+    parts_->look_through(view);
+    parts_->surfaces.draw(view);
+    parts_->balls.draw(view);
   }
-  const EyeView left = eye_view(parts_->rig, vision::Eye::kLeft, left_pose);
-  const EyeView right = eye_view(parts_->rig, vision::Eye::kRight, right_pose);
-  parts_->context->make_current();
-  parts_->framebuffer.bind();
-  parts_->gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  parts_->draw(left);
-  parts_->draw(right);
-  const cv::Size size_px(parts_->rig.camera.width_px, parts_->rig.camera.height_px);
-  const StereoFrame frame = {read_eye(parts_->gl, left.first_column_px, size_px),
-                             read_eye(parts_->gl, right.first_column_px, size_px)};
+  const StereoFrame frame = {read_eye(parts_->gl, left.first_column_px, parts_->size_px()),
+                             read_eye(parts_->gl, right.first_column_px, parts_->size_px())};
   return parts_->lens ? parts_->lens->bend(frame) : frame;
+}
+
+StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose) {
+  require(!parts_->lens, "Renderer::sight: not for lenses that distort");
+  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero());
+  for (const EyeView& view : {left, right}) {
+    parts_->look_through(view);
+    parts_->surfaces.draw_facets(view);
+    parts_->balls.draw_facets(view);
+  }
+  return {{left, read_facets(parts_->gl, left.first_column_px, parts_->size_px())},
+          {right, read_facets(parts_->gl, right.first_column_px, parts_->size_px())}};
 }
 
 }  // namespace stereobench::renderer

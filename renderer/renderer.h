@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "renderer/sight.h"
 #include "renderer/types.h"
 #include "slam/types.h"
 #include "vision/types.h"
@@ -35,6 +36,11 @@ class Renderer {
   /// The same with eyes that open at different times.
   /// @param left_pose, right_pose where the robot stands when the eye looks
   StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose);
+
+  /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
+  /// want more truth than a frame carries (eye_truth.h, correspondence.h).
+  /// @throws std::invalid_argument as render, and for lenses that distort
+  StereoSight sight(const slam::Pose& left_pose, const slam::Pose& right_pose);
 
  private:
   struct Parts;

@@ -2,6 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/facet_shader.h"
 #include "renderer/material_shader.h"
 
 namespace stereobench::renderer {
@@ -42,22 +43,28 @@ void SurfacePainter::use(worlds::Material material, const glm::mat4& clip_from_p
   gl_->UniformMatrix4fv(chosen.clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
 }
 
-void SurfacePainter::draw(const EyeView& view) {
-  draw_meshes(view);
-  draw_polygons(view);
+void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
+  if (!facet_program_) {
+    Program program(*gl_, surface_vertex_shader(), facet_fragment_shader());
+    const GLint matrix = program.uniform("u_clip_from_position");
+    const GLint facet = program.uniform("u_facet");
+    facet_program_.emplace(FacetProgram{std::move(program), matrix, facet});
+  }
+  facet_program_->program.use();
+  gl_->UniformMatrix4fv(facet_program_->clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
+  gl_->Uniform2i(facet_program_->facet, first, for_each_triangle);
 }
 
-void SurfacePainter::draw_meshes(const EyeView& view) const {
-  const glm::mat4 matrix = clip_from_world(view);
+/// Draws meshes, then polygons. What each is painted with is for the callers to say; corners of polygons are
+/// in clip space already.
+template <typename UseMesh, typename UsePolygon>
+void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon) {
   meshes_.bind();
   for (const MeshRun& run : mesh_runs_) {
     if (!can_see(view, run)) continue;
-    use(run.material, matrix);
+    use_mesh(run);
     gl_->DrawArrays(GL_TRIANGLES, run.first, run.count);
   }
-}
-
-void SurfacePainter::draw_polygons(const EyeView& view) {
   const std::vector<SurfacePolygon> polygons = visible_polygons(view, world_);
   std::vector<SurfaceVertex> vertices;
   for (const SurfacePolygon& polygon : polygons) {
@@ -67,11 +74,27 @@ void SurfacePainter::draw_polygons(const EyeView& view) {
   polygons_.upload(floats(vertices));
   GLint first = 0;
   for (const SurfacePolygon& polygon : polygons) {
-    use(polygon.material, glm::mat4(1.0F));  // the corners are in clip space already
+    use_polygon(polygon);
     const auto count = static_cast<GLsizei>(polygon.corners.size());
     gl_->DrawArrays(GL_TRIANGLE_FAN, first, count);
     first += count;
   }
+}
+
+void SurfacePainter::draw(const EyeView& view) {
+  draw(
+      view, [this, matrix = clip_from_world(view)](const MeshRun& run) { use(run.material, matrix); },
+      [this](const SurfacePolygon& polygon) { use(polygon.material, glm::mat4(1.0F)); });
+}
+
+void SurfacePainter::draw_facets(const EyeView& view) {
+  const int meshes = first_mesh_facet(world_);
+  draw(
+      view,
+      [&, matrix = clip_from_world(view)](const MeshRun& run) {
+        use_facets(meshes + run.first / 3, 1, matrix);
+      },
+      [&](const SurfacePolygon& polygon) { use_facets(polygon.facet, 0, glm::mat4(1.0F)); });
 }
 
 }  // namespace stereobench::renderer

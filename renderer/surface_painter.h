@@ -18,19 +18,29 @@ class SurfacePainter {
   /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
   void draw(const EyeView& view);
 
+  /// The same with the numbers of facets (facets.h) in place of colours.
+  void draw_facets(const EyeView& view);
+
  private:
   struct MaterialProgram {
     Program program;
     GLint clip_from_position;
   };
+  struct FacetProgram {
+    Program program;
+    GLint clip_from_position;
+    GLint facet;
+  };
   void compile(worlds::Material material);
   void use(worlds::Material material, const glm::mat4& clip_from_position) const;
-  void draw_meshes(const EyeView& view) const;
-  void draw_polygons(const EyeView& view);
+  void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
+  template <typename UseMesh, typename UsePolygon>
+  void draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon);
 
   const Gl* gl_;
   worlds::World world_;
   std::array<std::optional<MaterialProgram>, 5> programs_;  // by Material
+  std::optional<FacetProgram> facet_program_;               // once somebody asked
   std::vector<MeshRun> mesh_runs_;
   VertexArray meshes_;
   VertexArray polygons_;

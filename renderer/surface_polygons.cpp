@@ -38,7 +38,7 @@ SurfaceVertex vertex(const EyeView& view, const Corner& corner, double light) {
 SurfacePolygon polygon(const EyeView& view, std::vector<Corner> corners, worlds::Material material,
                        double light) {
   for (const Eigen::Vector4d& plane : frustum_in_camera(view.camera)) corners = cut(corners, plane);
-  SurfacePolygon result{material, {}, 0.0};
+  SurfacePolygon result{.material = material};
   if (corners.size() < 3) return result;
   result.nearest_m = corners.front().in_camera.z();
   for (const Corner& corner : corners) {
@@ -81,14 +81,16 @@ double lit(const worlds::Light& light, const Eigen::Vector3d& normal) {
 
 std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::World& world) {
   std::vector<SurfacePolygon> polygons;
-  for (const worlds::Wall& wall : world.walls) {
-    SurfacePolygon seen = wall_polygon(view, wall, world.light);
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    SurfacePolygon seen = wall_polygon(view, world.walls[i], world.light);
+    seen.facet = kFirstWallFacet + static_cast<int>(i);
     if (!seen.corners.empty()) polygons.push_back(std::move(seen));
   }
   std::stable_sort(polygons.begin(), polygons.end(), [](const SurfacePolygon& a, const SurfacePolygon& b) {
     return a.nearest_m < b.nearest_m;
   });
   SurfacePolygon floor = floor_polygon(view, world);
+  floor.facet = kFloorFacet;
   if (!floor.corners.empty()) polygons.push_back(std::move(floor));
   return polygons;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/eye_view.h"
+#include "renderer/facets.h"
 #include "worlds/types.h"
 
 namespace stereobench::renderer {
@@ -22,6 +23,7 @@ inline constexpr int kSurfaceVertexFloats = 7;
 /// A convex polygon in the picture.
 struct SurfacePolygon {
   worlds::Material material = worlds::Material::kPlain;
+  int facet = kNoFacet;
   std::vector<SurfaceVertex> corners;  ///< in order around it; none when the eye does not see it
   double nearest_m = 0.0;              ///< smallest Z of the corners
 };

@@ -11,6 +11,18 @@ double OutlineEllipse::radius_px() const {
   return std::sqrt(semi_major_px * semi_minor_px);
 }
 
+Eigen::Vector2d OutlineEllipse::half_extent_px() const {
+  const auto [s, c] = slam::sine_cosine(angle_rad);
+  const Eigen::Vector2d axes(semi_major_px, semi_minor_px);
+  return {Eigen::Vector2d(c, s).cwiseProduct(axes).norm(), Eigen::Vector2d(s, c).cwiseProduct(axes).norm()};
+}
+
+bool lies_inside(const Intrinsics& camera, const OutlineEllipse& outline) {
+  const Eigen::Vector2d low = outline.centre_px - outline.half_extent_px();
+  const Eigen::Vector2d high = outline.centre_px + outline.half_extent_px();
+  return low.minCoeff() >= -0.5 && high.x() <= camera.width_px - 0.5 && high.y() <= camera.height_px - 0.5;
+}
+
 std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eigen::Vector3d& ball_in_camera,
                                              double radius_m) {
   const double depth = ball_in_camera.z();

@@ -21,6 +21,9 @@ struct OutlineEllipse {
 
   /// Radius of the circle of the same area, px.
   double radius_px() const;
+
+  /// Half the width and the height of the upright box around it.
+  Eigen::Vector2d half_extent_px() const;
 };
 
 /// The outline of a ball: with b^2 = R^2 / (Z^2 - R^2), the centre is (1 + b^2) times the projected ball
@@ -31,6 +34,9 @@ struct OutlineEllipse {
 /// @return the ellipse, which may lie outside the image; empty when the ball is not wholly ahead (Z <= R)
 std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eigen::Vector3d& ball_in_camera,
                                              double radius_m);
+
+/// Whether an outline lies within the area of the image's pixels.
+bool lies_inside(const Intrinsics& camera, const OutlineEllipse& outline);
 
 /// Ellipse centres triangulate to Z - R^2/Z; this undoes it: Z = (Zn + sqrt(Zn^2 + 4 R^2)) / 2.
 /// @param triangulated_depth_m Zn = f B / disparity of the ellipse centres, > 0

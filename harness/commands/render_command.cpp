@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/rendered_dataset.h"
+#include "harness/dataset/rendered_truth.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
 #include "harness/run/recording.h"
@@ -23,20 +25,24 @@ struct RenderArguments {
   std::vector<std::string> overrides;
   std::uint64_t seed = 0;
   renderer::Backend backend = renderer::Backend::kOsmesa;
+  TruthRequest truth;
   std::filesystem::path out;
 };
 
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
-/// own text, what was changed of it, the seed, what renders and the program's version.
+/// own text, what was changed of it, the seed, what renders, what truth was asked for, and the program's
+/// version.
 std::string identity_of(const RenderArguments& arguments) {
   std::ostringstream text;
   text << std::ifstream(arguments.scenario, std::ios::binary).rdbuf();
-  const nlohmann::ordered_json identity = {{"schema", 1},
-                                           {"stereobench", STEREOBENCH_VERSION},
-                                           {"seed", arguments.seed},
-                                           {"set", arguments.overrides},
-                                           {"backend", renderer::name_of(arguments.backend)},
-                                           {"scenario", text.str()}};
+  nlohmann::ordered_json identity = {{"schema", 1},
+                                     {"stereobench", STEREOBENCH_VERSION},
+                                     {"seed", arguments.seed},
+                                     {"set", arguments.overrides},
+                                     {"backend", renderer::name_of(arguments.backend)},
+                                     {"scenario", text.str()}};
+  for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
+  if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
   return identity.dump(2) + "\n";
 }
 
@@ -46,21 +52,29 @@ int render(const RenderArguments& arguments) {
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
         arguments.scenario.string()));
+  if (!arguments.truth.kinds.empty() && !(scenario.rig.distortion == vision::Distortion{}))
+    throw std::runtime_error(
+        fmt::format("{}: --truth is not there yet for lenses that distort; leave rig.distortion out",
+                    arguments.scenario.string()));
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / (scenario.name + "_dataset") : arguments.out;
+  const worlds::World world = worlds::world_for_seed(scenario, arguments.seed);
   const RenderedDataset dataset(out, identity_of(arguments));
+  std::optional<RenderedTruth> truth;
+  if (!arguments.truth.kinds.empty()) truth.emplace(out, arguments.truth, scenario, world, arguments.backend);
   Progress progress("render " + scenario.name, 1.0);
   long pairs = 0;
   const Recording recording = record(scenario, arguments.seed,
                                      {.on_look =
                                           [&](const Look& look) {
                                             dataset.write(look);
+                                            if (truth) truth->write(look);
                                             ++pairs;
                                           },
                                       .on_progress = [&](double done) { progress.show(done); }},
                                      arguments.backend);
-  dataset.finish(worlds::world_for_seed(scenario, arguments.seed), scenario.rig, scenario.believed_rig,
-                 recording.log);
+  if (truth) truth->finish();
+  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
   fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name, pairs,
              (out / "").string());
   return kPassed;
@@ -78,13 +92,29 @@ void add_render_command(CLI::App& program, Action& action) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_backend_option(*command, arguments->backend);
+  CLI::Option* const truth = command->add_option_function<std::string>(
+      "--truth", [arguments](const std::string& text) { arguments->truth.kinds = parse_truth(text); },
+      "further truth, comma-separated, of: balls, surface, range, normal, disparity, match, flow; or all");
+  command
+      ->add_option_function<std::string>(
+          "--truth-format",
+          [arguments](const std::string& text) { arguments->truth.format = parse_truth_format(text); },
+          "of disparity, match and flow: exact (PFM) or kitti (16-bit PNG)")
+      ->type_name("NAME")
+      ->default_str("exact")
+      ->needs(truth);
   command->add_option("--out,-o", arguments->out, "folder for the data set (default: out/<name>_dataset)");
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "
       "metres),\n"
       "calibration.yaml (as believed), true_calibration.yaml, balls.csv and the log that `stereobench slam` "
       "reads. Interrupted, it goes on where "
-      "it was.\n\n"
+      "it was.\n"
+      "--truth adds folders of the same names for each eye (left_flow/...), those of disparity, match and "
+      "flow "
+      "with\n"
+      "what becomes of each pixel there: 0 nothing, 85 out of the other picture, 170 hidden in it, 255 "
+      "seen.\n\n"
       "Example: stereobench render assets/scenarios/ball_circle.yaml --set path.laps=1 --out out/dataset");
   command->callback([arguments, &action] { action = [arguments] { return render(*arguments); }; });
 }

@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/measurement_log_writer.h"
+#include "harness/dataset/picture_file.h"
 #include "vision/palette.h"
 #include "vision/rig.h"
 
@@ -26,17 +26,6 @@ std::string read_whole(const std::filesystem::path& path) {
   std::ostringstream content;
   content << std::ifstream(path, std::ios::binary).rdbuf();
   return content.str();
-}
-
-std::string encoded(const char* extension, const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(extension, image, bytes))
-    throw std::runtime_error(fmt::format("cannot encode a picture as {}", extension));
-  return {bytes.begin(), bytes.end()};
-}
-
-void write_once(const std::filesystem::path& path, const char* extension, const cv::Mat& image) {
-  if (!std::filesystem::exists(path)) write_file_atomically(path, encoded(extension, image));
 }
 
 cv::Mat camera_matrix(const vision::Intrinsics& c) {
@@ -86,9 +75,9 @@ void RenderedDataset::write(const Look& look) const {
       {{"left", &look.frame.left}, {"right", &look.frame.right}}};
   for (const auto& [eye, frame] : eyes) {
     const cv::Mat& picture = frame == &look.frame.left ? look.pair.left : look.pair.right;
-    write_once(folder_ / eye / (name + ".png"), ".png", picture);
-    write_once(folder_ / (std::string(eye) + "_id") / (name + ".png"), ".png", frame->ball_id);
-    write_once(folder_ / (std::string(eye) + "_depth") / (name + ".pfm"), ".pfm", frame->depth_m);
+    write_once(folder_ / eye / (name + ".png"), picture);
+    write_once(folder_ / (std::string(eye) + "_id") / (name + ".png"), frame->ball_id);
+    write_once(folder_ / (std::string(eye) + "_depth") / (name + ".pfm"), frame->depth_m);
   }
 }
 

@@ -1,10 +1,8 @@
 #include "harness/scoring/ball_outline.h"
 
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 
+#include "renderer/ball_truth.h"
 #include "slam/elementary.h"
 #include "vision/distortion.h"
 #include "vision/rig.h"
@@ -23,13 +21,6 @@ Eigen::Vector3d in_robot(const slam::Pose& world_from_robot, const Eigen::Vector
   return {c * dx + s * dy, c * dy - s * dx, point_in_world.z()};
 }
 
-/// Half the width (axis 0) or height (axis 1) of an ellipse's bounding box.
-double half_extent_px(const OutlineEllipse& ellipse, int axis) {
-  const auto [s, c] = slam::sine_cosine(ellipse.angle_rad);
-  const Eigen::Vector2d along = axis == 0 ? Eigen::Vector2d(c, s) : Eigen::Vector2d(s, c);
-  return along.cwiseProduct(Eigen::Vector2d(ellipse.semi_major_px, ellipse.semi_minor_px)).norm();
-}
-
 Eigen::Vector2d point_on(const OutlineEllipse& ellipse, double turn_rad) {
   const auto [s, c] = slam::sine_cosine(ellipse.angle_rad);
   const auto [sine, cosine] = slam::sine_cosine(turn_rad);
@@ -38,18 +29,10 @@ Eigen::Vector2d point_on(const OutlineEllipse& ellipse, double turn_rad) {
   return ellipse.centre_px + ellipse.semi_major_px * cosine * major + ellipse.semi_minor_px * sine * minor;
 }
 
-/// Whether an outline lies within the area of the image's pixels.
-bool lies_inside(const vision::Intrinsics& camera, const OutlineEllipse& ellipse) {
-  const Eigen::Vector2d half(half_extent_px(ellipse, 0), half_extent_px(ellipse, 1));
-  const Eigen::Vector2d low = ellipse.centre_px - half;
-  const Eigen::Vector2d high = ellipse.centre_px + half;
-  return low.minCoeff() >= -0.5 && high.x() <= camera.width_px - 0.5 && high.y() <= camera.height_px - 0.5;
-}
-
 /// Whether the picture that a rig takes holds all of an outline.
 bool lies_inside(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
   constexpr int kPoints = 64;
-  if (rig.distortion == vision::Distortion{}) return lies_inside(rig.camera, ellipse);
+  if (rig.distortion == vision::Distortion{}) return vision::lies_inside(rig.camera, ellipse);
   const auto seen = vision::directions_seen(rig.distortion, rig.camera);
   for (int i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d ray =
@@ -67,16 +50,6 @@ double whole_area_px(const vision::StereoRig& rig, const OutlineEllipse& ellipse
          vision::distortion_slope(rig.distortion, direction).determinant();
 }
 
-/// Pixels of each identity; index 0 is no ball.
-std::array<long, 256> count_ids(const cv::Mat& ball_id) {
-  std::array<long, 256> counts{};
-  for (int row = 0; row < ball_id.rows; ++row) {
-    const auto* ids = ball_id.ptr<std::uint8_t>(row);
-    for (int column = 0; column < ball_id.cols; ++column) ++counts[ids[column]];
-  }
-  return counts;
-}
-
 }  // namespace
 
 bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
@@ -90,8 +63,8 @@ bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
 std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
   const vision::Intrinsics& camera = truth.rig.camera;
   const Eigen::Isometry3d camera_from_robot = vision::robot_from_camera(truth.rig).inverse();
-  const std::array<long, 256> left_ids = count_ids(truth.frame.left.ball_id);
-  const std::array<long, 256> right_ids = count_ids(truth.frame.right.ball_id);
+  const auto left_ids = renderer::pixels_by_id(truth.frame.left.ball_id);
+  const auto right_ids = renderer::pixels_by_id(truth.frame.right.ball_id);
   std::vector<BallOutline> outlines;
   for (std::size_t i = 0; i < truth.world.balls.size(); ++i) {
     const worlds::Ball& ball = truth.world.balls[i];
@@ -102,8 +75,8 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     const auto right = vision::sphere_outline(camera, in_right, ball.radius_m);
     if (!left || !right) continue;
     BallOutline outline{static_cast<int>(i), ball_in_robot, *left, *right};
-    outline.left_fraction = static_cast<double>(left_ids.at(i + 1)) / whole_area_px(truth.rig, *left);
-    outline.right_fraction = static_cast<double>(right_ids.at(i + 1)) / whole_area_px(truth.rig, *right);
+    outline.left_fraction = static_cast<double>(left_ids.at(i + 1).count) / whole_area_px(truth.rig, *left);
+    outline.right_fraction = static_cast<double>(right_ids.at(i + 1).count) / whole_area_px(truth.rig, *right);
     outline.inside_both = lies_inside(truth.rig, *left) && lies_inside(truth.rig, *right);
     outlines.push_back(outline);
   }

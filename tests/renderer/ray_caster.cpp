@@ -60,17 +60,30 @@ void RayCaster::stand_at(const slam::Pose& pose, vision::Eye eye) {
   down_ = forward_.cross(right_);
   const double side_m = (eye == vision::Eye::kLeft ? -0.5 : 0.5) * rig_.baseline_m;
   origin_ = Eigen::Vector3d(pose.x_m, pose.y_m, rig_.height_m) + side_m * right_;
+  if (eye == vision::Eye::kLeft) return;
+  Eigen::Matrix3d axes;
+  axes << right_, down_, forward_;
+  for (int axis = 0; axis < 3; ++axis) {  // about its x as it is, then about the new y, then the new z
+    axes = Eigen::AngleAxisd(rig_.right_turn_rad[axis], axes.col(axis)).toRotationMatrix() * axes;
+  }
+  right_ = axes.col(0);
+  down_ = axes.col(1);
+  forward_ = axes.col(2);
 }
 
 Sight RayCaster::look(double u, double v) const {
   const vision::Intrinsics& camera = rig_.camera;
   const Eigen::Vector3d ray = forward_ + right_ * ((u - camera.cx_px) / camera.focal_px) +
                               down_ * ((v - camera.cy_px) / camera.focal_px);
-  Sight sight{0, 0, kNever, 1e9};
+  Sight sight;
+  sight.depth_m = kNever;
   int surface = 0;
   const auto meet = [&](double depth_m, int ball_id) {
     ++surface;
-    if (depth_m < sight.depth_m) sight = {ball_id, surface, depth_m, sight.edge_px};
+    if (!(depth_m < sight.depth_m)) return;
+    sight.ball_id = ball_id;
+    sight.surface = surface;
+    sight.depth_m = depth_m;
   };
   for (std::size_t k = 0; k < world_.balls.size(); ++k) {
     double miss = 0.0;
@@ -82,7 +95,40 @@ Sight RayCaster::look(double u, double v) const {
   for (const worlds::Wall& wall : world_.walls) meet(meet_wall(wall, origin_, ray), 0);
   for (const Triangle& triangle : triangles_) meet(meet_triangle(triangle, origin_, ray), 0);
   meet(ray.z() < 0.0 ? -origin_.z() / ray.z() : kNever, 0);
+  if (sight.surface == 0) return sight;
+  sight.point_m = origin_ + sight.depth_m * ray;
+  const Eigen::Vector3d normal = normal_of(sight.surface, sight.point_m);
+  const Eigen::Vector3d facing = normal.dot(ray) > 0.0 ? Eigen::Vector3d(-normal) : normal;
+  sight.normal = {facing.dot(right_), facing.dot(down_), facing.dot(forward_)};
   return sight;
+}
+
+Eigen::Vector3d RayCaster::in_camera(const Eigen::Vector3d& point_m) const {
+  const Eigen::Vector3d offset = point_m - origin_;
+  return {offset.dot(right_), offset.dot(down_), offset.dot(forward_)};
+}
+
+Eigen::Vector3d RayCaster::normal_of(int surface, const Eigen::Vector3d& point_m) const {
+  std::size_t index = static_cast<std::size_t>(surface - 1);
+  if (index < world_.balls.size()) return (point_m - world_.balls[index].centre_m).normalized();
+  index -= world_.balls.size();
+  if (index < world_.walls.size()) {
+    const Eigen::Vector2d run = world_.walls[index].to_m - world_.walls[index].from_m;
+    return Eigen::Vector3d(-run.y(), run.x(), 0.0).normalized();
+  }
+  index -= world_.walls.size();
+  if (index == triangles_.size()) return Eigen::Vector3d::UnitZ();
+  const Triangle& triangle = triangles_[index];
+  return (triangle.corners[1] - triangle.corners[0])
+      .cross(triangle.corners[2] - triangle.corners[0])
+      .normalized();
+}
+
+int RayCaster::facet(int surface) const {
+  const int balls = static_cast<int>(world_.balls.size());
+  const int flats = static_cast<int>(world_.walls.size() + triangles_.size());
+  if (surface <= balls) return surface;
+  return surface == balls + flats + 1 ? 255 : 256 + surface - balls - 1;
 }
 
 Eigen::Vector3d RayCaster::ball_or_sky_colour(double u, double v) const {

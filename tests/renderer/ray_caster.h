@@ -17,6 +17,8 @@ struct Sight {
   int surface = 0;       ///< 0 = nothing, else a number for each ball, wall, triangle and the floor
   double depth_m = 0.0;  ///< planar Z, +inf for nothing
   double edge_px = 1e9;  ///< how far the ray passes from the outline of the nearest outline, about
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< that is met, world frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< there, towards the eye, in its camera frame
 };
 
 class RayCaster {
@@ -29,10 +31,18 @@ class RayCaster {
   /// @param u,v (0, 0) is the centre of the top-left pixel
   Sight look(double u, double v) const;
 
+  /// A point of the world in the eye's camera frame.
+  Eigen::Vector3d in_camera(const Eigen::Vector3d& point_m) const;
+
+  /// What number facets.h has for a surface of this caster's.
+  int facet(int surface) const;
+
   /// The colour without noise: materials must be plain, light ambient only. Red, green, blue in [0, 1].
   Eigen::Vector3d ball_or_sky_colour(double u, double v) const;
 
  private:
+  Eigen::Vector3d normal_of(int surface, const Eigen::Vector3d& point_m) const;
+
   worlds::World world_;
   vision::StereoRig rig_;
   std::vector<Triangle> triangles_;

@@ -175,6 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
             {"run", "{scenario}", "--out", "{out}", "--set", "gates=[{metric: vision.beauty, at_least: 1}]"},
             "vision.beauty"},
         BadCall{"RenderOfAnOracle", {"render", "{scenario}", "--out", "{out}"}, "oracle"},
+        BadCall{"UnknownTruth", {"render", "{scenario}", "--truth", "flow,beauty"}, "beauty"},
+        BadCall{"FormatOfNoTruth", {"render", "{scenario}", "--truth-format", "kitti"}, "--truth"},
         BadCall{"NegativeSeed", {"render", "{scenario}", "--seed", "-1"}, "--seed"},
         BadCall{"SlamWithoutLog", {"slam"}, "log"},
         BadCall{"SlamOfNothing", {"slam", "{scratch}/none"}, "none"},

@@ -146,6 +146,18 @@ TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
   EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed, back end or version"));
 }
 
+// Mutations: an identity without the truth; truth that is asked for and not written.
+TEST(RenderCommand, FurtherTruthIsPartOfWhatAFolderHolds) {
+  const ScratchFolder scratch;
+  const std::string out = (scratch.path() / "data").string();
+  const std::vector<std::string> render = {
+      "render", scenario_path("ball_circle"), "--set", "path.laps=0.02", "--out", out, "--truth"};
+  ASSERT_EQ(run_stereobench(with(render, {"surface,flow", "--truth-format", "kitti"})).exit_code, 0);
+  for (const char* file : {"left_surface/000001.png", "right_flow/000000.png", "surfaces.csv"})
+    EXPECT_TRUE(std::filesystem::exists(scratch.path() / "data" / file)) << file;
+  EXPECT_EQ(run_stereobench(with(render, {"surface"})).exit_code, 2);
+}
+
 // Mutation: seeds that are shifted from cell to cell.
 TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
   const ScratchFolder scratch;

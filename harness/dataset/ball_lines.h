@@ -1,0 +1,19 @@
+/// Truth of balls as JSON lines, and of surfaces as CSV.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "renderer/ball_truth.h"
+
+namespace stereobench::harness {
+
+/// One line a ball: ball_id and colour as in balls.csv, centre_in_camera_m, centre_px (the centre projected),
+/// outline (an ellipse: centre_px, semi_axes_px, angle_rad), and by BOP's names px_count_all, px_count_visib,
+/// visib_fract, bbox_obj, bbox_visib ([left, top, width, height], four times -1 for none); truncated.
+std::string ball_lines(const worlds::World& world, std::span<const renderer::BallTruth> truths);
+
+/// What each number of a surface picture is: surface_id, kind, index in the scenario's list of that kind.
+std::string surfaces_csv(const worlds::World& world);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,161 @@
+#include "harness/dataset/rendered_truth.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/ball_lines.h"
+#include "harness/dataset/picture_file.h"
+#include "harness/dataset/truth_pictures.h"
+#include "renderer/ball_truth.h"
+#include "renderer/eye_truth.h"
+#include "worlds/path.h"
+
+namespace stereobench::harness {
+namespace {
+
+using renderer::EyeSight;
+using renderer::StereoSight;
+using vision::Eye;
+
+const char* name_of(Eye eye) {
+  return eye == Eye::kLeft ? "left" : "right";
+}
+
+const EyeSight& eye_of(const StereoSight& sight, Eye eye) {
+  return eye == Eye::kLeft ? sight.left : sight.right;
+}
+
+Eye other(Eye eye) {
+  return eye == Eye::kLeft ? Eye::kRight : Eye::kLeft;
+}
+
+bool is_shift(TruthKind kind) {
+  return kind == TruthKind::kDisparity || kind == TruthKind::kMatch || kind == TruthKind::kFlow;
+}
+
+const char* extension_of(TruthKind kind, TruthFormat format) {
+  if (kind == TruthKind::kBalls) return ".jsonl";
+  if (kind == TruthKind::kSurface) return ".png";
+  return is_shift(kind) && format == TruthFormat::kKitti ? ".png" : ".pfm";
+}
+
+std::filesystem::path fate_file(const std::filesystem::path& shift_file) {
+  const std::filesystem::path folder = shift_file.parent_path().string() + "_fate";
+  return (folder / shift_file.filename()).replace_extension(".png");
+}
+
+cv::Mat surface_picture(const cv::Mat& surface) {
+  cv::Mat narrow;
+  surface.convertTo(narrow, CV_16U);
+  return narrow;
+}
+
+}  // namespace
+
+/// One eye at one step.
+struct RenderedTruth::EyeLook {
+  std::size_t step;
+  Eye eye;
+  const cv::Mat& ball_id;
+};
+
+RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
+                             const worlds::Scenario& scenario, const worlds::World& world,
+                             renderer::Backend backend)
+    : folder_(std::move(folder)),
+      request_(std::move(request)),
+      scenario_(scenario),
+      world_(world),
+      scene_(world),
+      renderer_(world, scenario.rig, backend) {
+  const std::size_t surfaces =
+      static_cast<std::size_t>(renderer::first_mesh_facet(world)) + world.meshes.size();
+  if (wants(TruthKind::kSurface) && surfaces > std::numeric_limits<std::uint16_t>::max())
+    throw std::runtime_error(
+        fmt::format("--truth surface: {} surfaces are more than 16 bits can number", surfaces));
+  for (const Eye eye : {Eye::kLeft, Eye::kRight}) {
+    for (const TruthKind kind : request_.kinds) {
+      const std::filesystem::path path = file(0, eye, kind);
+      prepare_output_folder(path.parent_path());
+      if (is_shift(kind)) prepare_output_folder(fate_file(path).parent_path());
+    }
+  }
+}
+
+bool RenderedTruth::wants(TruthKind kind) const {
+  return std::find(request_.kinds.begin(), request_.kinds.end(), kind) != request_.kinds.end();
+}
+
+std::filesystem::path RenderedTruth::file(std::size_t step, Eye eye, TruthKind kind) const {
+  return folder_ / fmt::format("{}_{}", name_of(eye), harness::name_of(kind)) /
+         fmt::format("{:06}{}", step, extension_of(kind, request_.format));
+}
+
+bool RenderedTruth::has_all(const EyeLook& look) const {
+  const bool is_last = look.step + 1 == scenario_.path.size();
+  return std::all_of(request_.kinds.begin(), request_.kinds.end(), [&](TruthKind kind) {
+    const std::filesystem::path path = file(look.step, look.eye, kind);
+    return (kind == TruthKind::kFlow && is_last) ||
+           (std::filesystem::exists(path) && (!is_shift(kind) || std::filesystem::exists(fate_file(path))));
+  });
+}
+
+void RenderedTruth::write(const Look& look) {
+  sights_.erase(sights_.begin(), sights_.lower_bound(look.step));
+  write_eye({look.step, Eye::kLeft, look.frame.left.ball_id});
+  write_eye({look.step, Eye::kRight, look.frame.right.ball_id});
+}
+
+StereoSight RenderedTruth::sight_at(std::size_t step) {
+  const auto known = sights_.find(step);
+  if (known != sights_.end()) return known->second;
+  const slam::Pose left = worlds::pose_near(scenario_.path, step, 0.0);
+  const slam::Pose right = worlds::pose_near(scenario_.path, step, scenario_.shutter.right_delay_s);
+  return sights_.emplace(step, renderer_.sight(left, right)).first->second;
+}
+
+void RenderedTruth::write_eye(const EyeLook& look) {
+  if (has_all(look)) return;
+  const StereoSight sight = sight_at(look.step);
+  const EyeSight& here = eye_of(sight, look.eye);
+  if (wants(TruthKind::kBalls)) {
+    const auto truths = renderer::ball_truths(world_, here.view, look.ball_id);
+    write_file_atomically(file(look.step, look.eye, TruthKind::kBalls), ball_lines(world_, truths));
+  }
+  if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal)) {
+    const renderer::EyeTruth truth = renderer::eye_truth(scene_, here);
+    if (wants(TruthKind::kSurface))
+      write_once(file(look.step, look.eye, TruthKind::kSurface), surface_picture(truth.surface));
+    if (wants(TruthKind::kRange)) write_once(file(look.step, look.eye, TruthKind::kRange), truth.range_m);
+    if (wants(TruthKind::kNormal))
+      write_once(file(look.step, look.eye, TruthKind::kNormal), normal_picture(truth.normal));
+  }
+  for (const TruthKind kind : {TruthKind::kDisparity, TruthKind::kMatch})
+    if (wants(kind)) write_shift(look, kind, eye_of(sight, other(look.eye)));
+  if (wants(TruthKind::kFlow) && look.step + 1 < scenario_.path.size())
+    write_shift(look, TruthKind::kFlow, eye_of(sight_at(look.step + 1), look.eye));
+}
+
+void RenderedTruth::write_shift(const EyeLook& look, TruthKind kind, const EyeSight& to) const {
+  const std::filesystem::path path = file(look.step, look.eye, kind);
+  const renderer::Correspondence found =
+      renderer::correspond(scene_, eye_of(sights_.at(look.step), look.eye), to);
+  const bool kitti = request_.format == TruthFormat::kKitti;
+  if (kind == TruthKind::kDisparity) {
+    const cv::Mat disparity = renderer::disparity_px(found, look.eye);
+    write_once(path, kitti ? kitti_disparity(disparity) : disparity);
+  } else {
+    write_once(path, kitti ? kitti_shift(found) : exact_shift(found));
+  }
+  write_once(fate_file(path), found.fate);
+}
+
+void RenderedTruth::finish() const {
+  if (wants(TruthKind::kSurface)) write_file_atomically(folder_ / "surfaces.csv", surfaces_csv(world_));
+}
+
+}  // namespace stereobench::harness

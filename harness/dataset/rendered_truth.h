@@ -1,0 +1,62 @@
+/// Truth beyond identity and depth, beside the pictures of a rendered data set.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "harness/dataset/truth_request.h"
+#include "harness/run/recording.h"
+#include "renderer/renderer.h"
+#include "renderer/scene_geometry.h"
+
+namespace stereobench::harness {
+
+/// Adds to a data set's folder, for the left eye and likewise for the right one, what was asked for of:
+///
+///     left_balls/000000.jsonl      a line for each ball whose outline meets the picture (ball_lines.h)
+///     left_surface/000000.png      16 bits, surface_id of surfaces.csv, 0 = nothing
+///     left_range/000000.pfm        metres along the ray, +inf = nothing
+///     left_normal/000000.pfm       red, green, blue: x, y, z in the camera frame, 0 = nothing
+///     left_disparity/000000.pfm    px, u in the left picture minus u in the right one, +inf = nothing
+///     left_match/000000.pfm        red, green: shift to the other eye's picture in px; blue: 1 = seen there
+///     left_flow/000000.pfm         the same to the next step's picture of this eye; the last step has none
+///     left_disparity_fate/ left_match_fate/ left_flow_fate/000000.png
+///                                  0 = nothing, 85 = outside of the other picture, 170 = hidden there, 255 =
+///                                  seen
+///
+/// In KITTI's format disparity, match and flow are PNGs (truth_pictures.h).
+class RenderedTruth {
+ public:
+  /// @param folder of the data set, which exists
+  /// @param scenario, world as they are rendered; they outlive this
+  /// @throws std::runtime_error when the folder cannot be written, a mesh cannot be read, or there are more
+  /// surfaces
+  ///   than 16 bits can number
+  RenderedTruth(std::filesystem::path folder, TruthRequest request, const worlds::Scenario& scenario,
+                const worlds::World& world, renderer::Backend backend);
+
+  /// Writes a step's files that are not there yet. Steps come in order.
+  void write(const Look& look);
+
+  /// Writes surfaces.csv, where surfaces were asked for.
+  void finish() const;
+
+ private:
+  struct EyeLook;
+  bool wants(TruthKind kind) const;
+  std::filesystem::path file(std::size_t step, vision::Eye eye, TruthKind kind) const;
+  bool has_all(const EyeLook& look) const;
+  renderer::StereoSight sight_at(std::size_t step);
+  void write_eye(const EyeLook& look);
+  void write_shift(const EyeLook& look, TruthKind kind, const renderer::EyeSight& other) const;
+
+  std::filesystem::path folder_;
+  TruthRequest request_;
+  const worlds::Scenario& scenario_;
+  const worlds::World& world_;
+  renderer::SceneGeometry scene_;
+  renderer::Renderer renderer_;
+  std::map<std::size_t, renderer::StereoSight> sights_;  // of this step and the next
+};
+
+}  // namespace stereobench::harness

@@ -1,0 +1,41 @@
+/// What truth somebody wants beside the pictures of a data set.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stereobench::harness {
+
+enum class TruthKind {
+  kBalls,      ///< each ball's outline, counts and boxes
+  kSurface,    ///< which wall, mesh, ball or floor
+  kRange,      ///< along the ray
+  kNormal,     ///< of the geometry, in the camera frame
+  kDisparity,  ///< columns, and what becomes of the pixel in the other eye
+  kMatch,      ///< the whole shift to the other eye, for rigs that are not rectified
+  kFlow        ///< the shift to the next step's picture of the same eye
+};
+
+/// How disparity, matches and flow are written.
+enum class TruthFormat {
+  kExact,  ///< 32-bit floats (PFM)
+  kKitti   ///< KITTI's 16-bit PNGs: 1/256 and 1/64 px
+};
+
+struct TruthRequest {
+  std::vector<TruthKind> kinds;  ///< each once, in the order of TruthKind
+  TruthFormat format = TruthFormat::kExact;
+};
+
+/// What the command line and folders call it: "balls", "surface", "range", "normal", "disparity", "match",
+/// "flow".
+const char* name_of(TruthKind kind);
+
+/// Reads "disparity,flow" or "all".
+/// @throws std::runtime_error that lists the names there are
+std::vector<TruthKind> parse_truth(const std::string& text);
+
+/// Reads "exact" or "kitti". @throws std::runtime_error for another
+TruthFormat parse_truth_format(const std::string& text);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,33 @@
+/// Lines of sight in the world frame.
+#pragma once
+
+#include "renderer/eye_view.h"
+
+namespace stereobench::renderer {
+
+/// The points origin + t direction, t > 0.
+struct Sightline {
+  Eigen::Vector3d origin_m;
+  Eigen::Vector3d direction;
+};
+
+/// The sightlines of an eye's pixels; t is planar depth.
+class Sightlines {
+ public:
+  explicit Sightlines(const EyeView& view)
+      : camera_(view.camera),
+        eye_m_(view.centre_in_world()),
+        world_from_camera_(view.camera_from_world.linear().transpose()) {}
+
+  /// @param u,v (0, 0) is the centre of the top-left pixel
+  Sightline operator()(double u, double v) const {
+    return {eye_m_, world_from_camera_ * vision::pixel_ray(camera_, {u, v})};
+  }
+
+ private:
+  vision::Intrinsics camera_;
+  Eigen::Vector3d eye_m_;
+  Eigen::Matrix3d world_from_camera_;
+};
+
+}  // namespace stereobench::renderer

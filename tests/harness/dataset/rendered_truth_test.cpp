@@ -1,0 +1,128 @@
+#include "harness/dataset/rendered_truth.h"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/run/shutter.h"
+#include "renderer/correspondence.h"
+#include "tests/harness/dataset/log_folder.h"
+#include "worlds/path.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+using vision::Eye;
+
+/// Three steps in a room with two balls, one behind the other.
+struct Drive {
+  worlds::Scenario scenario;
+  Drive() {
+    scenario.rig.camera = {160, 120, 140.0, 79.5, 59.5};
+    scenario.shutter.right_delay_s = 0.02;
+    scenario.world.balls = {{{2.0, 0.1, 0.3}, 0.1, 3}, {{2.6, 0.1, 0.3}, 0.1, 5}};
+    scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 2.5, worlds::Material::kPlaster}};
+    for (int i = 0; i < 3; ++i) {
+      const slam::Pose pose{0.1 * i, 0.0, 0.05 * i};
+      scenario.path.push_back({i * 100'000'000LL, pose, {{1.0, 0.5, 0.1}}});
+    }
+    scenario.path.front().controls.clear();
+  }
+  renderer::StereoFrame frame(std::size_t step) const {
+    renderer::Renderer renderer(scenario.world, scenario.rig);
+    return open_shutter(renderer, scenario.path, step, scenario.shutter);
+  }
+  RenderedTruth truth(const TestFolder& folder, const std::string& kinds,
+                      TruthFormat format = TruthFormat::kExact) const {
+    return {
+        folder.path(), {parse_truth(kinds), format}, scenario, scenario.world, renderer::Backend::kOsmesa};
+  }
+  void write(RenderedTruth& truth, std::size_t step) const {
+    const renderer::StereoFrame seen = frame(step);
+    truth.write({step, seen, {seen.left.colour, seen.right.colour}, {}});
+  }
+};
+
+cv::Mat picture(const TestFolder& folder, const std::string& name) {
+  return cv::imread((folder.path() / name).string(), cv::IMREAD_UNCHANGED);
+}
+
+// Mutations: both eyes at the left one's time; flow to the step itself, or from the step before.
+TEST(RenderedTruth, FollowsTheEyesAtTheTimesTheyLook) {
+  const Drive drive;
+  const TestFolder folder;
+  RenderedTruth truth = drive.truth(folder, "all");
+  drive.write(truth, 0);
+  drive.write(truth, 1);
+  const slam::Pose left = drive.scenario.path[1].pose;
+  const slam::Pose next = drive.scenario.path[2].pose;
+  const slam::Pose right = worlds::pose_near(drive.scenario.path, 1, 0.02);
+  renderer::Renderer renderer(drive.scenario.world, drive.scenario.rig);
+  const renderer::StereoSight sight = renderer.sight(left, right);
+  const renderer::SceneGeometry scene(drive.scenario.world);
+  const auto disparity =
+      renderer::disparity_px(renderer::correspond(scene, sight.left, sight.right), Eye::kLeft);
+  EXPECT_EQ(cv::norm(picture(folder, "left_disparity/000001.pfm"), disparity, cv::NORM_INF), 0.0);
+  const auto flow = renderer::correspond(scene, sight.left, renderer.sight(next, next).left);
+  cv::Mat u;
+  cv::extractChannel(picture(folder, "left_flow/000001.pfm"), u, 2);
+  cv::Mat expected;
+  cv::extractChannel(flow.shift_px, expected, 0);
+  EXPECT_EQ(cv::countNonZero(u != expected), 0);
+  EXPECT_EQ(cv::norm(picture(folder, "left_flow_fate/000001.png"), flow.fate, cv::NORM_INF), 0.0);
+}
+
+TEST(RenderedTruth, OfTheLastStepHasNoFlow) {
+  const Drive drive;
+  const TestFolder folder;
+  RenderedTruth truth = drive.truth(folder, "flow,match", TruthFormat::kKitti);
+  drive.write(truth, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "left_flow/000002.png"));
+  EXPECT_EQ(picture(folder, "right_match/000002.png").type(), CV_16UC3);
+}
+
+// Mutation: left identities for both eyes.
+TEST(RenderedTruth, HasALineForEachBallInView) {
+  const Drive drive;
+  const TestFolder folder;
+  RenderedTruth truth = drive.truth(folder, "balls,surface");
+  drive.write(truth, 0);
+  truth.finish();
+  const renderer::StereoFrame frame = drive.frame(0);
+  for (const auto& [eye, seen] : {std::pair("left", &frame.left), std::pair("right", &frame.right)}) {
+    std::istringstream lines(folder.read(std::string(eye) + "_balls/000000.jsonl"));
+    int id = 0;
+    for (std::string line; std::getline(lines, line); ++id) {
+      const auto ball = nlohmann::json::parse(line);
+      EXPECT_EQ(ball["ball_id"], id);
+      EXPECT_EQ(ball["px_count_visib"], cv::countNonZero(seen->ball_id == id + 1));
+      EXPECT_EQ(cv::countNonZero(picture(folder, std::string(eye) + "_surface/000000.png") == id + 1),
+                cv::countNonZero(seen->ball_id == id + 1));
+    }
+    EXPECT_EQ(id, 2);
+  }
+  EXPECT_THAT(folder.read("surfaces.csv"), HasSubstr("\n2,ball,1\n255,floor,0\n256,wall,0\n"));
+}
+
+// Mutations: a file that is there counts for all; files written over again.
+TEST(RenderedTruth, WritesWhatIsMissingAndNothingElse) {
+  const Drive drive;
+  const TestFolder folder;
+  RenderedTruth first = drive.truth(folder, "all");
+  drive.write(first, 0);
+  const std::string whole = folder.read("right_normal/000000.pfm");
+  for (const char* lost : {"right_normal/000000.pfm", "left_flow_fate/000000.png"})
+    std::filesystem::remove(folder.path() / lost);
+  folder.write("left_range/000000.pfm", "kept");
+  RenderedTruth again = drive.truth(folder, "all");
+  drive.write(again, 0);
+  EXPECT_EQ(folder.read("right_normal/000000.pfm"), whole);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "left_flow_fate/000000.png"));
+  EXPECT_EQ(folder.read("left_range/000000.pfm"), "kept");
+}
+
+}  // namespace
+}  // namespace stereobench::harness
