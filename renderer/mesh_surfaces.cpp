@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <stdexcept>
+
+#include <fmt/core.h>
 
 namespace stereobench::renderer {
 namespace {
 
-/// Where points and normals of an instance go: world = position + turn * (scale * mesh).
+/// Where points and normals of an instance go: world = position + turn * (scale * mesh), z of the mesh up.
 struct Placement {
   Eigen::Matrix3d turn;
   Eigen::Vector3d scale;
@@ -18,6 +21,24 @@ struct Placement {
     return (turn * mesh_normal.cwiseQuotient(scale)).stableNormalized();
   }
 };
+
+Placement placement_of(const worlds::MeshInstance& mesh) {
+  const auto about = [](double angle_rad, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+  };
+  return {about(mesh.heading_rad, Eigen::Vector3d::UnitZ()) *
+              about(mesh.pitch_rad, Eigen::Vector3d::UnitY()) *
+              about(mesh.roll_rad, Eigen::Vector3d::UnitX()),
+          mesh.unit_m * mesh.scale, mesh.position_m};
+}
+
+/// The triangle with its file's up axis as z; exact, nothing is computed.
+Triangle stood_up(Triangle triangle, worlds::MeshUp up) {
+  if (up == worlds::MeshUp::kZ) return triangle;
+  for (Eigen::Vector3d* vectors : {triangle.corners, triangle.normals})
+    for (int i = 0; i < 3; ++i) vectors[i] = Eigen::Vector3d(vectors[i].x(), -vectors[i].z(), vectors[i].y());
+  return triangle;
+}
 
 /// The axes of the mesh that run along and up a face: across its most upright way for walls, x and y for
 /// floors.
@@ -52,22 +73,40 @@ void enclose(const std::vector<SurfaceVertex>& vertices, MeshRun& run) {
   run.radius_m = 0.5 * box.diagonal().norm();
 }
 
+/// Whether the next triangle of an instance goes on with the run: only a file's own colours end one.
+bool goes_on(const MeshRun& run, const Triangle& triangle) {
+  return run.material != worlds::Material::kFile || run.colour_rgb == triangle.colour_rgb.cast<float>();
+}
+
+void place(const worlds::MeshInstance& mesh, const std::vector<Triangle>& triangles,
+           const worlds::Light& light, MeshSurfaces& surfaces) {
+  const Placement placement = placement_of(mesh);
+  const std::size_t first_run = surfaces.runs.size();
+  for (const Triangle& triangle : triangles) {
+    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), triangle)) {
+      const auto first = static_cast<int>(surfaces.vertices.size());
+      surfaces.runs.push_back(
+          {.material = mesh.material, .colour_rgb = triangle.colour_rgb.cast<float>(), .first = first});
+    }
+    append(stood_up(triangle, mesh.up), placement, light, surfaces.vertices);
+    surfaces.runs.back().count += 3;
+  }
+  for (std::size_t i = first_run; i < surfaces.runs.size(); ++i) enclose(surfaces.vertices, surfaces.runs[i]);
+}
+
 }  // namespace
 
 MeshSurfaces place_meshes(const worlds::World& world) {
   std::map<std::string, std::vector<Triangle>> files;
   MeshSurfaces surfaces;
+  const auto most_vertices = 3 * static_cast<std::size_t>(world.mesh_limits.triangles);
   for (const worlds::MeshInstance& mesh : world.meshes) {
     const auto [file, is_new] = files.try_emplace(mesh.file);
-    if (is_new) file->second = read_mesh(mesh.file);
-    const Placement placement{
-        Eigen::AngleAxisd(mesh.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(), mesh.scale,
-        mesh.position_m};
-    MeshRun run{mesh.material, static_cast<int>(surfaces.vertices.size()), 0, {}, 0.0};
-    for (const Triangle& triangle : file->second) append(triangle, placement, world.light, surfaces.vertices);
-    run.count = static_cast<int>(surfaces.vertices.size()) - run.first;
-    enclose(surfaces.vertices, run);
-    surfaces.runs.push_back(run);
+    if (is_new) file->second = read_mesh(mesh.file, world.mesh_limits);
+    if (surfaces.vertices.size() + 3 * file->second.size() > most_vertices)
+      throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
+                                           world.mesh_limits.triangles));
+    place(mesh, file->second, world.light, surfaces);
   }
   return surfaces;
 }

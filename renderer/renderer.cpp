@@ -33,6 +33,8 @@ const worlds::World& checked(const worlds::World& world) {
     require(
         mesh.position_m.allFinite() && std::isfinite(mesh.heading_rad) && (mesh.scale.array() > 0.0).all(),
         "Renderer: a mesh needs a finite place and a positive scale");
+    require(std::isfinite(mesh.roll_rad + mesh.pitch_rad) && mesh.unit_m > 0.0 && std::isfinite(mesh.unit_m),
+            "Renderer: a mesh needs a finite tilt and a positive unit");
   }
   require(world.light.towards_light.allFinite() && world.light.towards_light.norm() > 0.0,
           "Renderer: the light comes from nowhere");
@@ -66,12 +68,14 @@ struct Renderer::Parts {
   SurfacePainter surfaces;
   BallPainter balls;
 
-  Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
+  /// @param meshes read before there is a context, as reading them forks
+  Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
+        Backend backend)
       : rig(checked(asked)),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
-        surfaces(gl, checked(world)),
+        surfaces(gl, world, meshes),
         balls(gl, world) {
     set_state(gl, world);
   }
@@ -87,7 +91,7 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
-    : parts_(std::make_unique<Parts>(world, rig, backend)) {}
+    : parts_(std::make_unique<Parts>(world, place_meshes(checked(world)), rig, backend)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
