@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "renderer/opposite_faces.h"
+
 namespace stereobench::renderer {
 namespace {
 
@@ -73,20 +75,36 @@ void enclose(const std::vector<SurfaceVertex>& vertices, MeshRun& run) {
   run.radius_m = 0.5 * box.diagonal().norm();
 }
 
-/// Whether the next triangle of an instance goes on with the run: only a file's own colours end one.
-bool goes_on(const MeshRun& run, const Triangle& triangle) {
-  return run.material != worlds::Material::kFile || run.colour_rgb == triangle.colour_rgb.cast<float>();
+/// A mesh file's triangles, and which of them have another on their back.
+struct Shape {
+  std::vector<Triangle> triangles;
+  std::vector<bool> one_sided;
+};
+
+Shape read_shape(const std::string& file, const worlds::MeshLimits& limits) {
+  Shape shape{read_mesh(file, limits), {}};
+  shape.one_sided = have_opposites(shape.triangles);
+  return shape;
 }
 
-void place(const worlds::MeshInstance& mesh, const std::vector<Triangle>& triangles,
-           const worlds::Light& light, MeshSurfaces& surfaces) {
+/// Whether a triangle of an instance goes on with the run: its sides do, and where the file's colours are
+/// shown, its colour.
+bool goes_on(const MeshRun& run, const Triangle& triangle, bool one_sided) {
+  return run.one_sided == one_sided &&
+         (run.material != worlds::Material::kFile || run.colour_rgb == triangle.colour_rgb.cast<float>());
+}
+
+void place(const worlds::MeshInstance& mesh, const Shape& shape, const worlds::Light& light,
+           MeshSurfaces& surfaces) {
   const Placement placement = placement_of(mesh);
   const std::size_t first_run = surfaces.runs.size();
-  for (const Triangle& triangle : triangles) {
-    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), triangle)) {
-      const auto first = static_cast<int>(surfaces.vertices.size());
-      surfaces.runs.push_back(
-          {.material = mesh.material, .colour_rgb = triangle.colour_rgb.cast<float>(), .first = first});
+  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+    const Triangle& triangle = shape.triangles[i];
+    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), triangle, shape.one_sided[i])) {
+      surfaces.runs.push_back({.material = mesh.material,
+                               .colour_rgb = triangle.colour_rgb.cast<float>(),
+                               .one_sided = shape.one_sided[i],
+                               .first = static_cast<int>(surfaces.vertices.size())});
     }
     append(stood_up(triangle, mesh.up), placement, light, surfaces.vertices);
     surfaces.runs.back().count += 3;
@@ -97,13 +115,13 @@ void place(const worlds::MeshInstance& mesh, const std::vector<Triangle>& triang
 }  // namespace
 
 MeshSurfaces place_meshes(const worlds::World& world) {
-  std::map<std::string, std::vector<Triangle>> files;
+  std::map<std::string, Shape> files;
   MeshSurfaces surfaces;
   const auto most_vertices = 3 * static_cast<std::size_t>(world.mesh_limits.triangles);
   for (const worlds::MeshInstance& mesh : world.meshes) {
     const auto [file, is_new] = files.try_emplace(mesh.file);
-    if (is_new) file->second = read_mesh(mesh.file, world.mesh_limits);
-    if (surfaces.vertices.size() + 3 * file->second.size() > most_vertices)
+    if (is_new) file->second = read_shape(mesh.file, world.mesh_limits);
+    if (surfaces.vertices.size() + 3 * file->second.triangles.size() > most_vertices)
       throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
                                            world.mesh_limits.triangles));
     place(mesh, file->second, world.light, surfaces);

@@ -12,6 +12,7 @@ namespace stereobench::renderer {
 struct MeshRun {
   worlds::Material material = worlds::Material::kPlain;
   Eigen::Vector3f colour_rgb = Eigen::Vector3f::Zero();  ///< of material kFile
+  bool one_sided = false;                                ///< seen from the side that it faces alone
   int first = 0;                                         ///< vertex
   int count = 0;                                         ///< vertices, three for each triangle
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();    ///< of a sphere around it, world frame

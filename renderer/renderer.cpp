@@ -52,6 +52,8 @@ void set_state(const Gl& gl, const worlds::World& world) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
+  gl.CullFace(GL_FRONT);  // where it is enabled: what is counter-clockwise in the world is not in a picture
+                          // whose rows point down
   gl.ClearDepth(0.0);
   const Eigen::Vector3f sky = world.sky_rgb.cast<float>();
   gl.ClearColor(sky.z(), sky.y(), sky.x(), 0.0F);  // the picture's order is blue, green, red, identity

@@ -59,7 +59,9 @@ void SurfacePainter::draw_meshes(const EyeView& view) const {
     if (!can_see(view, run)) continue;
     const MaterialProgram& chosen = use(run.material, matrix);
     gl_->Uniform3f(chosen.colour, run.colour_rgb.x(), run.colour_rgb.y(), run.colour_rgb.z());
+    if (run.one_sided) gl_->Enable(GL_CULL_FACE);
     gl_->DrawArrays(GL_TRIANGLES, run.first, run.count);
+    gl_->Disable(GL_CULL_FACE);
   }
 }
 

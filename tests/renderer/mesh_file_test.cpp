@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/mesh_surfaces.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -95,6 +97,29 @@ TEST(MeshFile, GivesEachPartTheColourOfItsMaterial) {
   EXPECT_TRUE(placed.runs[1].colour_rgb.isApprox(Eigen::Vector3f(1.0F, 0.0F, 0.5F)));
   EXPECT_EQ(placed.runs[1].first, 3);
   EXPECT_EQ(placed.runs[2].count, 6);
+}
+
+// A wall that a file describes once for each side, red to the south and green to the north. Mutations: both
+// sides drawn; the other side culled.
+TEST(MeshFile, ShowsOfAWallWithTwoFacesTheOneThatFacesTheEye) {
+  written("mesh_sides.mtl", "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n");
+  const std::string file = written("mesh_sides.obj",
+                                   "mtllib mesh_sides.mtl\nv -5 0 -5\nv 5 0 -5\nv 0 0 9\n"
+                                   "usemtl red\nf 1 2 3\nusemtl green\nf 2 1 3\n");
+  worlds::World world;
+  world.meshes = {{file, {0, 0, 0}, 0.0, {1, 1, 1}, worlds::Material::kFile}};
+  const vision::StereoRig rig = test::small_rig();
+  Renderer renderer(world, rig);
+  const auto middle = [&](const slam::Pose& pose) {
+    const cv::Mat colour = renderer.render(pose).left.colour;
+    return colour.at<cv::Vec3b>(colour.rows / 2, colour.cols / 2);
+  };
+  const cv::Vec3b from_south = middle({0.0, -2.0, M_PI / 2});
+  const cv::Vec3b from_north = middle({0.0, 2.0, -M_PI / 2});
+  EXPECT_GT(from_south[2], 50);
+  EXPECT_EQ(from_south[1], 0);
+  EXPECT_GT(from_north[1], 50);
+  EXPECT_EQ(from_north[2], 0);
 }
 
 TEST(MeshFile, PassesOverLinesAndPoints) {
