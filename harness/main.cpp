@@ -26,6 +26,7 @@ int run_program(int argc, char** argv) {
   add_render_command(program, action);
   add_slam_command(program, action);
   add_sweep_command(program, action);
+  add_world_command(program, action);
   add_doctor_command(program, action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty())

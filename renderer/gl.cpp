@@ -33,6 +33,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glDeleteShader", DeleteShader);
   fetch(context, "glDeleteVertexArrays", DeleteVertexArrays);
   fetch(context, "glDepthFunc", DepthFunc);
+  fetch(context, "glCullFace", CullFace);
   fetch(context, "glDepthMask", DepthMask);
   fetch(context, "glDisable", Disable);
   fetch(context, "glDrawArrays", DrawArrays);

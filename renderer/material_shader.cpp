@@ -124,6 +124,11 @@ vec3 albedo(vec2 place, vec2 footprint) {
 }
 )glsl";
 
+constexpr const char* kFile = R"glsl(
+uniform vec3 u_colour;
+vec3 albedo(vec2 place, vec2 footprint) { return u_colour; }
+)glsl";
+
 const char* albedo_of(worlds::Material material) {
   switch (material) {
     case worlds::Material::kPlain:
@@ -136,6 +141,8 @@ const char* albedo_of(worlds::Material material) {
       return kBricks;
     case worlds::Material::kWood:
       return kWood;
+    case worlds::Material::kFile:
+      return kFile;
   }
   throw std::invalid_argument("surface_fragment_shader: no such material");
 }

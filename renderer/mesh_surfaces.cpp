@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "renderer/opposite_faces.h"
 
 namespace stereobench::renderer {
 namespace {
 
-/// Where points and normals of an instance go: world = position + turn * (scale * mesh).
+/// Where points and normals of an instance go: world = position + turn * (scale * mesh), z of the mesh up.
 struct Placement {
   Eigen::Matrix3d turn;
   Eigen::Vector3d scale;
@@ -18,6 +23,24 @@ struct Placement {
     return (turn * mesh_normal.cwiseQuotient(scale)).stableNormalized();
   }
 };
+
+Placement placement_of(const worlds::MeshInstance& mesh) {
+  const auto about = [](double angle_rad, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+  };
+  return {about(mesh.heading_rad, Eigen::Vector3d::UnitZ()) *
+              about(mesh.pitch_rad, Eigen::Vector3d::UnitY()) *
+              about(mesh.roll_rad, Eigen::Vector3d::UnitX()),
+          mesh.unit_m * mesh.scale, mesh.position_m};
+}
+
+/// The triangle with its file's up axis as z; exact, nothing is computed.
+Triangle stood_up(Triangle triangle, worlds::MeshUp up) {
+  if (up == worlds::MeshUp::kZ) return triangle;
+  for (Eigen::Vector3d* vectors : {triangle.corners, triangle.normals})
+    for (int i = 0; i < 3; ++i) vectors[i] = Eigen::Vector3d(vectors[i].x(), -vectors[i].z(), vectors[i].y());
+  return triangle;
+}
 
 /// The axes of the mesh that run along and up a face: across its most upright way for walls, x and y for
 /// floors.
@@ -52,22 +75,58 @@ void enclose(const std::vector<SurfaceVertex>& vertices, MeshRun& run) {
   run.radius_m = 0.5 * box.diagonal().norm();
 }
 
+/// A mesh file's triangles, and which of them have another on their back.
+struct Shape {
+  std::vector<Triangle> triangles;
+  std::vector<bool> one_sided;
+};
+
+Shape read_shape(const std::string& file, const worlds::MeshLimits& limits) {
+  Shape shape{read_mesh(file, limits), {}};
+  shape.one_sided = have_opposites(shape.triangles);
+  return shape;
+}
+
+/// Whether a triangle of an instance goes on with the run: its sides do, and where the file's colours are
+/// shown, its colour.
+bool goes_on(const MeshRun& run, const Triangle& triangle, bool one_sided) {
+  return run.one_sided == one_sided &&
+         (run.material != worlds::Material::kFile || run.colour_rgb == triangle.colour_rgb.cast<float>());
+}
+
+void place(const worlds::World& world, int index, const Shape& shape, MeshSurfaces& surfaces) {
+  const worlds::MeshInstance& mesh = world.meshes[static_cast<std::size_t>(index)];
+  const Placement placement = placement_of(mesh);
+  const std::size_t first_run = surfaces.runs.size();
+  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+    const Triangle& triangle = shape.triangles[i];
+    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), triangle, shape.one_sided[i])) {
+      surfaces.runs.push_back({.mesh = index,
+                               .material = mesh.material,
+                               .colour_rgb = triangle.colour_rgb.cast<float>(),
+                               .one_sided = shape.one_sided[i],
+                               .first = static_cast<int>(surfaces.vertices.size())});
+    }
+    append(stood_up(triangle, mesh.up), placement, world.light, surfaces.vertices);
+    surfaces.runs.back().count += 3;
+  }
+  for (std::size_t i = first_run; i < surfaces.runs.size(); ++i) enclose(surfaces.vertices, surfaces.runs[i]);
+}
+
 }  // namespace
 
 MeshSurfaces place_meshes(const worlds::World& world) {
-  std::map<std::string, std::vector<Triangle>> files;
+  std::map<std::string, Shape> files;
   MeshSurfaces surfaces;
-  for (const worlds::MeshInstance& mesh : world.meshes) {
+  const auto most_vertices = 3 * static_cast<std::size_t>(world.mesh_limits.triangles);
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    const worlds::MeshInstance& mesh = world.meshes[i];
     const auto [file, is_new] = files.try_emplace(mesh.file);
-    if (is_new) file->second = read_mesh(mesh.file);
-    const Placement placement{
-        Eigen::AngleAxisd(mesh.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(), mesh.scale,
-        mesh.position_m};
-    MeshRun run{mesh.material, static_cast<int>(surfaces.vertices.size()), 0, {}, 0.0};
-    for (const Triangle& triangle : file->second) append(triangle, placement, world.light, surfaces.vertices);
-    run.count = static_cast<int>(surfaces.vertices.size()) - run.first;
-    enclose(surfaces.vertices, run);
-    surfaces.runs.push_back(run);
+    if (is_new) file->second = read_shape(mesh.file, world.mesh_limits);
+    if (surfaces.vertices.size() + 3 * file->second.triangles.size() > most_vertices)
+      throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
+                                           world.mesh_limits.triangles));
+    place(world, static_cast<int>(i), file->second, surfaces);
   }
   return surfaces;
 }

@@ -8,22 +8,25 @@
 
 namespace stereobench::renderer {
 
-/// A mesh instance as a run of triangles in one list of vertices.
+/// A mesh instance, or its part of one colour, as a run of triangles in one list of vertices.
 struct MeshRun {
+  int mesh = 0;  ///< index into World::meshes
   worlds::Material material = worlds::Material::kPlain;
-  int first = 0;                                       ///< vertex
-  int count = 0;                                       ///< vertices, three for each triangle
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of a sphere around it, world frame
+  Eigen::Vector3f colour_rgb = Eigen::Vector3f::Zero();  ///< of material kFile
+  bool one_sided = false;                                ///< seen from the side that it faces alone
+  int first = 0;                                         ///< vertex
+  int count = 0;                                         ///< vertices, three for each triangle
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();    ///< of a sphere around it, world frame
   double radius_m = 0.0;
 };
 
 struct MeshSurfaces {
   std::vector<SurfaceVertex> vertices;  ///< positions in the world frame
-  std::vector<MeshRun> runs;            ///< one for each of World::meshes
+  std::vector<MeshRun> runs;            ///< in the order of World::meshes, at least one for each
 };
 
 /// Reads each mesh file once and puts its instances in their places.
-/// @throws std::runtime_error as read_mesh
+/// @throws std::runtime_error as read_mesh, or naming the file with which there are too many triangles
 MeshSurfaces place_meshes(const worlds::World& world);
 
 /// Whether any of a run can be in the eye's picture.

@@ -36,6 +36,8 @@ const worlds::World& checked(const worlds::World& world) {
     require(
         mesh.position_m.allFinite() && std::isfinite(mesh.heading_rad) && (mesh.scale.array() > 0.0).all(),
         "Renderer: a mesh needs a finite place and a positive scale");
+    require(std::isfinite(mesh.roll_rad + mesh.pitch_rad) && mesh.unit_m > 0.0 && std::isfinite(mesh.unit_m),
+            "Renderer: a mesh needs a finite tilt and a positive unit");
   }
   require(world.light.towards_light.allFinite() && world.light.towards_light.norm() > 0.0,
           "Renderer: the light comes from nowhere");
@@ -53,6 +55,8 @@ void set_state(const Gl& gl) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
+  gl.CullFace(GL_FRONT);  // where it is enabled: what is counter-clockwise in the world is not in a picture
+                          // whose rows point down
   gl.ClearDepth(0.0);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
@@ -74,14 +78,16 @@ struct Renderer::Parts {
   SurfacePainter surfaces;
   BallPainter balls;
 
-  Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
+  /// @param meshes read before there is a context, as reading them forks
+  Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
+        Backend backend)
       : lens(lens_of(checked(asked))),
         rig(lens ? lens->pinhole_rig() : asked),
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
-        surfaces(gl, checked(world)),
+        surfaces(gl, world, meshes),
         balls(gl, world) {
     set_state(gl);
   }
@@ -111,7 +117,7 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
-    : parts_(std::make_unique<Parts>(world, rig, backend)) {}
+    : parts_(std::make_unique<Parts>(world, place_meshes(checked(world)), rig, backend)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;

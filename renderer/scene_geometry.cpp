@@ -70,10 +70,9 @@ SceneGeometry::SceneGeometry(const worlds::World& world) : balls_(world.balls) {
     for (int i = run.first; i < run.first + run.count; i += 3) {
       const SurfaceVertex* corners = &meshes.vertices[static_cast<std::size_t>(i)];
       const Eigen::Vector3d corner = position(corners[0]);
-      flats_.emplace_back(Shape::kTriangle, surface, corner, position(corners[1]) - corner,
+      flats_.emplace_back(Shape::kTriangle, surface + run.mesh, corner, position(corners[1]) - corner,
                           position(corners[2]) - corner);
     }
-    ++surface;
   }
 }
 

@@ -19,13 +19,15 @@ std::span<const float> floats(const std::vector<SurfaceVertex>& vertices) {
 
 }  // namespace
 
-SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world)
-    : gl_(&gl), world_(world), meshes_(gl, kVertexWidths, 0), polygons_(gl, kVertexWidths, 0) {
+SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& placed)
+    : gl_(&gl),
+      world_(world),
+      mesh_runs_(placed.runs),
+      meshes_(gl, kVertexWidths, 0),
+      polygons_(gl, kVertexWidths, 0) {
   compile(world.floor);
   for (const worlds::Wall& wall : world.walls) compile(wall.material);
   for (const worlds::MeshInstance& mesh : world.meshes) compile(mesh.material);
-  MeshSurfaces placed = place_meshes(world);
-  mesh_runs_ = std::move(placed.runs);
   meshes_.upload(floats(placed.vertices));
 }
 
@@ -34,13 +36,16 @@ void SurfacePainter::compile(worlds::Material material) {
   if (slot) return;
   Program program(*gl_, surface_vertex_shader(), surface_fragment_shader(material));
   const GLint matrix = program.uniform("u_clip_from_position");
-  slot.emplace(MaterialProgram{std::move(program), matrix});
+  const GLint colour = program.uniform("u_colour");
+  slot.emplace(MaterialProgram{std::move(program), matrix, colour});
 }
 
-void SurfacePainter::use(worlds::Material material, const glm::mat4& clip_from_position) const {
+const SurfacePainter::MaterialProgram& SurfacePainter::use(worlds::Material material,
+                                                           const glm::mat4& clip_from_position) const {
   const MaterialProgram& chosen = *programs_[static_cast<std::size_t>(material)];
   chosen.program.use();
   gl_->UniformMatrix4fv(chosen.clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
+  return chosen;
 }
 
 void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
@@ -63,7 +68,9 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
   for (const MeshRun& run : mesh_runs_) {
     if (!can_see(view, run)) continue;
     use_mesh(run);
+    if (run.one_sided) gl_->Enable(GL_CULL_FACE);
     gl_->DrawArrays(GL_TRIANGLES, run.first, run.count);
+    gl_->Disable(GL_CULL_FACE);
   }
   const std::vector<SurfacePolygon> polygons = visible_polygons(view, world_);
   std::vector<SurfaceVertex> vertices;
@@ -83,7 +90,11 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
 
 void SurfacePainter::draw(const EyeView& view) {
   draw(
-      view, [this, matrix = clip_from_world(view)](const MeshRun& run) { use(run.material, matrix); },
+      view,
+      [this, matrix = clip_from_world(view)](const MeshRun& run) {
+        const MaterialProgram& chosen = use(run.material, matrix);
+        gl_->Uniform3f(chosen.colour, run.colour_rgb.x(), run.colour_rgb.y(), run.colour_rgb.z());
+      },
       [this](const SurfacePolygon& polygon) { use(polygon.material, glm::mat4(1.0F)); });
 }
 

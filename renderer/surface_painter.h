@@ -12,8 +12,8 @@ namespace stereobench::renderer {
 /// Owns the programs of the materials in use, the meshes and the stream of polygons.
 class SurfacePainter {
  public:
-  /// @throws std::runtime_error when a mesh cannot be read
-  SurfacePainter(const Gl& gl, const worlds::World& world);
+  /// @param placed the world's meshes
+  SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& placed);
 
   /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
   void draw(const EyeView& view);
@@ -25,6 +25,7 @@ class SurfacePainter {
   struct MaterialProgram {
     Program program;
     GLint clip_from_position;
+    GLint colour;  ///< -1, which GL passes over, unless the material has one
   };
   struct FacetProgram {
     Program program;
@@ -32,14 +33,14 @@ class SurfacePainter {
     GLint facet;
   };
   void compile(worlds::Material material);
-  void use(worlds::Material material, const glm::mat4& clip_from_position) const;
+  const MaterialProgram& use(worlds::Material material, const glm::mat4& clip_from_position) const;
   void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
   template <typename UseMesh, typename UsePolygon>
   void draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon);
 
   const Gl* gl_;
   worlds::World world_;
-  std::array<std::optional<MaterialProgram>, 5> programs_;  // by Material
+  std::array<std::optional<MaterialProgram>, 6> programs_;  // by Material
   std::optional<FacetProgram> facet_program_;               // once somebody asked
   std::vector<MeshRun> mesh_runs_;
   VertexArray meshes_;

@@ -62,34 +62,6 @@ void append_walls(const YamlValue& value, std::vector<Wall>& walls) {
   }
 }
 
-/// Puts a mesh of unit height between the floor and the ball that `ball` names.
-void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInstance& mesh) {
-  mesh.carried_ball = ball.integer(0, static_cast<int>(balls.size()) - 1);
-  const Ball& carried = balls[static_cast<std::size_t>(mesh.carried_ball)];
-  const double height_m = carried.centre_m.z() - carried.radius_m;
-  if (height_m < 1e-3) ball.fail("expected a ball above the floor");
-  mesh.position_m = {carried.centre_m.x(), carried.centre_m.y(), 0.0};
-  mesh.scale.z() = height_m;
-}
-
-MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& folder, const World& world) {
-  const YamlMap map(value, {"file", "at_m", "under_ball", "heading_deg", "scale", "material"});
-  MeshInstance mesh;
-  const std::filesystem::path file =
-      std::filesystem::absolute(folder / map.at("file").text()).lexically_normal();
-  if (!std::filesystem::is_regular_file(file)) map.at("file").fail("expected a mesh file that exists");
-  mesh.file = file.string();
-  const auto at = map.find("at_m");
-  const auto ball = map.find("under_ball");
-  if (at.has_value() == ball.has_value()) value.refuse("expected either at_m or under_ball");
-  mesh.heading_rad = map.number("heading_deg", {-360.0, 360.0}, 0.0) * kDegree;
-  if (const auto scale = map.find("scale")) mesh.scale = read_vector<3>(*scale, kSize_m);
-  if (at) mesh.position_m = read_vector<3>(*at, kPlace_m);
-  if (ball) stand_under(*ball, world.balls, mesh);
-  mesh.material = read_material(map, "material", Material::kWood);
-  return mesh;
-}
-
 Light read_light(const YamlValue& value) {
   const YamlMap map(value, {"towards_light", "ambient", "diffuse"});
   Light light;
@@ -112,8 +84,9 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   }
   if (const auto meshes = map.find("meshes")) {
     for (const YamlValue& mesh : meshes->list(0, kMostWalls))
-      world.meshes.push_back(read_mesh(mesh, folder, world));
+      world.meshes.push_back(read_mesh(mesh, folder, world.balls));
   }
+  if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
   world.floor = read_material(map, "floor", world.floor);
   if (const auto light = map.find("light")) world.light = read_light(*light);
   if (const auto sky = map.find("sky_rgb")) world.sky_rgb = read_vector<3>(*sky, kShare);

@@ -11,11 +11,18 @@
 
 namespace stereobench::worlds {
 
-inline constexpr std::array<std::string_view, 7> kWorldKeys = {"ball_radius_m", "balls", "walls",  "meshes",
-                                                               "floor",         "light", "sky_rgb"};
+inline constexpr std::array<std::string_view, 8> kWorldKeys = {"ball_radius_m", "balls", "walls", "meshes",
+                                                               "mesh_limits",   "floor", "light", "sky_rgb"};
 
 /// `world:` balls, walls, meshes, floor, light and sky. Mesh files, relative to the folder, must exist.
 World read_world(const YamlMap& map, const std::filesystem::path& folder);
+
+/// An entry of `world.meshes`. @param balls those that it may stand under
+MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& folder,
+                       const std::vector<Ball>& balls);
+
+/// `world.mesh_limits:` what a mesh file may cost.
+MeshLimits read_mesh_limits(const YamlValue& value);
 
 /// `path:` a circle or a polyline, driven.
 GroundTruth read_path(const YamlValue& value);

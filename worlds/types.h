@@ -25,7 +25,14 @@ struct Ball {
   int colour = 0;  ///< index into vision::kPalette
 };
 
-enum class Material { kPlain, kTiles, kPlaster, kBricks, kWood };
+enum class Material {
+  kPlain,
+  kTiles,
+  kPlaster,
+  kBricks,
+  kWood,
+  kFile  ///< of meshes alone: the diffuse colours of their file
+};
 
 /// A wall: an upright rectangle without thickness, standing on the floor, seen from both sides.
 struct Wall {
@@ -35,8 +42,12 @@ struct Wall {
   Material material = Material::kPlaster;
 };
 
-/// A mesh file put somewhere: a door, a column. Mesh axes are the world's (z up, metres). One that carries a
-/// ball stands under it, reaches up to it, and moves with it.
+/// Which axis of a mesh file points up.
+enum class MeshUp { kZ, kY };
+
+/// A mesh file put somewhere: a door, a column. Taken to metres and z up it is scaled, turned about x (roll),
+/// then y (pitch), then z (heading), and moved. One that carries a ball stands under it, reaches up to it,
+/// and moves with it.
 struct MeshInstance {
   std::string file;  ///< path of the mesh file, absolute after reading
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
@@ -44,6 +55,18 @@ struct MeshInstance {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Material material = Material::kWood;
   int carried_ball = slam::kUnknown;  ///< index into World::balls
+  double roll_rad = 0.0;              ///< about x
+  double pitch_rad = 0.0;             ///< about y
+  double unit_m = 1.0;                ///< the length of the file's unit
+  MeshUp up = MeshUp::kZ;             ///< y up: the file's z points south in the world before it is turned
+};
+
+/// What a mesh file may cost: it comes from anywhere.
+struct MeshLimits {
+  int triangles = 2000000;  ///< of a file, and of all instances in the world together
+  int file_mib = 64;
+  double seconds = 4.0;   ///< to read a file
+  int memory_mib = 1024;  ///< to read a file
 };
 
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.
@@ -57,6 +80,7 @@ struct World {
   std::vector<Ball> balls;  ///< at most 254: identities are written into 8 bits
   std::vector<Wall> walls;
   std::vector<MeshInstance> meshes;
+  MeshLimits mesh_limits;
   Material floor = Material::kTiles;
   Light light;
   Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]

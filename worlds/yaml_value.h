@@ -35,6 +35,8 @@ class YamlValue {
   bool flag() const;
   /// The index of the one of `names` that is written here.
   std::size_t choice(std::span<const std::string_view> names) const;
+  /// Whether a list is written here.
+  bool is_list() const { return node_.IsSequence(); }
   /// The entries of a list that has between `least` and `most` of them.
   std::vector<YamlValue> list(std::size_t least, std::size_t most) const;
 

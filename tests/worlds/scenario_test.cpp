@@ -232,5 +232,34 @@ TEST(Seeds, ThatAreNoneAreRefused) {
   }
 }
 
+TEST(ScenarioMesh, SaysUnitUpAxisPoseScaleAndMaterial) {
+  const ScenarioFolder folder;
+  const Scenario scenario = read_scenario(folder.write(
+      "small.yaml", small_scenario_with("at_m: [1, 2, 0], heading_deg: 90",
+                                        "at_m: [1, 2, 0], unit_m: 0.01, up: y, roll_deg: 10, pitch_deg: -20, "
+                                        "heading_deg: 30, scale: 2, material: file")));
+  const MeshInstance& mesh = scenario.world.meshes.at(0);
+  EXPECT_EQ(mesh.unit_m, 0.01);
+  EXPECT_EQ(mesh.up, MeshUp::kY);
+  EXPECT_DOUBLE_EQ(mesh.roll_rad, 10 * kDegree);
+  EXPECT_DOUBLE_EQ(mesh.pitch_rad, -20 * kDegree);
+  EXPECT_DOUBLE_EQ(mesh.heading_rad, 30 * kDegree);
+  EXPECT_EQ(mesh.scale, Eigen::Vector3d(2, 2, 2));
+  EXPECT_EQ(mesh.material, Material::kFile);
+}
+
+TEST(ScenarioMesh, LimitsAreTheScenarios) {
+  const ScenarioFolder folder;
+  const Scenario scenario = read_scenario(folder.write(
+      "small.yaml",
+      small_scenario_with("floor: bricks",
+                          "mesh_limits: {triangles: 12, file_mib: 3, seconds: 0.5, memory_mib: 99}")));
+  const MeshLimits& limits = scenario.world.mesh_limits;
+  EXPECT_EQ(limits.triangles, 12);
+  EXPECT_EQ(limits.file_mib, 3);
+  EXPECT_EQ(limits.seconds, 0.5);
+  EXPECT_EQ(limits.memory_mib, 99);
+}
+
 }  // namespace
 }  // namespace stereobench::worlds

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/report/plan_picture.h"
+#include "worlds/path.h"
+#include "worlds/scenario.h"
+
+namespace stereobench::harness {
+namespace {
+
+struct WorldArguments {
+  std::filesystem::path scenario;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  std::filesystem::path out;
+};
+
+std::string share_of_steps(const ViewCoverage& coverage, int least) {
+  const auto steps = static_cast<double>(coverage.balls_in_view.size());
+  const auto enough =
+      std::ranges::count_if(coverage.balls_in_view, [&](int balls) { return balls >= least; });
+  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(enough) / steps);
+}
+
+void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
+                   const ViewCoverage& coverage) {
+  fmt::print("{}: {} balls, {} walls, {} meshes; a drive of {:.1f} m in {} steps\n", scenario.name,
+             world.balls.size(), world.walls.size(), world.meshes.size(), worlds::length_m(scenario.path),
+             scenario.path.size());
+  const auto& seen = coverage.balls_in_view;
+  const auto fewest = std::ranges::min_element(seen);
+  fmt::print("balls in view: {} to {}, {:.1f} on average; at least 1, 2, 3 in {}, {}, {} of the steps\n",
+             *fewest, std::ranges::max(seen),
+             std::accumulate(seen.begin(), seen.end(), 0.0) / static_cast<double>(seen.size()),
+             share_of_steps(coverage, 1), share_of_steps(coverage, 2), share_of_steps(coverage, 3));
+  const auto& worst = scenario.path[static_cast<std::size_t>(fewest - seen.begin())].pose;
+  fmt::print("fewest first at ({:.2f}, {:.2f}) m; {} balls never in view\n", worst.x_m, worst.y_m,
+             std::ranges::count(coverage.steps_seen, 0));
+}
+
+int show_world(const WorldArguments& arguments) {
+  const worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides);
+  const worlds::World world =
+      arguments.seed ? worlds::world_for_seed(scenario, *arguments.seed) : scenario.world;
+  const ViewCoverage coverage = view_coverage(scenario, world);
+  if (!arguments.out.empty()) {
+    const std::string plan =
+        draw_plan(scenario, world, coverage, mesh_outlines(world, scenario.rig.height_m));
+    write_file_atomically(arguments.out, plan);
+  }
+  print_summary(scenario, world, coverage);
+  if (!arguments.out.empty()) fmt::print("plan: {}\n", arguments.out.string());
+  return kPassed;
+}
+
+}  // namespace
+
+void add_world_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("world", "draw a scenario's floor plan, its drive and what is in view along it");
+  auto arguments = std::make_shared<WorldArguments>();
+  command->add_option("scenario", arguments->scenario, "scenario file (YAML)")->required();
+  add_set_option(*command, arguments->overrides);
+  command->add_option("--seed", arguments->seed, "the world of this seed (default: no ball moved)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--out,-o", arguments->out, "SVG file for the plan");
+  command->footer(
+      "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
+      "what is behind them, meshes do not. For an oracle it is what lies in its sector.\n\n"
+      "Example: stereobench world assets/scenarios/corridor.yaml -o out/corridor.svg");
+  command->callback([arguments, &action] { action = [arguments] { return show_world(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,39 @@
+/// A world's floor plan with the drive through it and what the robot sees on its way, as SVG.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// What is in view along a drive.
+struct ViewCoverage {
+  std::vector<int> balls_in_view;  ///< for each step of the path
+  std::vector<int> steps_seen;     ///< for each ball
+};
+
+ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World& world);
+
+/// A line on the floor, metres.
+struct FloorLine {
+  Eigen::Vector2d from_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
+  bool hides = true;  ///< what it stands for reaches above the eyes
+};
+
+/// The outlines of the meshes, cut level with the eyes, or at half their height where they are lower.
+/// @throws std::runtime_error when a mesh file cannot be read
+std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m);
+
+/// Walls, outlines of meshes, balls in their colours (crossed out where never in view), the drive coloured by
+/// how many balls are in view, and sectors of view along it.
+/// @return an SVG document, the same bytes for the same arguments
+std::string draw_plan(const worlds::Scenario& scenario, const worlds::World& world,
+                      const ViewCoverage& coverage, std::span<const FloorLine> outlines);
+
+}  // namespace stereobench::harness

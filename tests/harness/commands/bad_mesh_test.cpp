@@ -1,0 +1,76 @@
+/// A mesh file that assimp cannot take is bad input of the scenario that names it: exit 2, one line, in time.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/commands/program.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+
+std::string scenario_with(const std::string& mesh, const std::string& limits) {
+  return R"(name: meshed
+seeds: 0
+particles: 5
+sensor: stereo
+identity: known
+rig: {width_px: 64, height_px: 48, focal_px: 50, baseline_m: 0.1, height_m: 0.3}
+odometry_noise: {v_per_v: 0.1}
+path: {kind: circle, radius_m: 1, speed_mps: 0.5, laps: 0.1, step_s: 0.5}
+world:
+  balls: [{colour: 0, at_m: [2, 0, 0.1]}]
+  mesh_limits: {)" +
+         limits + "}\n  meshes: [{file: " + mesh + ", at_m: [1, 1, 0]}]\n";
+}
+
+struct BadMesh {
+  std::string name;
+  std::string text;
+  std::string limits;
+  std::string message;
+};
+
+void PrintTo(const BadMesh& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
+std::string triangles(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+  return text;
+}
+
+class BadMeshTest : public testing::TestWithParam<BadMesh> {};
+
+TEST_P(BadMeshTest, IsBadInputWithinFiveSecondsAndLeavesNothing) {
+  const ScratchFolder scratch;
+  const std::string mesh = scratch.write(GetParam().name, GetParam().text);
+  const std::string file = scratch.write("meshed.yaml", scenario_with(mesh, GetParam().limits));
+  const std::filesystem::path out = scratch.path() / "out";
+  for (const char* command : {"run", "render"}) {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run_stereobench({command, file, "--out", out.string()});
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(mesh + ": " + GetParam().message));
+    EXPECT_FALSE(std::filesystem::exists(out / "run.json"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadMeshTest,
+    testing::Values(BadMesh{"empty.obj", "", "", "not a readable mesh"},
+                    BadMesh{"broken.gltf", "{\"asset\": [", "", "not a readable mesh"},
+                    BadMesh{"many.obj", triangles(11), "triangles: 10", "has more than 10 triangles"},
+                    BadMesh{"big.obj", triangles(40000), "file_mib: 1", "is larger than 1 MiB"},
+                    BadMesh{"slow.obj", triangles(100000), "seconds: 0.01", "takes longer than 0.01 s"}),
+    [](const auto& test) { return test.param.name.substr(0, test.param.name.find('.')); });
+
+}  // namespace
+}  // namespace stereobench::harness

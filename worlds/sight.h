@@ -1,0 +1,26 @@
+/// Which balls a robot can see from where it stands, by geometry alone.
+#pragma once
+
+#include <vector>
+
+#include "worlds/types.h"
+
+namespace stereobench::worlds {
+
+/// What a ball must be, to count as seen by a stereo camera.
+inline constexpr double kLeastRadius_px = 5.0;  ///< smaller ones vision does not measure
+inline constexpr double kBorder_px = 2.0;       ///< between its outline and the picture's border
+
+/// The balls in view: by stereo, those that both eyes see whole, large enough, with no wall and no other ball
+/// in front of any of it; by the oracle, those in its sector, whatever stands between. Meshes hide nothing.
+///
+/// @param world the scenario's, or that of a seed
+/// @param slack_m each ball may lie this far from where it should: only those count that are seen anyway
+/// @return indices into world.balls, ascending
+std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
+                               const slam::Pose& world_from_robot, double slack_m = 0.0);
+
+/// The distance on the floor from a point to a wall.
+double distance_m(const Eigen::Vector2d& point_m, const Wall& wall);
+
+}  // namespace stereobench::worlds
