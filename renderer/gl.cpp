@@ -56,6 +56,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glPixelStorei", PixelStorei);
   fetch(context, "glReadPixels", ReadPixels);
   fetch(context, "glRenderbufferStorage", RenderbufferStorage);
+  fetch(context, "glScissor", Scissor);
   fetch(context, "glShaderSource", ShaderSource);
   fetch(context, "glUniform1f", Uniform1f);
   fetch(context, "glUniform2f", Uniform2f);

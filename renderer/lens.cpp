@@ -1,5 +1,6 @@
 #include "renderer/lens.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -88,13 +89,31 @@ Lens::Lens(const vision::StereoRig& rig) : pinhole_(pinhole_rig_of(rig)) {
   truth_places_ = rounded(places_seen(rig, pinhole_.camera, 1));
 }
 
-EyeFrame Lens::bend(const EyeFrame& straight) const {
+cv::Range Lens::rows_seen(const cv::Range& rows) const {
+  const cv::Mat places = light_places_.rowRange(rows.start * kOversampling, rows.end * kOversampling);
+  int first = pinhole_.camera.height_px;
+  int last = 0;
+  for (int row = 0; row < places.rows; ++row) {
+    for (int column = 0; column < places.cols; ++column) {
+      const int seen = places.at<cv::Vec2s>(row, column)[1];
+      first = std::min(first, seen);
+      last = std::max(last, seen);
+    }
+  }
+  return {std::max(first - kMargin_px, 0), std::min(last + kMargin_px + 1, pinhole_.camera.height_px)};
+}
+
+EyeFrame Lens::bend(const EyeFrame& straight, int first_row, const cv::Range& rows) const {
+  const cv::Range dense_rows(rows.start * kOversampling, rows.end * kOversampling);
+  const cv::Mat light = light_places_.rowRange(dense_rows) - cv::Scalar(0, first_row);
+  const cv::Mat truth = truth_places_.rowRange(rows) - cv::Scalar(0, first_row);
   cv::Mat dense;
-  cv::remap(straight.colour, dense, light_places_, light_fractions_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::remap(straight.colour, dense, light, light_fractions_.rowRange(dense_rows), cv::INTER_LINEAR,
+            cv::BORDER_REPLICATE);
   EyeFrame bent;
-  cv::resize(dense, bent.colour, truth_places_.size(), 0.0, 0.0, cv::INTER_AREA);
-  bent.ball_id = picked<std::uint8_t>(straight.ball_id, truth_places_);
-  bent.depth_m = picked<float>(straight.depth_m, truth_places_);
+  cv::resize(dense, bent.colour, truth.size(), 0.0, 0.0, cv::INTER_AREA);
+  bent.ball_id = picked<std::uint8_t>(straight.ball_id, truth);
+  bent.depth_m = picked<float>(straight.depth_m, truth);
   return bent;
 }
 

@@ -20,11 +20,19 @@ class Lens {
   /// The rig without distortion whose pictures bend() takes.
   const vision::StereoRig& pinhole_rig() const { return pinhole_; }
 
-  /// @param straight of the pinhole rig
-  StereoFrame bend(const StereoFrame& straight) const { return {bend(straight.left), bend(straight.right)}; }
+  int height_px() const { return truth_places_.rows; }
+
+  /// The rows of the pinhole's picture that some rows of the bent one are made of.
+  cv::Range rows_seen(const cv::Range& rows) const;
+
+  /// @param straight of the pinhole rig, from a row of its picture on
+  /// @param rows of the bent picture, all of whose rows_seen() are there
+  StereoFrame bend(const StereoFrame& straight, int first_row, const cv::Range& rows) const {
+    return {bend(straight.left, first_row, rows), bend(straight.right, first_row, rows)};
+  }
 
  private:
-  EyeFrame bend(const EyeFrame& straight) const;
+  EyeFrame bend(const EyeFrame& straight, int first_row, const cv::Range& rows) const;
 
   vision::StereoRig pinhole_;
   cv::Mat light_places_, light_fractions_;  ///< OpenCV's fixed-point maps, at twice the resolution

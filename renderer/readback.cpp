@@ -56,16 +56,19 @@ cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px) 
   return facets;
 }
 
-EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px) {
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows) {
+  const cv::Size size_px(columns.size(), asked_rows.size());
   EyeFrame frame{cv::Mat(size_px, CV_8UC3), cv::Mat(size_px, CV_8UC1), cv::Mat(size_px, CV_32FC1)};
   cv::Mat pixels(std::min(kBandRows, size_px.height), size_px.width, CV_8UC4);
   for (int row = 0; row < size_px.height; row += kBandRows) {
     const cv::Range rows(row, std::min(row + kBandRows, size_px.height));
     EyeFrame band{frame.colour.rowRange(rows), frame.ball_id.rowRange(rows), frame.depth_m.rowRange(rows)};
     const cv::Mat read = pixels.rowRange(0, rows.size());
-    gl.ReadPixels(first_column_px, row, size_px.width, rows.size(), GL_RGBA, GL_UNSIGNED_BYTE, read.data);
+    const int first_row_px = asked_rows.start + row;
+    gl.ReadPixels(columns.start, first_row_px, size_px.width, rows.size(), GL_RGBA, GL_UNSIGNED_BYTE,
+                  read.data);
     split_colour_and_id(read, band);
-    gl.ReadPixels(first_column_px, row, size_px.width, rows.size(), GL_DEPTH_COMPONENT, GL_FLOAT,
+    gl.ReadPixels(columns.start, first_row_px, size_px.width, rows.size(), GL_DEPTH_COMPONENT, GL_FLOAT,
                   band.depth_m.data);
     depth_to_metres(band.depth_m, static_cast<float>(kNear_m));
   }

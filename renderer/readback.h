@@ -18,8 +18,9 @@ void depth_to_metres(cv::Mat& depth, float near_m);
 /// @return CV_32SC1, numbers of facets.h
 cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px);
 
-/// Reads one eye's part of the framebuffer that is bound.
-/// @param first_column_px where the eye's part begins
-EyeFrame read_eye(const Gl& gl, int first_column_px, const cv::Size& size_px);
+/// Reads some rows of one eye's part of the framebuffer that is bound.
+/// @param columns of the eye's part
+/// @return a picture of these rows alone
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
 
 }  // namespace stereobench::renderer

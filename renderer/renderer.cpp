@@ -54,6 +54,7 @@ const vision::StereoRig& checked(const vision::StereoRig& rig) {
 void set_state(const Gl& gl) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_SCISSOR_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.CullFace(GL_FRONT);  // where it is enabled: what is counter-clockwise in the world is not in a picture
                           // whose rows point down
@@ -64,6 +65,10 @@ void set_state(const Gl& gl) {
 /// Lenses that distort; none where they do not.
 std::optional<Lens> lens_of(const vision::StereoRig& rig) {
   return rig.distortion == vision::Distortion{} ? std::nullopt : std::optional<Lens>(rig);
+}
+
+cv::Range columns_of(const EyeView& view) {
+  return {view.first_column_px, view.first_column_px + view.camera.width_px};
 }
 
 }  // namespace
@@ -97,13 +102,14 @@ struct Renderer::Parts {
 
   /// Where the eyes are, with an empty framebuffer of a colour before them.
   std::array<EyeView, 2> open_eyes(const slam::Pose& left_pose, const slam::Pose& right_pose,
-                                   const Eigen::Vector3f& rgb) {
+                                   const Eigen::Vector3f& rgb, const cv::Range& rows) {
     for (const slam::Pose& pose : {left_pose, right_pose}) {
       require(std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad),
               "Renderer: the pose is not finite");
     }
     context->make_current();
     framebuffer.bind();
+    gl.Scissor(0, rows.start, 2 * rig.camera.width_px, rows.size());
     gl.ClearColor(rgb.z(), rgb.y(), rgb.x(), 0.0F);  // the picture's order is blue, green, red, identity
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     return {eye_view(rig, vision::Eye::kLeft, left_pose), eye_view(rig, vision::Eye::kRight, right_pose)};
@@ -111,6 +117,15 @@ struct Renderer::Parts {
 
   void look_through(const EyeView& view) {
     gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
+  }
+
+  /// Rows of the picture that is asked for, not of what is drawn.
+  cv::Range checked_rows(const cv::Range& asked) const {
+    const cv::Range all(0, lens ? lens->height_px() : rig.camera.height_px);
+    if (asked == cv::Range::all()) return all;
+    require(asked.start >= 0 && asked.start < asked.end && asked.end <= all.end,
+            "Renderer::render: the picture has no such rows");
+    return asked;
   }
 
   cv::Size size_px() const { return {rig.camera.width_px, rig.camera.height_px}; }
@@ -122,21 +137,25 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
-StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose) {
-  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb);
+StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                             const cv::Range& asked) {
+  const cv::Range rows = parts_->checked_rows(asked);
+  const cv::Range drawn = parts_->lens ? parts_->lens->rows_seen(rows) : rows;
+  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb, drawn);
   for (const EyeView& view : {left, right}) {
     parts_->look_through(view);
     parts_->surfaces.draw(view);
     parts_->balls.draw(view);
   }
-  const StereoFrame frame = {read_eye(parts_->gl, left.first_column_px, parts_->size_px()),
-                             read_eye(parts_->gl, right.first_column_px, parts_->size_px())};
-  return parts_->lens ? parts_->lens->bend(frame) : frame;
+  const StereoFrame frame = {read_eye(parts_->gl, columns_of(left), drawn),
+                             read_eye(parts_->gl, columns_of(right), drawn)};
+  return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : frame;
 }
 
 StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose) {
   require(!parts_->lens, "Renderer::sight: not for lenses that distort");
-  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero());
+  const auto [left, right] =
+      parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), {0, parts_->rig.camera.height_px});
   for (const EyeView& view : {left, right}) {
     parts_->look_through(view);
     parts_->surfaces.draw_facets(view);

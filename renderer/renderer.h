@@ -35,7 +35,15 @@ class Renderer {
 
   /// The same with eyes that open at different times.
   /// @param left_pose, right_pose where the robot stands when the eye looks
-  StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose);
+  StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose) {
+    return render(left_pose, right_pose, cv::Range::all());
+  }
+
+  /// The same for cameras whose rows look one after another.
+  /// @param rows of the picture, those that look now
+  /// @return pictures of these rows alone
+  /// @throws std::invalid_argument also when the pictures have no such rows
+  StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose, const cv::Range& rows);
 
   /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
   /// want more truth than a frame carries (eye_truth.h, correspondence.h).

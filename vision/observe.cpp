@@ -115,6 +115,7 @@ std::vector<BallObservation> observe(const StereoPair& pair, const Rectification
   constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
   std::vector<BallObservation> observations =
       observe(rectification.apply(pair), rectification.rig(), settings);
+  if (rectification.is_nothing()) return observations;
   for (BallObservation& seen : observations) {
     const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
                        rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);

@@ -25,6 +25,9 @@ class Rectification {
   /// The rig that the rectified pictures are of.
   const StereoRig& rig() const { return rectified_; }
 
+  /// Whether there is nothing to undo.
+  bool is_nothing() const { return maps_[1].places.empty(); }
+
   /// @param pair CV_8UC3 of the rig's size
   /// @throws std::invalid_argument when a picture is not
   StereoPair apply(const StereoPair& pair) const;

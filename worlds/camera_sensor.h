@@ -12,12 +12,15 @@ enum class Encoding {
   kGamma    ///< light^(1 / gamma)
 };
 
-/// When the cameras look. The defaults are an instant, the same for both, and every time.
+/// When the cameras look. The defaults are an instant, the same for both and for all rows, and every time.
 struct Shutter {
   double open_s = 0.0;            ///< how long, centred on the frame's time: what moves is blurred
   int samples = 8;                ///< instants that the blur is the average of
   double right_delay_s = 0.0;     ///< of the right eye's shutter behind the left one's
+  double readout_s = 0.0;         ///< from the first row's look to the last one's, around the frame's time
   double drop_probability = 0.0;  ///< that a frame is lost
+  double late_probability = 0.0;  ///< that both eyes look late, at a frame whose time is not told
+  double late_s = 0.0;            ///< how late they are then
 };
 
 /// A camera whose defaults change nothing. Light of 255 levels is what a perfect picture calls white.

@@ -31,12 +31,16 @@ CameraSensor read_camera(const YamlValue& value) {
 }
 
 Shutter read_shutter(const YamlValue& value) {
-  const YamlMap map(value, {"open_s", "samples", "right_delay_s", "drop_probability"});
+  const YamlMap map(value, {"open_s", "samples", "right_delay_s", "readout_s", "drop_probability",
+                            "late_probability", "late_s"});
   Shutter shutter;
   shutter.open_s = map.number("open_s", {0.0, 10.0}, shutter.open_s);
   if (const auto samples = map.find("samples")) shutter.samples = samples->integer(1, 1000);
   shutter.right_delay_s = map.number("right_delay_s", {-10.0, 10.0}, shutter.right_delay_s);
+  shutter.readout_s = map.number("readout_s", {-1.0, 1.0}, shutter.readout_s);
   shutter.drop_probability = map.number("drop_probability", {0.0, 1.0}, shutter.drop_probability);
+  shutter.late_probability = map.number("late_probability", {0.0, 1.0}, shutter.late_probability);
+  shutter.late_s = map.number("late_s", {-10.0, 10.0}, shutter.late_s);
   return shutter;
 }
 

@@ -75,9 +75,12 @@ class StereoSense {
 
   Sensed look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {
     Stopwatch watch(timing_);
-    if (is_dropped(index)) return {};
-    const renderer::StereoFrame frame = watch.time(
-        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.shutter); });
+    const worlds::Shutter& shutter = scenario_.shutter;
+    slam::RandomStream chance(seed_, slam::Stream::kFrameLoss, index);
+    if (chance.uniform() < shutter.drop_probability) return {};
+    const double late_s = chance.uniform() < shutter.late_probability ? shutter.late_s : 0.0;
+    const renderer::StereoFrame frame =
+        watch.time("render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, late_s); });
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
     const auto observations = watch.time("observe", [&] {
@@ -95,11 +98,6 @@ class StereoSense {
   const Timing& timing() const { return timing_; }
 
  private:
-  bool is_dropped(std::size_t index) const {
-    return slam::RandomStream(seed_, slam::Stream::kFrameLoss, index).uniform() <
-           scenario_.shutter.drop_probability;
-  }
-
   const worlds::Scenario& scenario_;
   const worlds::World& world_;
   std::uint64_t seed_;

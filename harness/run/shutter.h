@@ -9,12 +9,14 @@
 namespace stereobench::harness {
 
 /// Renders a step of a drive as its camera sees it: the average of the instants while the shutter is open,
-/// the right eye later by its delay.
+/// row after row while the chip is read out, the right eye later by its delay.
 ///
-/// @param index of the step; the left shutter opens half its time before the step and closes half after
+/// @param index of the step; the left shutter opens half its time before the step and closes half after, the
+///   middle row halfway through the readout
+/// @param late_s by how much both eyes are late this time
 /// @return light as an average over shutter.samples instants, rounded; identity and depth are those of
-///   the middle of each eye's exposure
+///   the middle of each row's exposure
 renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
-                                   std::size_t index, const worlds::Shutter& shutter);
+                                   std::size_t index, const worlds::Shutter& shutter, double late_s = 0.0);
 
 }  // namespace stereobench::harness

@@ -76,7 +76,8 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     if (!left || !right) continue;
     BallOutline outline{static_cast<int>(i), ball_in_robot, *left, *right};
     outline.left_fraction = static_cast<double>(left_ids.at(i + 1).count) / whole_area_px(truth.rig, *left);
-    outline.right_fraction = static_cast<double>(right_ids.at(i + 1).count) / whole_area_px(truth.rig, *right);
+    outline.right_fraction =
+        static_cast<double>(right_ids.at(i + 1).count) / whole_area_px(truth.rig, *right);
     outline.inside_both = lies_inside(truth.rig, *left) && lies_inside(truth.rig, *right);
     outlines.push_back(outline);
   }

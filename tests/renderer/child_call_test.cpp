@@ -75,8 +75,8 @@ TEST(ChildCall, PassesOnWhatWasThrown) {
   EXPECT_EQ(complaint([]() -> std::string { throw std::runtime_error("no good"); }), "no good");
 }
 
-// Mutations: the status of the child not looked at (an answer cut off counts as one); exceptions that leave the
-// child's function, which then runs the rest of these tests.
+// Mutations: the status of the child not looked at (an answer cut off counts as one); exceptions that leave
+// the child's function, which then runs the rest of these tests.
 TEST(ChildCall, SaysHowTheChildDied) {
   const Work segfault = [] { return std::raise(SIGSEGV) == 0 ? hang() : hang(); };
   EXPECT_THAT(complaint(segfault), StartsWith("crashed ("));

@@ -99,7 +99,25 @@ TEST_P(LensTest, KeepsTruthAndLightTogether) {
   EXPECT_GT(balls, 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LensTest, testing::Values(kBarrel, kPincushion));
+// Mutations: a lens that draws the rows that it was asked for, rows counted from the end.
+TEST_P(LensTest, RendersRowsAloneAsInTheWholePicture) {
+  const vision::StereoRig rig = rig_with(GetParam());
+  Renderer renderer(ball_at(rig, {0.9, -0.2, 2.0}), rig);
+  const slam::Pose pose{0.0, 0.0, 0.02};
+  const StereoFrame whole = renderer.render(pose);
+  for (const cv::Range rows :
+       {cv::Range(0, 3), cv::Range(100, 104), cv::Range(199, 300), cv::Range(479, 480)}) {
+    const StereoFrame alone = renderer.render(pose, pose, rows);
+    EXPECT_EQ(cv::norm(alone.left.colour, whole.left.colour.rowRange(rows), cv::NORM_INF), 0.0) << rows;
+    EXPECT_EQ(cv::norm(alone.right.colour, whole.right.colour.rowRange(rows), cv::NORM_INF), 0.0) << rows;
+    EXPECT_EQ(cv::norm(alone.right.ball_id, whole.right.ball_id.rowRange(rows), cv::NORM_INF), 0.0) << rows;
+    EXPECT_EQ(cv::norm(alone.left.depth_m != whole.left.depth_m.rowRange(rows)), 0.0) << rows;
+  }
+  for (const cv::Range none : {cv::Range(-1, 3), cv::Range(5, 5), cv::Range(470, 481)})
+    EXPECT_THROW(renderer.render(pose, pose, none), std::invalid_argument) << none;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LensTest, testing::Values(vision::Distortion{}, kBarrel, kPincushion));
 
 TEST(Lens, ThatFoldsItsPictureIsRefused) {
   EXPECT_THROW(Lens(rig_with({.k1 = -2.0})), std::invalid_argument);

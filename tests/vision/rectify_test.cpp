@@ -86,6 +86,7 @@ TEST(Rectification, CostsNothingWhereNothingIsWrong) {
   rig.distortion = {};
   const Rectification rectification(rig);
   const StereoPair pair = {cv::Mat::zeros(240, 320, CV_8UC3), cv::Mat::zeros(240, 320, CV_8UC3)};
+  EXPECT_TRUE(rectification.is_nothing());
   EXPECT_EQ(rectification.apply(pair).left.data, pair.left.data);
   EXPECT_EQ(rectification.taken_px({17.25, 3.5}, Eye::kRight), Eigen::Vector2d(17.25, 3.5));
   EXPECT_TRUE(rectification.shows({50.0, 50.0}, 50.4, Eye::kLeft));

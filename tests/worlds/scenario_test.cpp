@@ -135,13 +135,17 @@ TEST(Scenario, ReadsTheCameraAndItsShutter) {
       {"camera={noise_sd_levels: 1.5, defocus_sd_px: 0.8, vignette: 0.3, exposure: 0.5, "
        "full_well_electrons: 8000, read_noise_electrons: 6, gain: 2, white_balance_rgb: [1, 1.1, 0.9], "
        "encoding: gamma, gamma: 1.8}",
-       "shutter={open_s: 0.01, samples: 4, right_delay_s: 0.002, drop_probability: 0.1}"});
+       "shutter={open_s: 0.01, samples: 4, right_delay_s: 0.002, drop_probability: 0.1, "
+       "readout_s: 0.03, late_probability: 0.2, late_s: 0.04}"});
   EXPECT_EQ(scenario.camera,
             (CameraSensor{1.5, 0.8, 0.3, 0.5, 8000, 6, 2, {1, 1.1, 0.9}, Encoding::kGamma, 1.8}));
   EXPECT_EQ(scenario.shutter.open_s, 0.01);
   EXPECT_EQ(scenario.shutter.samples, 4);
   EXPECT_EQ(scenario.shutter.right_delay_s, 0.002);
   EXPECT_EQ(scenario.shutter.drop_probability, 0.1);
+  EXPECT_EQ(scenario.shutter.readout_s, 0.03);
+  EXPECT_EQ(scenario.shutter.late_probability, 0.2);
+  EXPECT_EQ(scenario.shutter.late_s, 0.04);
 }
 
 // Catches: a belief that stays at the file's rig when the true rig is overridden.

@@ -81,6 +81,48 @@ TEST(Shutter, BlursWhatMovesByHowFarItMoves) {
               0.03 * moved_px * moved_px / 12.0);
 }
 
+// Each row is that of a whole picture at the row's own time. Mutations: the last row first, the first row at
+// the frame's time.
+TEST(Shutter, ReadsRowsOneAfterAnother) {
+  const worlds::Scenario scenario = bend();
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  const worlds::Shutter shutter{.right_delay_s = 0.01, .readout_s = 0.12};
+  const renderer::StereoFrame rolled = open_shutter(renderer, scenario.path, 2, shutter);
+  for (const int row : {1, 60, 118, 121, 200, 238}) {
+    const int first = row / 4 * 4;
+    const double offset_s = 0.12 * ((first + 2) / 240.0 - 0.5);
+    const renderer::StereoFrame instant = renderer.render(
+        worlds::pose_near(scenario.path, 2, offset_s), worlds::pose_near(scenario.path, 2, offset_s + 0.01));
+    EXPECT_TRUE(same(rolled.left.colour.row(row), instant.left.colour.row(row))) << row;
+    EXPECT_TRUE(same(rolled.right.colour.row(row), instant.right.colour.row(row))) << row;
+    EXPECT_TRUE(same(rolled.left.ball_id.row(row), instant.left.ball_id.row(row))) << row;
+  }
+  EXPECT_FALSE(same(rolled.left.colour, renderer.render(scenario.path[2].pose).left.colour));
+}
+
+// Mutations: one eye that is late, a frame that is never late.
+TEST(Shutter, LooksLateAsOftenAsAsked) {
+  worlds::Scenario scenario = bend();
+  scenario.shutter = {.late_probability = 0.5, .late_s = 0.05};
+  scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.1, 0.1});
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  int late = 0;
+  const auto count_late = [&](const Look& look) {
+    const auto looks_like = [&](double offset_s) {
+      const renderer::StereoFrame then =
+          renderer.render(worlds::pose_near(scenario.path, look.step, offset_s));
+      return same(look.frame.left.colour, then.left.colour) &&
+             same(look.frame.right.colour, then.right.colour);
+    };
+    const bool is_late = looks_like(0.05);
+    EXPECT_NE(is_late, looks_like(0.0));
+    late += is_late ? 1 : 0;
+  };
+  record(scenario, 1, {.on_look = count_late});
+  const double steps = static_cast<double>(scenario.path.size());
+  EXPECT_NEAR(late, 0.5 * steps, 3.29 * std::sqrt(0.25 * steps));
+}
+
 double mean_range_ratio(const worlds::Scenario& scenario) {
   const MeasurementLog log = record(scenario, 0, {}).log;
   double sum = 0.0;
