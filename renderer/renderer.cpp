@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "renderer/ball_painter.h"
+#include "renderer/edge_smoother.h"
 #include "renderer/readback.h"
 #include "renderer/surface_painter.h"
 #include "vision/palette.h"
@@ -65,15 +66,18 @@ struct Renderer::Parts {
   Framebuffer framebuffer;
   SurfacePainter surfaces;
   BallPainter balls;
+  EdgeSmoother edges;
 
-  Parts(const worlds::World& world, const vision::StereoRig& asked, Backend backend)
+  Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
+        Backend backend)
       : rig(checked(asked)),
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
-        surfaces(gl, checked(world)),
-        balls(gl, world) {
+        surfaces(gl, world, meshes),
+        balls(gl, world),
+        edges(world, meshes) {
     set_state(gl);
   }
   Parts(const Parts&) = delete;
@@ -102,7 +106,7 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
-    : parts_(std::make_unique<Parts>(world, rig, backend)) {}
+    : parts_(std::make_unique<Parts>(world, place_meshes(checked(world)), rig, backend)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
@@ -114,8 +118,11 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
     parts_->surfaces.draw(view);
     parts_->balls.draw(view);
   }
-  return {read_eye(parts_->gl, left.first_column_px, parts_->size_px()),
-          read_eye(parts_->gl, right.first_column_px, parts_->size_px())};
+  StereoFrame frame{read_eye(parts_->gl, left.first_column_px, parts_->size_px()),
+                    read_eye(parts_->gl, right.first_column_px, parts_->size_px())};
+  parts_->edges.smooth(left, frame.left);
+  parts_->edges.smooth(right, frame.right);
+  return frame;
 }
 
 StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose) {
