@@ -37,37 +37,55 @@ bool is_before(const SceneGeometry& scene, int facet, const Sightline& line, con
   return is_ball(facet) && scene.normal(facet, point.in_world).dot(line.direction) > 0.0;
 }
 
-bool is_hidden(const SceneGeometry& scene, const EyeSight& by, const Point& point) {
-  const Eigen::Vector3d eye = by.view.centre_in_world();
-  const Sightline line{eye, point.in_world - eye};
+/// @param eye_m where the other eye is, world frame
+bool is_hidden(const SceneGeometry& scene, const cv::Mat& facets, const Eigen::Vector3d& eye_m,
+               const Point& point) {
+  const Sightline line{eye_m, point.in_world - eye_m};
   if (is_before(scene, point.facet, line, point)) return true;
-  const std::array<int, 4> around = facets_around(by.facet, point.place_px);
+  const std::array<int, 4> around = facets_around(facets, point.place_px);
   return std::any_of(around.begin(), around.end(),
-                     [&](int facet) { return is_before(scene, facet, line, point); });
+                     [&](int facet) { return facet != point.facet && is_before(scene, facet, line, point); });
 }
+
+/// Follows pixels of one look to another.
+class Follower {
+ public:
+  Follower(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to)
+      : scene_(scene), from_(from), to_(to), lines_(from.view), other_eye_m_(to.view.centre_in_world()) {}
+
+  /// @param facet that the pixel sees
+  /// @param shift_px set where the point has a place in the other picture's plane
+  Fate follow(int facet, int u, int v, cv::Vec2f& shift_px) const {
+    if (facet == kNoFacet) return Fate::kNothing;
+    const Eigen::Vector3d point = scene_.seen_point(facet, lines_(u, v));
+    const Eigen::Vector3d in_other = to_.view.camera_from_world * point;
+    if (!(in_other.z() > kNear_m)) return Fate::kOutside;
+    const Eigen::Vector2d there = vision::project(to_.view.camera, in_other);
+    const Eigen::Vector2d here = vision::project(from_.view.camera, from_.view.camera_from_world * point);
+    const Eigen::Vector2f shift = (there - here).cast<float>();
+    shift_px = {shift.x(), shift.y()};
+    if (!vision::project_if_visible(to_.view.camera, in_other)) return Fate::kOutside;
+    return is_hidden(scene_, to_.facet, other_eye_m_, {facet, point, there}) ? Fate::kHidden : Fate::kSeen;
+  }
+
+ private:
+  const SceneGeometry& scene_;
+  const EyeSight& from_;
+  const EyeSight& to_;
+  Sightlines lines_;
+  Eigen::Vector3d other_eye_m_;
+};
 
 }  // namespace
 
 Correspondence correspond(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to) {
   const cv::Size size = from.facet.size();
-  Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)),
-                        cv::Mat(size, CV_8UC1, cv::Scalar(0))};
-  const Sightlines lines(from.view);
+  Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)), cv::Mat(size, CV_8UC1)};
+  const Follower follower(scene, from, to);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const int facet = from.facet.at<int>(v, u);
-      if (facet == kNoFacet) continue;
-      Fate& fate = *reinterpret_cast<Fate*>(result.fate.ptr(v, u));
-      fate = Fate::kOutside;
-      const Eigen::Vector3d point = scene.seen_point(facet, lines(u, v));
-      const Eigen::Vector3d in_other = to.view.camera_from_world * point;
-      if (!(in_other.z() > kNear_m)) continue;
-      const Eigen::Vector2d place = vision::project(to.view.camera, in_other);
-      const Eigen::Vector2f shift =
-          (place - vision::project(from.view.camera, from.view.camera_from_world * point)).cast<float>();
-      result.shift_px.at<cv::Vec2f>(v, u) = {shift.x(), shift.y()};
-      if (!vision::project_if_visible(to.view.camera, in_other)) continue;
-      fate = is_hidden(scene, to, {facet, point, place}) ? Fate::kHidden : Fate::kSeen;
+      const Fate fate = follower.follow(from.facet.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
+      result.fate.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(fate);
     }
   }
   return result;

@@ -27,13 +27,9 @@ class Lens {
 
   /// @param straight of the pinhole rig, from a row of its picture on
   /// @param rows of the bent picture, all of whose rows_seen() are there
-  StereoFrame bend(const StereoFrame& straight, int first_row, const cv::Range& rows) const {
-    return {bend(straight.left, first_row, rows), bend(straight.right, first_row, rows)};
-  }
-
- private:
   EyeFrame bend(const EyeFrame& straight, int first_row, const cv::Range& rows) const;
 
+ private:
   vision::StereoRig pinhole_;
   cv::Mat light_places_, light_fractions_;  ///< OpenCV's fixed-point maps, at twice the resolution
   cv::Mat truth_places_;                    ///< CV_32SC2, the pixel that each pixel's centre sees

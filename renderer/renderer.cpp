@@ -1,11 +1,13 @@
 #include "renderer/renderer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
 #include "renderer/ball_painter.h"
+#include "renderer/edge_smoother.h"
 #include "renderer/lens.h"
 #include "renderer/readback.h"
 #include "renderer/surface_painter.h"
@@ -71,6 +73,19 @@ cv::Range columns_of(const EyeView& view) {
   return {view.first_column_px, view.first_column_px + view.camera.width_px};
 }
 
+/// The same eye with a picture of some rows alone.
+EyeView part_of(EyeView view, const cv::Range& rows) {
+  view.camera.cy_px -= rows.start;
+  view.camera.height_px = rows.size();
+  return view;
+}
+
+/// Some rows of a picture that begins with a row of the whole one.
+EyeFrame part_of(const EyeFrame& frame, int first_row, const cv::Range& rows) {
+  const cv::Range part(rows.start - first_row, rows.end - first_row);
+  return {frame.colour.rowRange(part), frame.ball_id.rowRange(part), frame.depth_m.rowRange(part)};
+}
+
 }  // namespace
 
 struct Renderer::Parts {
@@ -82,6 +97,7 @@ struct Renderer::Parts {
   Framebuffer framebuffer;
   SurfacePainter surfaces;
   BallPainter balls;
+  EdgeSmoother edges;
 
   /// @param meshes read before there is a context, as reading them forks
   Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
@@ -93,7 +109,8 @@ struct Renderer::Parts {
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
         surfaces(gl, world, meshes),
-        balls(gl, world) {
+        balls(gl, world),
+        edges(world, meshes) {
     set_state(gl);
   }
   Parts(const Parts&) = delete;
@@ -128,6 +145,11 @@ struct Renderer::Parts {
     return asked;
   }
 
+  /// With the rows beside them, whose edges may reach into them.
+  cv::Range with_neighbours(const cv::Range& rows) const {
+    return {std::max(rows.start - 1, 0), std::min(rows.end + 1, rig.camera.height_px)};
+  }
+
   cv::Size size_px() const { return {rig.camera.width_px, rig.camera.height_px}; }
 };
 
@@ -140,16 +162,19 @@ Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose,
                              const cv::Range& asked) {
   const cv::Range rows = parts_->checked_rows(asked);
-  const cv::Range drawn = parts_->lens ? parts_->lens->rows_seen(rows) : rows;
+  const cv::Range drawn = parts_->with_neighbours(parts_->lens ? parts_->lens->rows_seen(rows) : rows);
   const auto [left, right] = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb, drawn);
   for (const EyeView& view : {left, right}) {
     parts_->look_through(view);
     parts_->surfaces.draw(view);
     parts_->balls.draw(view);
   }
-  const StereoFrame frame = {read_eye(parts_->gl, columns_of(left), drawn),
-                             read_eye(parts_->gl, columns_of(right), drawn)};
-  return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : frame;
+  const auto picture = [&](const EyeView& view) {
+    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn);
+    parts_->edges.smooth(part_of(view, drawn), frame);
+    return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : part_of(frame, drawn.start, rows);
+  };
+  return {picture(left), picture(right)};
 }
 
 StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose) {

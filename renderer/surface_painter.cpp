@@ -19,16 +19,16 @@ std::span<const float> floats(const std::vector<SurfaceVertex>& vertices) {
 
 }  // namespace
 
-SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& placed)
+SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& meshes)
     : gl_(&gl),
       world_(world),
-      mesh_runs_(placed.runs),
+      mesh_runs_(meshes.runs),
       meshes_(gl, kVertexWidths, 0),
       polygons_(gl, kVertexWidths, 0) {
   compile(world.floor);
   for (const worlds::Wall& wall : world.walls) compile(wall.material);
   for (const worlds::MeshInstance& mesh : world.meshes) compile(mesh.material);
-  meshes_.upload(floats(placed.vertices));
+  meshes_.upload(floats(meshes.vertices));
 }
 
 void SurfacePainter::compile(worlds::Material material) {

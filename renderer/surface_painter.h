@@ -12,8 +12,8 @@ namespace stereobench::renderer {
 /// Owns the programs of the materials in use, the meshes and the stream of polygons.
 class SurfacePainter {
  public:
-  /// @param placed the world's meshes
-  SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& placed);
+  /// @param meshes of the world
+  SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& meshes);
 
   /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
   void draw(const EyeView& view);

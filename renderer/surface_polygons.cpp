@@ -5,8 +5,6 @@
 namespace stereobench::renderer {
 namespace {
 
-constexpr double kFloorReach_m = 10000.0;  // seen from eye height, nearer to the horizon than half a pixel
-
 struct Corner {
   Eigen::Vector3d in_camera;
   Eigen::Vector2d along_m;

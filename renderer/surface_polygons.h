@@ -20,6 +20,9 @@ struct SurfaceVertex {
 };
 inline constexpr int kSurfaceVertexFloats = 7;
 
+/// How far the floor goes on around the eye: seen from its height, nearer to the horizon than half a pixel.
+inline constexpr double kFloorReach_m = 10000.0;
+
 /// A convex polygon in the picture.
 struct SurfacePolygon {
   worlds::Material material = worlds::Material::kPlain;

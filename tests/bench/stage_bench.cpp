@@ -1,37 +1,18 @@
 /// The stages that touch pixels, on one core, as times and as multiples of copying the same pair of images.
-#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
 
 #include <benchmark/benchmark.h>
 
 #include "renderer/backend.h"
 #include "renderer/expose.h"
-#include "renderer/renderer.h"
+#include "tests/bench/bench_scene.h"
 #include "vision/observe.h"
-#include "worlds/scenario.h"
 
 namespace stereobench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kLastBackend = static_cast<int>(renderer::kBackends.size()) - 1;
-
-/// A world as it is rendered from one place.
-struct Scene {
-  worlds::World world;
-  vision::StereoRig rig;
-  slam::Pose pose;
-};
-
-/// A quarter of the way along a shipped scenario's path.
-Scene scenario_scene(const std::string& name) {
-  const auto scenario =
-      worlds::read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml");
-  return {scenario.world, scenario.rig, scenario.path[scenario.path.size() / 4].pose};
-}
 
 /// All eighteen colours in view, in three rows before the walls of ball_circle's room.
 Scene eighteen_balls() {
@@ -47,39 +28,6 @@ Scene eighteen_balls() {
   }
   return scene;
 }
-
-/// A rendered pair and what copying it costs.
-struct Bench {
-  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa)
-      : scene(std::move(shown)),
-        renderer(scene.world, scene.rig, backend),
-        frame(renderer.render(scene.pose)) {}
-
-  /// Times `stage`, and the copy right after it, so that both see the same machine.
-  template <typename Stage>
-  void run(benchmark::State& state, Stage stage) {
-    double stage_s = 0.0;
-    double copy_s = 0.0;
-    for (auto _ : state) {
-      const auto begin = Clock::now();
-      stage();
-      const auto middle = Clock::now();
-      frame.left.colour.copyTo(left);
-      frame.right.colour.copyTo(right);
-      benchmark::ClobberMemory();
-      const double this_s = std::chrono::duration<double>(middle - begin).count();
-      copy_s += std::chrono::duration<double>(Clock::now() - middle).count();
-      stage_s += this_s;
-      state.SetIterationTime(this_s);
-    }
-    state.counters["copies"] = stage_s / copy_s;
-  }
-
-  Scene scene;
-  renderer::Renderer renderer;
-  renderer::StereoFrame frame;
-  cv::Mat left, right;
-};
 
 /// The argument is an index into kBackends; one that this machine does not have is skipped.
 void render_pair(benchmark::State& state, const Scene& scene) {

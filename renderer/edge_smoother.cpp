@@ -1,0 +1,186 @@
+#include "renderer/edge_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr double kSameDepth = 1e-4;  ///< relative; the rasteriser's depths are good to 4e-6
+constexpr double kSnap_px = 0.01;    ///< the rasteriser snaps corners: so near a centre may be on either side
+constexpr std::size_t kUsualChanges = 16384;
+
+/// The integral of clamp(t, 0, 1) from 0 to t.
+double clamp_integral(double t) {
+  return t <= 0.0 ? 0.0 : t >= 1.0 ? t - 0.5 : 0.5 * t * t;
+}
+
+/// A face as the picture has it: the inverse of planar depth is linear in the pixel's place.
+struct Face {
+  double at_zero = 0.0, per_column = 0.0, per_row = 0.0;  // 1/m, 1/(m px)
+  bool is_low = false;  // lies towards smaller coordinates of the edge's minor axis
+
+  double inverse_depth(const cv::Point& pixel) const {
+    return at_zero + per_column * pixel.x + per_row * pixel.y;
+  }
+};
+
+/// The plane with this normal (of any length) through a point of the camera's frame.
+Face face_of(const vision::Intrinsics& camera, const Eigen::Vector3d& normal, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d scaled = normal / normal.dot(point);  // 1 / Z = scaled . ray
+  Face face;
+  face.per_column = scaled.x() / camera.focal_px;
+  face.per_row = scaled.y() / camera.focal_px;
+  face.at_zero = scaled.z() - face.per_column * camera.cx_px - face.per_row * camera.cy_px;
+  return face;
+}
+
+/// An edge as a line in the picture, followed along the axis (0: columns, 1: rows) that it is nearer to.
+struct Line {
+  int major = 0;
+  int first = 0, last = -1;           // of the major coordinate, within the picture
+  double at_zero = 0.0, slope = 0.0;  // minor coordinate, px
+  std::array<Face, 2> faces;          // where there is one, nobody sees the other
+
+  double minor_at(int k) const { return at_zero + slope * k; }
+};
+
+/// Cuts off what is behind the near plane. @return whether something is left
+bool cut_near(Eigen::Vector3d& from, Eigen::Vector3d& to) {
+  if (from.z() < kNear_m && to.z() < kNear_m) return false;
+  const auto cut = [](Eigen::Vector3d& end, const Eigen::Vector3d& other) {
+    if (end.z() < kNear_m) end += (kNear_m - end.z()) / (other.z() - end.z()) * (other - end);
+  };
+  cut(from, to);
+  cut(to, from);
+  return true;
+}
+
+/// The line of an edge, without its faces. @return with an empty range where it is out of the picture
+Line bare_line(const vision::Intrinsics& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector2d p = vision::project(camera, from), q = vision::project(camera, to);
+  const Eigen::Vector2d run = q - p;
+  Line line;
+  line.major = std::abs(run.x()) >= std::abs(run.y()) ? 0 : 1;
+  const int minor = 1 - line.major;
+  const Eigen::Vector2d size(camera.width_px, camera.height_px);
+  if (run[line.major] == 0.0 || std::max(p[minor], q[minor]) < 0.0 ||
+      std::min(p[minor], q[minor]) > size[minor])
+    return line;
+  line.slope = run[minor] / run[line.major];
+  line.at_zero = p[minor] - line.slope * p[line.major];
+  line.first = static_cast<int>(std::ceil(std::max(0.0, std::min(p[line.major], q[line.major]))));
+  line.last = static_cast<int>(
+      std::floor(std::clamp(std::max(p[line.major], q[line.major]), -1.0, size[line.major] - 1.0)));
+  return line;
+}
+
+/// @return with an empty range where the edge is out of the picture, or no edge from there
+Line line_of(const SurfaceEdge& edge, const EyeView& view) {
+  Eigen::Vector3d from = view.camera_from_world * edge.from_m;
+  Eigen::Vector3d to = view.camera_from_world * edge.to_m;
+  const Eigen::Vector3d along = to - from;
+  const Eigen::Vector3d across = from.cross(to);  // of the plane through the eye and the edge
+  if (!cut_near(from, to)) return {};
+  Line line = bare_line(view.camera, from, to);
+  if (line.first > line.last) return line;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(edge.faces); ++i) {
+    const Eigen::Vector3d inner = view.camera_from_world * edge.inner_m[i];
+    line.faces[i] = face_of(view.camera, along.cross(inner - from), from);
+    line.faces[i].is_low = (across.dot(inner) > 0.0) != (across[1 - line.major] > 0.0);
+  }
+  const bool goes_on = edge.is_smooth && line.faces[0].is_low != line.faces[1].is_low;
+  return goes_on ? Line{} : line;
+}
+
+/// What happens to a picture, collected before it is changed: colours are mixed from what was painted.
+class Mixer {
+ public:
+  explicit Mixer(EyeFrame& frame)
+      : frame_(frame),
+        picture_({0, 0}, frame.colour.size()),
+        done_(frame.colour.size(), CV_8UC1, cv::Scalar(0)) {
+    changes_.reserve(kUsualChanges);
+  }
+
+  void follow(const Line& line) {
+    for (int k = line.first; k <= line.last; ++k) {
+      const double at = line.minor_at(k);
+      if (!(at > -1.0 && at < std::max(picture_.width, picture_.height))) continue;
+      const int low = static_cast<int>(std::floor(at));
+      mix(line, k, low);
+      if (at - low < kSnap_px) mix(line, k, low - 1);
+      if (low + 1 - at < kSnap_px) mix(line, k, low + 1);
+    }
+  }
+
+  void apply() const {
+    for (const Change& change : changes_) {
+      auto& colour = frame_.colour.at<cv::Vec3b>(change.pixel);
+      for (int i = 0; i < 3; ++i)
+        colour[i] = cv::saturate_cast<std::uint8_t>(static_cast<float>(colour[i]) + change.by[i]);
+    }
+  }
+
+ private:
+  struct Change {
+    cv::Point pixel;
+    cv::Vec3f by;
+  };
+
+  /// Mixes the pixels `low` and `low` + 1 of the minor axis, if the edge is what divides them.
+  void mix(const Line& line, int k, int low) {
+    const auto pixel = [&](int j) { return line.major == 0 ? cv::Point(k, j) : cv::Point(j, k); };
+    const cv::Point lower = pixel(low), higher = pixel(low + 1);
+    if (!picture_.contains(lower) || !picture_.contains(higher) || !divides(line, lower, higher)) return;
+    auto& done = done_.at<std::uint8_t>(lower);
+    const auto bit = static_cast<std::uint8_t>(1 << line.major);
+    if ((done & bit) != 0) return;  // edges that lie on each other are one
+    done = static_cast<std::uint8_t>(done | bit);
+    const cv::Vec3f step =
+        cv::Vec3f(frame_.colour.at<cv::Vec3b>(higher)) - cv::Vec3f(frame_.colour.at<cv::Vec3b>(lower));
+    const double at = line.minor_at(k);
+    changes_.push_back({lower, step * static_cast<float>(1.0 - share_low(at, line.slope, low))});
+    changes_.push_back({higher, step * static_cast<float>(-share_low(at, line.slope, low + 1))});
+  }
+
+  bool sees(const cv::Point& pixel, const Face& face) const {
+    return std::abs(double{frame_.depth_m.at<float>(pixel)} * face.inverse_depth(pixel) - 1.0) <= kSameDepth;
+  }
+
+  /// Whether one of the pixels sees a face that ends here. What the other one sees may be as near as it
+  /// likes: the floor at a wall's foot comes nearer by any amount within a pixel.
+  bool divides(const Line& line, const cv::Point& lower, const cv::Point& higher) const {
+    return std::any_of(line.faces.begin(), line.faces.end(),
+                       [&](const Face& face) { return sees(face.is_low ? lower : higher, face); });
+  }
+
+  EyeFrame& frame_;
+  cv::Rect picture_;
+  cv::Mat done_;  // bits by axis: pairs that are mixed already, by their lower pixel
+  std::vector<Change> changes_;
+};
+
+}  // namespace
+
+double share_low(double at, double slope, int j) {
+  const double begin = at - 0.5 * slope - (j - 0.5);
+  const double end = at + 0.5 * slope - (j - 0.5);
+  if (std::abs(end - begin) < 1e-6) return std::clamp(0.5 * (begin + end), 0.0, 1.0);
+  return (clamp_integral(end) - clamp_integral(begin)) / (end - begin);
+}
+
+void EdgeSmoother::smooth(const EyeView& view, EyeFrame& frame) const {
+  Mixer mixer(frame);
+  const auto follow = [&](const SurfaceEdge& edge) { mixer.follow(line_of(edge, view)); };
+  for (const EdgeGroup& group : groups_) {
+    if (group.run && !can_see(view, *group.run)) continue;
+    std::for_each(group.edges.begin(), group.edges.end(), follow);
+  }
+  for (const SurfaceEdge& edge : floor_edges(view.centre_in_world())) follow(edge);
+  mixer.apply();
+}
+
+}  // namespace stereobench::renderer

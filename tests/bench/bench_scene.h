@@ -1,0 +1,62 @@
+/// Scenes that are rendered and timed, beside copying the same pair of images.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/renderer.h"
+#include "worlds/scenario.h"
+
+namespace stereobench {
+
+/// A world as it is rendered from one place.
+struct Scene {
+  worlds::World world;
+  vision::StereoRig rig;
+  slam::Pose pose;
+};
+
+/// A quarter of the way along a shipped scenario's path.
+inline Scene scenario_scene(const std::string& name) {
+  const auto scenario =
+      worlds::read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml");
+  return {scenario.world, scenario.rig, scenario.path[scenario.path.size() / 4].pose};
+}
+
+/// A rendered pair and what copying it costs.
+struct Bench {
+  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa)
+      : scene(std::move(shown)),
+        renderer(scene.world, scene.rig, backend),
+        frame(renderer.render(scene.pose)) {}
+
+  /// Times `stage`, and the copy right after it, so that both see the same machine.
+  template <typename Stage>
+  void run(benchmark::State& state, Stage stage) {
+    double stage_s = 0.0;
+    double copy_s = 0.0;
+    for (auto _ : state) {
+      using Clock = std::chrono::steady_clock;
+      const auto begin = Clock::now();
+      stage();
+      const auto middle = Clock::now();
+      frame.left.colour.copyTo(left);
+      frame.right.colour.copyTo(right);
+      benchmark::ClobberMemory();
+      const double this_s = std::chrono::duration<double>(middle - begin).count();
+      copy_s += std::chrono::duration<double>(Clock::now() - middle).count();
+      stage_s += this_s;
+      state.SetIterationTime(this_s);
+    }
+    state.counters["copies"] = stage_s / copy_s;
+  }
+
+  Scene scene;
+  renderer::Renderer renderer;
+  renderer::StereoFrame frame;
+  cv::Mat left, right;
+};
+
+}  // namespace stereobench

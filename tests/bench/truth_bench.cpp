@@ -1,0 +1,75 @@
+/// What truth costs beyond a frame's own, and what smoothing edges does, for both eyes.
+#include "renderer/ball_truth.h"
+#include "renderer/correspondence.h"
+#include "renderer/edge_smoother.h"
+#include "renderer/eye_truth.h"
+#include "tests/bench/bench_scene.h"
+
+namespace stereobench {
+namespace {
+
+/// A bench that knows what its eyes see.
+struct TruthBench : Bench {
+  explicit TruthBench(const std::string& scenario)
+      : Bench(scenario_scene(scenario)),
+        geometry(scene.world),
+        sight(renderer.sight(scene.pose, scene.pose)) {}
+
+  renderer::SceneGeometry geometry;
+  renderer::StereoSight sight;
+};
+
+void truth_pair_sight(benchmark::State& state, const std::string& scenario) {
+  TruthBench bench(scenario);
+  bench.run(state,
+            [&] { benchmark::DoNotOptimize(bench.renderer.sight(bench.scene.pose, bench.scene.pose)); });
+}
+
+void truth_pair_range_normal_surface(benchmark::State& state, const std::string& scenario) {
+  TruthBench bench(scenario);
+  bench.run(state, [&] {
+    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.sight.left));
+    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.sight.right));
+  });
+}
+
+void truth_pair_disparity(benchmark::State& state, const std::string& scenario) {
+  TruthBench bench(scenario);
+  bench.run(state, [&] {
+    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.sight.left, bench.sight.right));
+    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.sight.right, bench.sight.left));
+  });
+}
+
+void truth_pair_balls(benchmark::State& state, const std::string& scenario) {
+  TruthBench bench(scenario);
+  bench.run(state, [&] {
+    const worlds::World& world = bench.scene.world;
+    const auto& [left, right] = bench.sight;
+    benchmark::DoNotOptimize(renderer::ball_truths(world, left.view, bench.frame.left.ball_id));
+    benchmark::DoNotOptimize(renderer::ball_truths(world, right.view, bench.frame.right.ball_id));
+  });
+}
+
+/// Part of render_pair; here the edges of pictures that are smooth already, which costs the same.
+void smooth_pair(benchmark::State& state, const std::string& scenario) {
+  TruthBench bench(scenario);
+  const renderer::EdgeSmoother smoother(bench.scene.world, renderer::place_meshes(bench.scene.world));
+  bench.run(state, [&] {
+    smoother.smooth(bench.sight.left.view, bench.frame.left);
+    smoother.smooth(bench.sight.right.view, bench.frame.right);
+  });
+}
+
+#define STEREOBENCH_TRUTH(function)                                                                        \
+  BENCHMARK_CAPTURE(function, ball_circle, "ball_circle")->Unit(benchmark::kMillisecond)->UseManualTime(); \
+  BENCHMARK_CAPTURE(function, corridor, "corridor")->Unit(benchmark::kMillisecond)->UseManualTime()
+
+STEREOBENCH_TRUTH(truth_pair_sight);
+STEREOBENCH_TRUTH(truth_pair_range_normal_surface);
+STEREOBENCH_TRUTH(truth_pair_disparity);
+STEREOBENCH_TRUTH(truth_pair_balls);
+STEREOBENCH_TRUTH(smooth_pair);
+
+}  // namespace
+}  // namespace stereobench
