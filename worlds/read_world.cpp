@@ -36,7 +36,7 @@ Ball read_ball(const YamlValue& value, double usual_radius_m) {
 }
 
 std::vector<Ball> read_balls(const YamlMap& world) {
-  const double usual_radius_m = world.number("ball_radius_m", {1e-3, 10.0}, 0.05);
+  const double usual_radius_m = read_ball_radius_m(world);
   std::vector<Ball> balls;
   for (const YamlValue& value : world.at("balls").list(1, kMostBalls)) {
     balls.push_back(read_ball(value, usual_radius_m));
@@ -76,9 +76,18 @@ Light read_light(const YamlValue& value) {
 
 }  // namespace
 
+double read_ball_radius_m(const YamlMap& world) {
+  return world.number("ball_radius_m", {1e-3, 10.0}, 0.05);
+}
+
 World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   World world;
-  world.balls = read_balls(map);
+  if (const auto generator = map.find("generator")) {
+    if (map.find("balls") || map.find("walls"))
+      generator->refuse("expected no lists of balls and walls beside it: it makes them");
+  } else {
+    world.balls = read_balls(map);
+  }
   if (const auto walls = map.find("walls")) {
     for (const YamlValue& wall : walls->list(0, kMostWalls)) append_walls(wall, world.walls);
   }
