@@ -1,5 +1,6 @@
 #include <array>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -9,18 +10,15 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kSize_m = {1e-3, 1e3};
 constexpr Interval kShare = {0.0, 1.0};
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
 
-constexpr std::array<std::string_view, 5> kMaterials = {"plain", "tiles", "plaster", "bricks", "wood"};
-
 Material read_material(const YamlMap& map, std::string_view key, Material fallback) {
   const auto value = map.find(key);
-  return value ? static_cast<Material>(value->choice(kMaterials)) : fallback;
+  return value ? static_cast<Material>(value->choice(std::span(kMaterialNames).first(5))) : fallback;
 }
 
 Ball read_ball(const YamlValue& value, double usual_radius_m) {

@@ -15,6 +15,10 @@ namespace stereobench::worlds {
 inline constexpr std::array<std::string_view, 9> kWorldKeys = {
     "generator", "ball_radius_m", "balls", "walls", "meshes", "mesh_limits", "floor", "light", "sky_rgb"};
 
+/// What materials are called, by Material; the last is for meshes alone.
+inline constexpr std::array<std::string_view, 6> kMaterialNames = {"plain",  "tiles", "plaster",
+                                                                   "bricks", "wood",  "file"};
+
 /// `world.ball_radius_m`, of balls that do not say theirs.
 double read_ball_radius_m(const YamlMap& world);
 

@@ -10,6 +10,7 @@
 #include "worlds/path.h"
 #include "worlds/scenario.h"
 #include "worlds/sight.h"
+#include "worlds/write_scenario.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -114,6 +115,22 @@ std::string print(const Scenario& scenario) {
   for (const Wall& wall : scenario.world.walls)
     for (const double number : {wall.from_m.x(), wall.from_m.y(), wall.to_m.x(), wall.to_m.y()}) add(number);
   return text;
+}
+
+// Mutations tried: numbers of six digits; the tour left out.
+TEST_P(Generated, WrittenOutItIsTheSameWorldAndDrive) {
+  const ScenarioFolder folder;
+  const auto file = folder.write("made.yaml", made(GetParam().generator, GetParam().path));
+  const Scenario scenario = read_scenario(file, {"world.generator.seed=5"});
+  const auto copy = folder.write("copy.yaml", written_out(file, {"world.generator.seed=5"}));
+  const Scenario again = read_scenario(copy);
+  EXPECT_EQ(print(again), print(scenario));
+  EXPECT_EQ(written_out(copy), written_out(file, {"world.generator.seed=5"}));
+  ASSERT_EQ(again.path.size(), scenario.path.size());
+  for (std::size_t k = 0; k < scenario.path.size(); ++k) {
+    EXPECT_EQ(again.path[k].pose.x_m, scenario.path[k].pose.x_m);
+    EXPECT_EQ(again.path[k].pose.heading_rad, scenario.path[k].pose.heading_rad);
+  }
 }
 
 // Mutation tried: the generator's seed not used.
