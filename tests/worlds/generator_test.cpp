@@ -64,8 +64,8 @@ double nearest_wall_m(const World& world, const Eigen::Vector2d& at) {
   return nearest_m;
 }
 
-// Mutations tried: no slack for jitter; a ball kept that hides another; each check of is_clear dropped; the
-// gap to walls to the centre.
+// Mutations tried: no slack for jitter; no gap to walls; none to the drive; walls that hide nothing. Not
+// caught: a ball kept that hides another from an earlier step, which these seeds never draw.
 TEST_P(Generated, BallsStandClearAndEnoughAreInViewForEverySeedsJitter) {
   for (int seed = 0; seed < kSeeds; ++seed) {
     const Scenario scenario = world_of(seed);
@@ -117,7 +117,7 @@ std::string print(const Scenario& scenario) {
   return text;
 }
 
-// Mutations tried: numbers of six digits; the tour left out.
+// Mutation tried: numbers of six digits.
 TEST_P(Generated, WrittenOutItIsTheSameWorldAndDrive) {
   const ScenarioFolder folder;
   const auto file = folder.write("made.yaml", made(GetParam().generator, GetParam().path));
@@ -193,7 +193,7 @@ TEST(Generator, SaysWhatIsImpossible) {
 }
 
 // Held against the disc-and-segment check of the shipped scenarios' tests, which is stricter at borders, and
-// for which a ball that is cut by the border hides nothing. Mutations: no walls; no border; one eye alone.
+// for which a ball that is cut by the border hides nothing. Mutation tried: walls that hide nothing.
 TEST(Sight, SeesWhatTheOtherCheckSees) {
   const Scenario scenario =
       read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/corridor.yaml");
