@@ -10,8 +10,6 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kFactor = {1e-3, 1e3};
 constexpr Interval kTurn_deg = {-360.0, 360.0};
-constexpr std::array<std::string_view, 6> kMaterials = {"plain",  "tiles", "plaster",
-                                                        "bricks", "wood",  "file"};
 constexpr std::array<std::string_view, 2> kUps = {"z", "y"};
 
 /// Puts a mesh of unit height between the floor and the ball that `ball` names.
@@ -52,7 +50,7 @@ MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& fold
   if (at) mesh.position_m = read_vector<3>(*at, kPlace_m);
   if (ball) stand_under(*ball, balls, mesh);
   if (const auto material = map.find("material"))
-    mesh.material = static_cast<Material>(material->choice(kMaterials));
+    mesh.material = static_cast<Material>(material->choice(kMaterialNames));
   return mesh;
 }
 

@@ -58,15 +58,32 @@ vision::Distortion read_distortion(const YamlValue& value, const vision::Intrins
   return lens;
 }
 
+/// The tour of a generated world.
+GroundTruth read_tour(const YamlValue& value, const Layout* layout) {
+  const YamlMap map(value, {"kind", "corner_radius_m", "overlap_m", "speed_mps", "step_s", "odometry_s"});
+  if (layout == nullptr || layout->tour_m.empty())
+    map.at("kind").refuse("expected a world whose generator makes corridors to tour");
+  PolylinePath path;
+  path.points_m = layout->tour_m;
+  path.closed = layout->closed;
+  path.corner_radius_m = map.number("corner_radius_m", kSize_m, layout->corner_radius_m);
+  path.overlap_m = map.number("overlap_m", {0.0, 1e4}, 0.0);
+  path.speed_mps = map.number("speed_mps", kSpeed_mps);
+  path.step_s = map.number("step_s", kStep_s);
+  path.odometry_s = map.number("odometry_s", kStep_s, 0.0);
+  return drive_polyline(path);
+}
+
 }  // namespace
 
-GroundTruth read_path(const YamlValue& value) {
+GroundTruth read_path(const YamlValue& value, const Layout* layout) {
   const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "laps", "points_m", "closed",
                             "corner_radius_m", "overlap_m", "speed_mps", "step_s", "odometry_s"});
-  constexpr std::array<std::string_view, 2> kKinds = {"circle", "polyline"};
-  const bool circle = map.at("kind").choice(kKinds) == 0;
+  constexpr std::array<std::string_view, 3> kKinds = {"circle", "polyline", "tour"};
+  const std::size_t kind = map.at("kind").choice(kKinds);
   try {
-    return circle ? read_circle(value) : read_polyline(value);
+    if (kind == 0) return read_circle(value);
+    return kind == 1 ? read_polyline(value) : read_tour(value, layout);
   } catch (const std::invalid_argument& error) {
     value.refuse(error.what());
   }

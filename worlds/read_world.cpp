@@ -1,5 +1,6 @@
 #include <array>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -9,18 +10,15 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kSize_m = {1e-3, 1e3};
 constexpr Interval kShare = {0.0, 1.0};
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
 
-constexpr std::array<std::string_view, 5> kMaterials = {"plain", "tiles", "plaster", "bricks", "wood"};
-
 Material read_material(const YamlMap& map, std::string_view key, Material fallback) {
   const auto value = map.find(key);
-  return value ? static_cast<Material>(value->choice(kMaterials)) : fallback;
+  return value ? static_cast<Material>(value->choice(std::span(kMaterialNames).first(5))) : fallback;
 }
 
 Ball read_ball(const YamlValue& value, double usual_radius_m) {
@@ -36,7 +34,7 @@ Ball read_ball(const YamlValue& value, double usual_radius_m) {
 }
 
 std::vector<Ball> read_balls(const YamlMap& world) {
-  const double usual_radius_m = world.number("ball_radius_m", {1e-3, 10.0}, 0.05);
+  const double usual_radius_m = read_ball_radius_m(world);
   std::vector<Ball> balls;
   for (const YamlValue& value : world.at("balls").list(1, kMostBalls)) {
     balls.push_back(read_ball(value, usual_radius_m));
@@ -76,9 +74,18 @@ Light read_light(const YamlValue& value) {
 
 }  // namespace
 
+double read_ball_radius_m(const YamlMap& world) {
+  return world.number("ball_radius_m", {1e-3, 10.0}, 0.05);
+}
+
 World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   World world;
-  world.balls = read_balls(map);
+  if (const auto generator = map.find("generator")) {
+    if (map.find("balls") || map.find("walls"))
+      generator->refuse("expected no lists of balls and walls beside it: it makes them");
+  } else {
+    world.balls = read_balls(map);
+  }
   if (const auto walls = map.find("walls")) {
     for (const YamlValue& wall : walls->list(0, kMostWalls)) append_walls(wall, world.walls);
   }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
 
 #include "slam/filter_names.h"
 #include "slam/random.h"
+#include "worlds/generator.h"
 #include "worlds/scenario_checks.h"
 #include "worlds/scenario_parts.h"
 #include "worlds/seeds.h"
@@ -79,6 +81,29 @@ void read_odometry(const YamlMap& map, Scenario& scenario) {
   scenario.believed_odometry_noise = believed ? read_odometry_noise(*believed) : scenario.odometry_noise;
 }
 
+/// Puts a generated world's walls and balls in place, once it is known who drives where and sees how.
+void generate(const YamlValue& value, const Generator& generator, Scenario& scenario) {
+  scenario.world.walls = generator.layout.walls;
+  try {
+    place_balls(scenario, generator.rules);
+  } catch (const std::invalid_argument& error) {
+    value.refuse(error.what());
+  }
+}
+
+void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder, Scenario& scenario) {
+  const YamlMap world(map.at("world"), kWorldKeys);
+  const auto made = world.find("generator");
+  std::optional<Generator> generator;
+  if (made) generator = read_generator(*made, read_ball_radius_m(world));
+  scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr);
+  scenario.world = read_world(world, folder);
+  if (generator)
+    generate(*made, *generator, scenario);
+  else
+    check_balls(scenario, world.at("balls"));
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -111,11 +136,8 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   read_run(map, scenario);
   read_sensing(map, scenario);
   read_odometry(map, scenario);
-  scenario.path = read_path(map.at("path"));
   scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
-  const YamlMap world(map.at("world"), kWorldKeys);
-  scenario.world = read_world(world, file.parent_path());
-  check_balls(scenario, world.at("balls"));
+  read_world_and_path(map, file.parent_path(), scenario);
   return scenario;
 }
 

@@ -6,15 +6,24 @@
 #include <optional>
 #include <string_view>
 
+#include "worlds/layout.h"
 #include "worlds/types.h"
 #include "worlds/yaml_value.h"
 
 namespace stereobench::worlds {
 
-inline constexpr std::array<std::string_view, 8> kWorldKeys = {"ball_radius_m", "balls", "walls", "meshes",
-                                                               "mesh_limits",   "floor", "light", "sky_rgb"};
+inline constexpr std::array<std::string_view, 9> kWorldKeys = {
+    "generator", "ball_radius_m", "balls", "walls", "meshes", "mesh_limits", "floor", "light", "sky_rgb"};
 
-/// `world:` balls, walls, meshes, floor, light and sky. Mesh files, relative to the folder, must exist.
+/// What materials are called, by Material; the last is for meshes alone.
+inline constexpr std::array<std::string_view, 6> kMaterialNames = {"plain",  "tiles", "plaster",
+                                                                   "bricks", "wood",  "file"};
+
+/// `world.ball_radius_m`, of balls that do not say theirs.
+double read_ball_radius_m(const YamlMap& world);
+
+/// `world:` balls, walls, meshes, floor, light and sky. Mesh files, relative to the folder, must exist. A
+/// generator's world has no lists of balls and walls of its own.
 World read_world(const YamlMap& map, const std::filesystem::path& folder);
 
 /// An entry of `world.meshes`. @param balls those that it may stand under
@@ -24,8 +33,9 @@ MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& fold
 /// `world.mesh_limits:` what a mesh file may cost.
 MeshLimits read_mesh_limits(const YamlValue& value);
 
-/// `path:` a circle or a polyline, driven.
-GroundTruth read_path(const YamlValue& value);
+/// `path:` a circle, a polyline, or the tour of a generated world, driven.
+/// @param layout of the world, where it is generated
+GroundTruth read_path(const YamlValue& value, const Layout* layout);
 
 /// `rig:` the cameras and how they sit on the robot.
 vision::StereoRig read_rig(const YamlValue& value);

@@ -11,6 +11,7 @@
 #include "harness/report/plan_picture.h"
 #include "worlds/path.h"
 #include "worlds/scenario.h"
+#include "worlds/write_scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -20,6 +21,7 @@ struct WorldArguments {
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
   std::filesystem::path out;
+  std::filesystem::path written;
 };
 
 std::string share_of_steps(const ViewCoverage& coverage, int least) {
@@ -55,8 +57,11 @@ int show_world(const WorldArguments& arguments) {
         draw_plan(scenario, world, coverage, mesh_outlines(world, scenario.rig.height_m));
     write_file_atomically(arguments.out, plan);
   }
+  if (!arguments.written.empty())
+    write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides));
   print_summary(scenario, world, coverage);
   if (!arguments.out.empty()) fmt::print("plan: {}\n", arguments.out.string());
+  if (!arguments.written.empty()) fmt::print("scenario: {}\n", arguments.written.string());
   return kPassed;
 }
 
@@ -71,6 +76,8 @@ void add_world_command(CLI::App& program, Action& action) {
   command->add_option("--seed", arguments->seed, "the world of this seed (default: no ball moved)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out,-o", arguments->out, "SVG file for the plan");
+  command->add_option("--write", arguments->written,
+                      "scenario file that says what a generator made line by line, to be edited");
   command->footer(
       "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
       "what is behind them, meshes do not. For an oracle it is what lies in its sector.\n\n"

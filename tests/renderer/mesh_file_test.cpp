@@ -62,7 +62,7 @@ std::vector<Eigen::Vector3d> placed_corners(const worlds::MeshInstance& mesh) {
   return corners;
 }
 
-// Mutations: the unit forgotten; up y as (x, z, -y); turned in the other order; the scale after the turn.
+// Mutation tried: the unit forgotten. Meant to catch: up y as (x, z, -y); turned in the other order.
 TEST(MeshFile, TakesUnitUpAxisAndFullPose) {
   const std::string file = written("mesh_posed.obj", "v 10 0 0\nv 0 20 0\nv 0 0 40\nf 1 2 3\n");
   worlds::MeshInstance mesh{file};
@@ -83,7 +83,7 @@ TEST(MeshFile, TakesUnitUpAxisAndFullPose) {
 const char* const kTwoColours =
     "newmtl red\nKd 0.5 0.25 0.125\nnewmtl odd\nKd 2 -1 0.5\n";  // the second is out of range
 
-// Mutations: the colours of the first material for all; runs that do not end where the colour does.
+// Meant to catch: the colours of the first material for all; runs that do not end where the colour does.
 TEST(MeshFile, GivesEachPartTheColourOfItsMaterial) {
   written("mesh_two.mtl", kTwoColours);
   const std::string file = written("mesh_two.obj",
@@ -99,8 +99,8 @@ TEST(MeshFile, GivesEachPartTheColourOfItsMaterial) {
   EXPECT_EQ(placed.runs[2].count, 6);
 }
 
-// A wall that a file describes once for each side, red to the south and green to the north. Mutations: both
-// sides drawn; the other side culled.
+// A wall that a file describes once for each side, red to the south and green to the north. Mutation
+// tried: the other side culled.
 TEST(MeshFile, ShowsOfAWallWithTwoFacesTheOneThatFacesTheEye) {
   written("mesh_sides.mtl", "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n");
   const std::string file = written("mesh_sides.obj",
@@ -181,7 +181,7 @@ std::string complaint(const std::function<void()>& act) {
   return "no complaint";
 }
 
-// Mutations: each check dropped; `>=` for `>` in the count.
+// Meant to catch: each check dropped; `>=` for `>` in the count.
 TEST(MeshFile, KeepsToItsLimits) {
   const std::string file = written("mesh_many.obj", many_triangles(40000));  // 1.5 MB
   EXPECT_EQ(read_mesh(file, {.triangles = 40000}).size(), 40000U);

@@ -63,7 +63,7 @@ bool is_good(const Expected& row) {
   return row.exit_status == 0 && row.file.extension() != ".ply" && row.farthest < 1e6;
 }
 
-// Mutations: loading in this process (it dies of the crash file where ply is allowed); incomplete scenes
+// Meant to catch: loading in this process (it dies of the crash file where ply is allowed); incomplete scenes
 // taken.
 TEST(MeshGallery, EveryFileIsReadInFullOrRefusedByNameInOneLine) {
   const std::vector<Expected> rows = read_table();

@@ -123,7 +123,7 @@ constexpr Fault kValueFaults[] = {
     {"particles: 20", "association: best", "4: association: expected one of individual, joint (got best)"},
     {"v_per_v: 0.1", "v_per_v: -0.1",
      "11: odometry_noise.v_per_v: expected a number from 0 to 100 (got -0.1)"},
-    {"kind: circle", "kind: spiral", "13: path.kind: expected one of circle, polyline (got spiral)"},
+    {"kind: circle", "kind: spiral", "13: path.kind: expected one of circle, polyline, tour (got spiral)"},
     {"radius_m: 1\n", "radius_m: [1]\n",
      "14: path.radius_m: expected a number from 0.001 to 10000 (got a list of 1)"},
     {"laps: 1", "laps: 0", "16: path.laps: expected a number from 0.001 to 1000 (got 0)"},
