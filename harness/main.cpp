@@ -26,6 +26,7 @@ int run_program(int argc, char** argv) {
   add_render_command(program, action);
   add_slam_command(program, action);
   add_sweep_command(program, action);
+  add_detect_command(program, action);
   add_doctor_command(program, action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty())
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
   using namespace stereobench::harness;
   try {
     return run_program(argc, argv);
-  } catch (const WorkerCrash& crash) {
+  } catch (const RunCrash& crash) {
     fmt::print(stderr, "stereobench: {}\n", crash.what());
     return kRunCrashed;
   } catch (const std::exception& error) {
