@@ -19,7 +19,7 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", STEREOBENCH_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 passed, 1 a gate is broken, 2 bad input, 4 a run crashed.\n"
+      "Exit codes: 0 passed, 1 a gate is broken, 2 bad input, 4 a run or a detector crashed.\n"
       "Start with: stereobench run assets/scenarios/ball_circle.yaml");
   Action action;
   add_run_command(program, action);

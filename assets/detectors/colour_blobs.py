@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 
 SMALLEST_RADIUS_PX = 5.0
-CENTRE_SD_PX = 0.15  # what a centre is off by, as measured with `vision.disparity_rms_px` of run.json
+CENTRE_SD_PX = 0.05  # what a centre is off by, as measured with `vision.disparity_rms_px` of run.json
 
 
 def light_of(level, setup):
@@ -34,7 +34,7 @@ def colour_table(setup):
     shares = bgr[:, [2, 1]] / bgr.sum(axis=1, keepdims=True)
     wanted = palette[:, :2] / palette.sum(axis=1, keepdims=True)
     gaps = np.linalg.norm(shares[:, None] - wanted[None], axis=2)
-    clear = (gaps.min(axis=1) < 0.04) & (bgr.max(axis=1) > 0.15)
+    clear = (gaps.min(axis=1) < 0.07) & (bgr.max(axis=1) > 0.15)
     return np.where(clear, gaps.argmin(axis=1), 255).astype(np.uint8)
 
 
@@ -64,8 +64,8 @@ def balls(lefts, rights, setup):
     for colour, column, row, radius in lefts:
         for other, right_column, right_row, right_radius in rights:
             expected = radius_per_disparity * (column - right_column)
-            same = colour == other and abs(row - right_row) < 1.5 and abs(radius - right_radius) < 1.0
-            if same and abs(radius - expected) < 1.0 + 0.1 * radius:
+            like = colour == other and abs(row - right_row) < 1.5 and abs(radius - right_radius) < 1.0 + 0.05 * radius
+            if like and abs(radius - expected) < 1.0 + 0.1 * radius:
                 yield {"colour": colour, "left_px": [column, row], "right_px": [right_column, right_row],
                        "left_radius_px": radius, "right_radius_px": right_radius,
                        "centre_sd_px": CENTRE_SD_PX}
