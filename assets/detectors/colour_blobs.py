@@ -48,7 +48,9 @@ def ellipses(path, table):
         mask = (colours == colour).astype(np.uint8)
         borders, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
         for border in borders:
-            if len(border) < 2.0 * np.pi * SMALLEST_RADIUS_PX * 0.8:
+            left, top, width, height = cv2.boundingRect(border)
+            is_cut = min(left, top) == 0 or left + width == mask.shape[1] or top + height == mask.shape[0]
+            if is_cut or len(border) < 2.0 * np.pi * SMALLEST_RADIUS_PX * 0.8:
                 continue
             (column, row), axes, _ = cv2.fitEllipse(border)
             is_round = min(axes) > 0.85 * max(axes)
@@ -64,8 +66,8 @@ def balls(lefts, rights, setup):
     for colour, column, row, radius in lefts:
         for other, right_column, right_row, right_radius in rights:
             expected = radius_per_disparity * (column - right_column)
-            like = colour == other and abs(row - right_row) < 1.5 and abs(radius - right_radius) < 1.0 + 0.05 * radius
-            if like and abs(radius - expected) < 1.0 + 0.1 * radius:
+            alike = colour == other and abs(row - right_row) < 1.5
+            if alike and max(abs(radius - right_radius), abs(radius - expected)) < 1.0 + 0.1 * radius:
                 yield {"colour": colour, "left_px": [column, row], "right_px": [right_column, right_row],
                        "left_radius_px": radius, "right_radius_px": right_radius,
                        "centre_sd_px": CENTRE_SD_PX}

@@ -116,13 +116,15 @@ int milliseconds_until(SupervisedProcess::Time until) {
   return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 3'600'000));
 }
 
-/// Waits until one of the files can be read or written.
+/// Waits until one of the files can be read or written; the second one, which may never fall silent, only as
+/// long as there is time.
 /// @return false when the time is over
 bool wait_for(std::array<pollfd, 2>& files, SupervisedProcess::Time until) {
   for (;;) {
     const int ready = ::poll(files.data(), files.size(), milliseconds_until(until));
-    if (ready > 0) return true;
-    if (ready == 0 && Clock::now() >= until) return false;
+    const bool in_time = Clock::now() < until;
+    if (ready > 0 && (in_time || files[0].revents != 0)) return true;
+    if (ready >= 0 && !in_time) return false;
   }
 }
 

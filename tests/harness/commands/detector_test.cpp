@@ -41,8 +41,8 @@ nlohmann::json run_json_of(const ScratchFolder& scratch) {
 
 // The strongest law of the protocol: our own detector, asked through it, gives what it gives in the process,
 // byte for byte, but for its name; with any jobs, a camera that encodes, and a rig that is not as it is
-// believed to be. Mutations: six digits in a line; the setup's encoding, noise or ball radius left out; the
-// true rig handed out; 8 bits of a lossy picture format.
+// believed to be. Mutations, some tried together: a range of six digits; the setup's encoding not read, or
+// its noise; eyes swapped in the reader.
 TEST(DetectorProgram, OursThroughTheProtocolGivesTheSameBytes) {
   const ScratchFolder scratch;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
@@ -91,8 +91,9 @@ long left_in(const std::filesystem::path& folder) {
   });
 }
 
-// Mutations: no deadline; the frame's number not looked at; what comes after the last frame not looked at;
-// the end's status not looked at; pictures not removed.
+// Mutations: the frame's number not looked at; what comes after the last frame, or how it ended, not looked
+// at; told as bad input. `EndlessErrors` hung some runs when errors that never pause kept the deadline from
+// being looked at.
 TEST_P(MisbehavingDetector, EndsTheRunWithFourAndOneLineAndNothingLeft) {
   const ScratchFolder scratch;
   const auto began = std::chrono::steady_clock::now();
@@ -222,9 +223,9 @@ TEST(ExampleDetector, FindsWhatASimpleOneCan) {
        "/usr/bin/python3 " STEREOBENCH_SOURCE_DIR "/assets/detectors/colour_blobs.py"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json = run_json_of(scratch);
-  EXPECT_GE(json["vision"]["recall"].get<double>(), 0.85);
+  EXPECT_GE(json["vision"]["recall"].get<double>(), 0.9);
   EXPECT_EQ(json["vision"]["precision"], 1.0);
-  EXPECT_LE(json["vision"]["disparity_rms_px"].get<double>(), 0.15);
+  EXPECT_LE(json["vision"]["disparity_rms_px"].get<double>(), 0.1);
   EXPECT_LT(json["filters"]["ufastslam"]["ate_rms_m"]["mean"].get<double>(),
             json["filters"]["dead_reckoning"]["ate_rms_m"]["mean"].get<double>());
 }

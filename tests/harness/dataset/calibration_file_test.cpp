@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 // Law: a rig is read as it was written. Mutations: the pitch looks up; the right eye's turn about the axes in
-// another order; cx and cy swapped.
+// another order.
 TEST(CalibrationFile, IsReadAsItWasWritten) {
   const TestFolder folder;
   slam::RandomStream random(3, slam::Stream::kWorld);

@@ -79,8 +79,8 @@ std::vector<BallObservation> read(const std::string& balls) {
   return read_detections("{\"frame\": 3, \"balls\": [" + balls + "]}", 3, kGeometry);
 }
 
-// Law: centres alone say what a ball triangulated from them is. Mutations: front surface for centre (the
-// ball's radius left out), covariance of another sd.
+// Law: centres alone say what a ball triangulated from them is. Mutation: front surface for
+// centre (the ball's radius left out).
 TEST(DetectionLines, PixelsAloneAreTriangulatedAsOurOwnAre) {
   slam::RandomStream random(8, slam::Stream::kWorld);
   for (int i = 0; i < 50; ++i) {
@@ -142,7 +142,7 @@ void PrintTo(const Bad& bad, std::ostream* out) {
 }
 class BadDetections : public testing::TestWithParam<Bad> {};
 
-// Mutations: NaN let through as null; a list of numbers without a check of its length; no bound on balls.
+// Mutations: no bound on balls; the frame's number not looked at.
 TEST_P(BadDetections, AreOneLineThatSaysWhereAndWhat) {
   try {
     read_detections(GetParam().line, 3, kGeometry);

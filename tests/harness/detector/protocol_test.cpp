@@ -21,7 +21,7 @@ DetectorSetup odd_setup() {
   return setup;
 }
 
-// Law: a program is told exactly what we know. Mutation: six digits.
+// Law: a program is told exactly what we know. Mutation: the encoding not read.
 TEST(Protocol, SetupIsReadBackExactly) {
   const DetectorSetup setup = odd_setup();
   const DetectorSetup read = read_setup(setup_line(setup));
@@ -50,7 +50,6 @@ TEST(Protocol, FramesAreReadBackExactly) {
   EXPECT_EQ(read.right, "/tmp/\"r\".png");
 }
 
-// Mutation: any version.
 TEST(Protocol, RefusesWhatItDoesNotKnow) {
   std::string other = setup_line({});
   other.replace(other.find("\"version\":1"), 11, "\"version\":2");

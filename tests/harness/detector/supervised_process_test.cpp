@@ -92,8 +92,7 @@ TEST(SupervisedProcess, SaysHowItEnded) {
   EXPECT_FALSE(SupervisedProcess("sleep 60", place.scratch).wait_status(in_ms(20)));
 }
 
-// Mutations: only the shell is killed and not its group; the scratch folder is not removed; the supervisor is
-// not waited for.
+// Mutation: the supervisor ends and the command does not. (Killing the shell and not its group hangs.)
 TEST(SupervisedProcess, LeavesNothingBehind) {
   const Place place;
   std::ofstream(place.scratch / "picture.png") << "pixels";
@@ -120,7 +119,8 @@ TEST(SupervisedProcess, WhatItStartedEndsWithIt) {
   EXPECT_TRUE(comes_true([&] { return !exists(child); }));
 }
 
-// A run that is killed cannot clean up; its supervisor does. Mutation: without the lifeline.
+// A run that is killed cannot clean up; its supervisor does. Mutation: it does not end
+// the command when the lifeline does.
 TEST(SupervisedProcess, IsEndedWhenItsOwnerIsKilled) {
   const Place place;
   const std::string note = (place.outer.path() / "pid").string();

@@ -60,8 +60,7 @@ TEST(VisionScore, WhoClaimsNoColourIsRightOnAnyBall) {
 }
 
 // What says nothing of heights is looked for at each ball's, and of two in one direction the nearer in range
-// is meant. Mutations: looked for at the cameras' height; the first ball of a direction; the pixels looked
-// at.
+// is meant. Mutation: the first ball of a direction.
 TEST(VisionScore, RangeAndBearingAloneTellWhichBallIsMeant) {
   const worlds::Ball low{{1.5, 0.0, 0.05}, 0.06, 2};
   const worlds::Ball high{{2.4, 0.0, 0.65}, 0.06, 4};
