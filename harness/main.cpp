@@ -19,7 +19,7 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", STEREOBENCH_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 passed, 1 a gate is broken, 2 bad input, 4 a run crashed.\n"
+      "Exit codes: 0 passed, 1 a gate is broken, 2 bad input, 4 a run or a detector crashed.\n"
       "Start with: stereobench run assets/scenarios/ball_circle.yaml");
   Action action;
   add_run_command(program, action);
@@ -27,6 +27,7 @@ int run_program(int argc, char** argv) {
   add_slam_command(program, action);
   add_sweep_command(program, action);
   add_world_command(program, action);
+  add_detect_command(program, action);
   add_doctor_command(program, action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty())
@@ -49,7 +50,7 @@ int main(int argc, char** argv) {
   using namespace stereobench::harness;
   try {
     return run_program(argc, argv);
-  } catch (const WorkerCrash& crash) {
+  } catch (const RunCrash& crash) {
     fmt::print(stderr, "stereobench: {}\n", crash.what());
     return kRunCrashed;
   } catch (const std::exception& error) {

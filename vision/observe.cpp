@@ -16,9 +16,7 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;  // of the smallest outline's area that shows its colour clearly
-constexpr double kMaxHidden =
-    0.06;  // of an outline's area, between the 5 % that are fine and the 7 % that are not
+constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
 constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
 constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
 
@@ -30,10 +28,8 @@ void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye
                                             image.cols, image.rows, camera.width_px, camera.height_px));
 }
 
-void check_settings(const StereoRig& rig, const ObserverSettings& settings) {
+void check_settings(const ObserverSettings& settings) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (!is_usable(rig))
-    throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   if (!positive(settings.ball_radius_m) || !positive(settings.min_radius_px) ||
       !positive(settings.min_depth_m))
     throw std::invalid_argument("observer settings: expected positive ball radius, outline radius and depth");
@@ -58,19 +54,6 @@ std::vector<MeasuredOutline> without_duplicates(std::vector<MeasuredOutline> out
   return result;
 }
 
-std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const StereoRig& rig,
-                                           const ObserverSettings& settings) {
-  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
-  const FitSettings fit_settings{rig.camera, settings.noise_sd_levels, settings.min_radius_px};
-  std::vector<MeasuredOutline> outlines;
-  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
-    const auto outline = fit_outline(image, blob, fit_settings);
-    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
-    outlines.push_back(*outline);
-  }
-  return without_duplicates(std::move(outlines));
-}
-
 BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const ObserverSettings& settings) {
   const OutlineCentres centres{pair.left.centre_px, pair.right.centre_px, pair.left.covariance_px2,
                                pair.right.covariance_px2};
@@ -84,9 +67,9 @@ BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const Obs
   ball.range_bearing = range_bearing(
       ball.ball_in_camera, ball_covariance(rig, centres, settings.ball_radius_m), robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMaxHidden;
+  ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
   ball.occluded =
-      !pair.sizes_agree || std::max(pair.left.hidden_fraction, pair.right.hidden_fraction) > kMaxHidden;
+      !pair.sizes_agree || std::max(pair.left.hidden_fraction, pair.right.hidden_fraction) > kMostHidden;
   return ball;
 }
 
@@ -96,13 +79,29 @@ bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
 
 }  // namespace
 
+std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
+                                           const ObserverSettings& settings) {
+  check_settings(settings);
+  check_image(image, camera, "the");
+  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
+  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
+  std::vector<MeasuredOutline> outlines;
+  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
+    const auto outline = fit_outline(image, blob, fit_settings);
+    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
+    outlines.push_back(*outline);
+  }
+  return without_duplicates(std::move(outlines));
+}
+
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
                                      const ObserverSettings& settings) {
-  check_settings(rig, settings);
+  if (!is_usable(rig))
+    throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   check_image(pair.left, rig.camera, "left");
   check_image(pair.right, rig.camera, "right");
-  const auto left = find_outlines(pair.left, rig, settings);
-  const auto right = find_outlines(pair.right, rig, settings);
+  const auto left = find_outlines(pair.left, rig.camera, settings);
+  const auto right = find_outlines(pair.right, rig.camera, settings);
   std::vector<BallObservation> balls;
   for (const OutlinePair& outlines : match_outlines(left, right, rig, settings))
     balls.push_back(measure(outlines, rig, settings));

@@ -3,6 +3,9 @@
 
 #include <vector>
 
+#include <opencv2/core.hpp>
+
+#include "vision/outline_fit.h"
 #include "vision/rectify.h"
 #include "vision/types.h"
 
@@ -15,6 +18,17 @@ struct ObserverSettings {
   double min_radius_px = 5.0;    ///< smaller outlines are not measured
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
 };
+
+/// Of an outline's area, what may be hidden, or outside of the picture, of a ball that is to be trusted:
+/// between the 5 % that are fine and the 7 % that are not.
+inline constexpr double kMostHidden = 0.06;
+
+/// Finds the outlines of balls in one eye's picture.
+/// @param image CV_8UC3 of the camera's size, BGR, linear light; row padding is fine
+/// @return the largest patches of colour first
+/// @throws std::invalid_argument as observe
+std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
+                                           const ObserverSettings& settings);
 
 /// Finds every ball that both eyes see and measures range and bearing to it.
 /// Colour gives the identity (or its class), the outline's centre in each eye the position; eq. of sphere.h.

@@ -70,6 +70,15 @@ std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::
   return project(rig.camera, direction->homogeneous());
 }
 
+std::optional<Eigen::Vector2d> straight_point(const StereoRig& rig, const Eigen::Vector2d& taken_px,
+                                              Eye eye) {
+  const auto pinhole_px = pinhole_point(rig, taken_px);
+  if (!pinhole_px || eye == Eye::kLeft || rig.right_turn_rad.isZero(0.0)) return pinhole_px;
+  const Eigen::Vector3d direction = rotation(rig.right_turn_rad) * pixel_ray(rig.camera, *pinhole_px);
+  if (!(direction.z() > 0.0)) return std::nullopt;
+  return project(rig.camera, direction);
+}
+
 bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
   return pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
          pixel.y() <= camera.height_px - 0.5;

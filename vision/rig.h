@@ -39,6 +39,11 @@ Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_i
 /// @return empty where the lens folds its picture
 std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px);
 
+/// Where a rig without faults, its right eye straight and its lenses without distortion, would show what a
+/// pixel of an eye's picture shows.
+/// @return empty where the lens folds its picture, or for what that rig has behind it
+std::optional<Eigen::Vector2d> straight_point(const StereoRig& rig, const Eigen::Vector2d& taken_px, Eye eye);
+
 /// Whether a place lies within the area of a picture's pixels.
 bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel);
 

@@ -67,6 +67,11 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
+  if (const auto detector = map.find("detector")) {
+    if (!stereo) detector->refuse("the oracle has no pictures to look at");
+    scenario.detector.command = detector->text();
+  }
+  scenario.detector.timeout_s = map.number("detector_timeout_s", {1e-3, 1e6}, scenario.detector.timeout_s);
   if (const auto noise = map.find("believed_measurement_noise")) {
     const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;
     scenario.believed_measurement_noise = read_measurement_noise(*noise, rig);
@@ -123,6 +128,8 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "believed_rig",
                      "camera",
                      "shutter",
+                     "detector",
+                     "detector_timeout_s",
                      "oracle",
                      "odometry_noise",
                      "believed_odometry_noise",

@@ -121,6 +121,12 @@ struct Gate {
   double limit = 0.0;
 };
 
+/// Somebody's program that finds the balls in the pictures.
+struct DetectorProgram {
+  std::string command;      ///< of the shell; empty: the vision stage looks itself
+  double timeout_s = 30.0;  ///< for the answer to a frame
+};
+
 /// Everything that a run is made from.
 struct Scenario {
   std::string name;
@@ -137,6 +143,7 @@ struct Scenario {
   OracleSensor oracle;
   CameraSensor camera;
   Shutter shutter;
+  DetectorProgram detector;
   Identity identity = Identity::kKnown;
   /// kColourClass: two balls of one colour are at least this far apart; kNone: any two.
   double colour_spacing_m = 0.0;

@@ -13,7 +13,7 @@ enum ExitCode : int {
   kPassed = 0,
   kGateBroken = 1,  ///< a gate of the scenario is broken
   kBadInput = 2,    ///< usage, files, or the machine
-  kRunCrashed = 4,  ///< a worker process died
+  kRunCrashed = 4,  ///< a worker process died, or a detector failed
 };
 
 /// What a parsed command line does when it is called; gives the exit code.
@@ -25,6 +25,7 @@ void add_render_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_world_command(CLI::App& program, Action& action);
+void add_detect_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 
 }  // namespace stereobench::harness

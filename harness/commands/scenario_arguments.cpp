@@ -1,6 +1,9 @@
 #include "harness/commands/scenario_arguments.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "renderer/backend.h"
 #include "worlds/scenario.h"
@@ -12,6 +15,15 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
   add_set_option(command, arguments.overrides);
   add_run_options(command, arguments.run);
   add_backend_option(command, arguments.backend);
+  command
+      .add_option("--detector", arguments.detector,
+                  "a program that finds the balls, e.g. 'python3 my_detector.py': it is shown frames and "
+                  "answers in lines of JSON (README)")
+      ->type_name("COMMAND");
+  command
+      .add_option("--detector-timeout-s", arguments.detector_timeout_s,
+                  "how long it may think about a frame (default: 30, or as the scenario says)")
+      ->check(CLI::Range(1e-3, 1e6));
 }
 
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
@@ -25,6 +37,12 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
     scenario.filters.insert(scenario.filters.begin(), kBaselineFilter);
   if (run.particles > 0) scenario.particles = run.particles;
   if (!run.seeds.empty()) scenario.seeds = run.seeds;
+  if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;
+  if (arguments.detector.empty()) return scenario;
+  if (scenario.sensor != worlds::SensorKind::kStereo)
+    throw std::runtime_error(fmt::format("--detector: the sensor of {} is the oracle, which has no pictures",
+                                         arguments.scenario.string()));
+  scenario.detector.command = arguments.detector;
   return scenario;
 }
 

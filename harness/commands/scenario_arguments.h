@@ -15,6 +15,8 @@ struct ScenarioArguments {
   std::vector<std::string> overrides;  ///< "key.path=value"
   RunArguments run;
   renderer::Backend backend = renderer::Backend::kOsmesa;
+  std::string detector;             ///< command of a program; empty: as the scenario says
+  double detector_timeout_s = 0.0;  ///< 0: as the scenario says
 };
 
 /// Adds SCENARIO, --set, --backend and the options of a run.

@@ -1,9 +1,14 @@
+#include <map>
+#include <optional>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/measurement_log_reader.h"
+#include "harness/run/detections_file.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
 #include "harness/run/run_output.h"
@@ -21,6 +26,8 @@ struct SlamArguments {
   std::filesystem::path log;
   RunArguments run;
   LogAssumptions log_says;
+  std::filesystem::path detections;  ///< empty: the log's own sightings
+  std::optional<worlds::Identity> identity;
   slam::FilterConfig config;
 };
 
@@ -69,12 +76,17 @@ int run_slam(SlamArguments arguments) {
   if (run.filters.empty()) run.filters = slam::usual_filter_names();
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
-  const RecordedLog recorded = read_log(arguments.log, arguments.log_says);
+  RecordedLog recorded = read_log(arguments.log, arguments.log_says);
+  std::optional<VisionScore> vision;
+  if (!arguments.detections.empty())
+    vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   prepare_output_folder(out);
   const auto drives = replay_seeds(recorded.log, arguments);
   RunResult result = assemble(name, "none", drives, Seeds::kFilters);
+  if (vision) result.detector = "file";
+  result.vision = std::move(vision);
   result.odometry_delay_s = recorded.odometry_delay_s;
   write_run(out, result, drives, {});
   fmt::print("{}: {} seed{}, {} steps", name, drives.size(), drives.size() == 1 ? "" : "s",
@@ -128,6 +140,24 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
       "how long an odometry error lasts (slip outlives fast readings)");
 }
 
+void add_detection_options(CLI::App& command, SlamArguments& arguments) {
+  const std::map<std::string, worlds::Identity> names = {{"known", worlds::Identity::kKnown},
+                                                         {"colour_class", worlds::Identity::kColourClass},
+                                                         {"none", worlds::Identity::kNone}};
+  CLI::Option* file = command.add_option(
+      "--detections", arguments.detections,
+      "lines of JSON with what a detector found in the pictures of a data set of `render`: they are scored "
+      "and take the place of the log's sightings");
+  command
+      .add_option_function<worlds::Identity>(
+          "--identity", [&arguments](const worlds::Identity& identity) { arguments.identity = identity; },
+          "how filters tell these landmarks apart (default: known if no two balls share a colour, else "
+          "colour_class)")
+      ->transform(CLI::CheckedTransformer(names).description("known, colour_class or none"))
+      ->type_name("")
+      ->needs(file);
+}
+
 }  // namespace
 
 void add_slam_command(CLI::App& program, Action& action) {
@@ -141,6 +171,7 @@ void add_slam_command(CLI::App& program, Action& action) {
                    ".dat files; plain or .gz")
       ->required();
   add_run_options(*command, arguments->run);
+  add_detection_options(*command, *arguments);
   add_noise_options(*command, *arguments);
   command->footer("Example: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4");
   command->callback([arguments, &action] { action = [arguments] { return run_slam(*arguments); }; });

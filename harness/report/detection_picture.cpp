@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/report/canvas.h"
+#include "vision/observe.h"
 
 namespace stereobench::harness {
 namespace {
@@ -25,14 +26,18 @@ void check(const vision::StereoPair& pair, int max_width_px) {
   if (max_width_px < 64) throw std::invalid_argument("a detection picture is at least 64 pixels wide");
 }
 
+cv::Mat behind_drawing(cv::Mat picture, double scale) {
+  if (scale < 1.0) cv::resize(picture, picture, {}, scale, scale, cv::INTER_AREA);
+  // Five bits a channel look the same behind the drawing and leave out most of the noise, which PNG cannot
+  // pack.
+  cv::bitwise_and(picture, cv::Scalar::all(0xF8), picture);
+  return picture + cv::Scalar::all(4);
+}
+
 cv::Mat side_by_side(const vision::StereoPair& pair, double scale) {
   cv::Mat both;
   cv::hconcat(pair.left, pair.right, both);
-  if (scale < 1.0) cv::resize(both, both, {}, scale, scale, cv::INTER_AREA);
-  // Five bits a channel look the same behind the drawing and leave out most of the noise, which PNG cannot
-  // pack.
-  cv::bitwise_and(both, cv::Scalar::all(0xF8), both);
-  return both + cv::Scalar::all(4);
+  return behind_drawing(both, scale);
 }
 
 /// White on a black line is seen on every background.
@@ -59,7 +64,8 @@ void draw_plus(Canvas& canvas, const Point& at, double arm_px) {
 }
 
 std::string label_of(const vision::BallObservation& ball) {
-  std::string label = fmt::format("{}: {:.2f} m", ball.colour, ball.range_bearing.range_m);
+  const std::string colour = ball.colour == slam::kUnknown ? "?" : fmt::format("{}", ball.colour);
+  std::string label = fmt::format("{}: {:.2f} m", colour, ball.range_bearing.range_m);
   if (ball.truncated) label += " cut";
   if (ball.occluded) label += " hidden";
   return label;
@@ -107,36 +113,55 @@ void draw_label(Canvas& canvas, LabelPlacer& placer, const Point& below, const s
   canvas.write({box.left_px + 4.0, box.top_px + 0.5 * box.height_px}, label, style);
 }
 
-/// One eye's part of the picture.
-struct EyeView {
-  vision::Eye eye;
-  Box box;
-  double scale;  ///< pixels of the picture per pixel of the eye's image
-
-  /// Pixel (0, 0) of an image is the centre of its top-left pixel; a canvas begins at that pixel's corner.
-  Point centre_of(const vision::BallObservation& ball) const {
-    const Eigen::Vector2d& px = eye == vision::Eye::kLeft ? ball.left_px : ball.right_px;
-    return {box.left_px + scale * (px.x() + 0.5), box.top_px + scale * (px.y() + 0.5)};
-  }
-  double radius_of(const vision::BallObservation& ball) const {
-    return scale * (eye == vision::Eye::kLeft ? ball.left_radius_px : ball.right_radius_px);
-  }
+/// What is drawn of a ball in one eye's picture, in that picture's pixels.
+struct Ring {
+  Eigen::Vector2d centre_px;
+  double radius_px;
+  bool whole;
+  std::string label;
 };
 
-void draw_eye(Canvas& canvas, const EyeView& view, std::span<const vision::BallObservation> observations) {
-  canvas.clip_to(view.box);
+std::vector<Ring> rings_of(std::span<const vision::BallObservation> observations, vision::Eye eye) {
+  std::vector<Ring> rings;
   for (const vision::BallObservation& ball : observations) {
-    const double radius_px = view.radius_of(ball);
-    draw_outline(canvas, view.centre_of(ball), radius_px, ball.whole() ? Dash::kSolid : Dash::kDashed);
-    draw_plus(canvas, view.centre_of(ball), std::min(5.0, 0.5 * radius_px));
+    const bool left = eye == vision::Eye::kLeft;
+    rings.push_back({left ? ball.left_px : ball.right_px, left ? ball.left_radius_px : ball.right_radius_px,
+                     ball.whole(), label_of(ball)});
   }
-  LabelPlacer placer(view.box);
-  for (const vision::BallObservation& ball : observations) {
-    const Point centre = view.centre_of(ball);
-    const Point below = {centre.x_px, centre.y_px + view.radius_of(ball) + 4.0};
-    if (std::isfinite(below.x_px) && std::isfinite(below.y_px)) {
-      draw_label(canvas, placer, below, label_of(ball));
-    }
+  return rings;
+}
+
+std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines) {
+  std::vector<Ring> rings;
+  for (const vision::MeasuredOutline& outline : outlines) {
+    const bool cut = outline.outside_fraction > vision::kMostHidden;
+    const bool hidden = outline.hidden_fraction > vision::kMostHidden;
+    const std::string label = fmt::format("{}: {:.1f} px", outline.colour, outline.radius_px);
+    rings.push_back({outline.centre_px, outline.radius_px, !cut && !hidden,
+                     label + (cut ? " cut" : "") + (hidden ? " hidden" : "")});
+  }
+  return rings;
+}
+
+/// Draws rings on an eye's part of the picture.
+/// @param scale pixels of the picture per pixel of the eye's image
+void draw_eye(Canvas& canvas, const Box& box, double scale, std::span<const Ring> rings) {
+  // Pixel (0, 0) of an image is the centre of its top-left pixel; a canvas begins at that pixel's corner.
+  const auto centre_of = [&](const Ring& ring) {
+    return Point{box.left_px + scale * (ring.centre_px.x() + 0.5),
+                 box.top_px + scale * (ring.centre_px.y() + 0.5)};
+  };
+  canvas.clip_to(box);
+  for (const Ring& ring : rings) {
+    const double radius_px = scale * ring.radius_px;
+    draw_outline(canvas, centre_of(ring), radius_px, ring.whole ? Dash::kSolid : Dash::kDashed);
+    draw_plus(canvas, centre_of(ring), std::min(5.0, 0.5 * radius_px));
+  }
+  LabelPlacer placer(box);
+  for (const Ring& ring : rings) {
+    const Point centre = centre_of(ring);
+    const Point below = {centre.x_px, centre.y_px + scale * ring.radius_px + 4.0};
+    if (std::isfinite(below.x_px) && std::isfinite(below.y_px)) draw_label(canvas, placer, below, ring.label);
   }
   canvas.clip_to({});
 }
@@ -153,10 +178,21 @@ std::string draw_detection_picture(const vision::StereoPair& pair,
   for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
     const double left_px = eye == vision::Eye::kLeft ? 0.0 : eye_width_px;
     const Box box = {left_px, 0.0, eye_width_px, static_cast<double>(both.rows)};
-    draw_eye(canvas, {eye, box, eye_width_px / pair.left.cols}, observations);
+    draw_eye(canvas, box, eye_width_px / pair.left.cols, rings_of(observations, eye));
   }
   const std::vector<Point> seam = {{eye_width_px, 0.0}, {eye_width_px, static_cast<double>(both.rows)}};
   canvas.draw_line(seam, {kLine, 2.0});
+  return canvas.png();
+}
+
+std::string draw_outline_picture(const cv::Mat& picture, std::span<const vision::MeasuredOutline> outlines,
+                                 int max_width_px) {
+  check({picture, picture}, max_width_px);
+  const double scale = std::min(1.0, static_cast<double>(max_width_px) / picture.cols);
+  const cv::Mat backdrop = behind_drawing(picture.clone(), scale);
+  Canvas canvas(backdrop);
+  const Box box = {0.0, 0.0, static_cast<double>(backdrop.cols), static_cast<double>(backdrop.rows)};
+  draw_eye(canvas, box, static_cast<double>(backdrop.cols) / picture.cols, rings_of(outlines));
   return canvas.png();
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "vision/outline_fit.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {
@@ -17,5 +18,10 @@ namespace stereobench::harness {
 std::string draw_detection_picture(const vision::StereoPair& pair,
                                    std::span<const vision::BallObservation> observations,
                                    int max_width_px = 1600);
+
+/// The same for a single picture: outlines with their colour and radius.
+/// @throws std::invalid_argument when it is no CV_8UC3 picture
+std::string draw_outline_picture(const cv::Mat& picture, std::span<const vision::MeasuredOutline> outlines,
+                                 int max_width_px = 1600);
 
 }  // namespace stereobench::harness

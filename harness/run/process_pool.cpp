@@ -10,6 +10,7 @@
 #include <new>
 #include <optional>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -20,7 +21,7 @@
 namespace stereobench::harness {
 namespace {
 
-enum class MessageKind : std::uint32_t { kStarted, kProgress, kAnswer, kError };
+enum class MessageKind : std::uint32_t { kStarted, kProgress, kAnswer, kError, kCrash };
 
 /// What travels through a worker's pipe before its `size` bytes of payload.
 struct Header {
@@ -78,13 +79,17 @@ class SharedCounter {
     const auto report = [&](double fraction) {
       send(file, {MessageKind::kProgress, index, fraction, 0}, {});
     };
+    const auto give_up = [&](MessageKind kind, const std::string& message) {
+      send(file, {kind, index, 1.0, message.size()}, message);
+      ::_exit(EXIT_SUCCESS);
+    };
     try {
       const std::string answer = task(index, report);
       send(file, {MessageKind::kAnswer, index, 1.0, answer.size()}, answer);
+    } catch (const RunCrash& crash) {
+      give_up(MessageKind::kCrash, crash.what());
     } catch (const std::exception& error) {
-      const std::string message = error.what();
-      send(file, {MessageKind::kError, index, 1.0, message.size()}, message);
-      break;
+      give_up(MessageKind::kError, error.what());
     }
   }
   ::_exit(EXIT_SUCCESS);
@@ -106,7 +111,7 @@ class Pool {
 
   void start_worker(const Task& task) {
     int ends[2];
-    if (::pipe(ends) != 0)
+    if (::pipe2(ends, O_CLOEXEC) != 0)  // a program that a worker starts shall not hold it open
       throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
     std::fflush(nullptr);  // or the child would print the parent's buffered text again
     const pid_t pid = ::fork();
@@ -123,8 +128,9 @@ class Pool {
   }
 
   std::vector<std::string> gather() {
-    while (!error_ && wait_for_input()) {
+    while (!error_ && !crash_ && wait_for_input()) {
     }
+    if (crash_) throw RunCrash(*crash_);
     if (error_) throw std::runtime_error(*error_);
     return std::move(answers_);
   }
@@ -169,7 +175,8 @@ class Pool {
     fractions_[header.index] = header.fraction;
     if (header.kind == MessageKind::kAnswer) answers_[header.index] = std::move(payload);
     if (header.kind == MessageKind::kError) error_ = std::move(payload);
-    if (header.kind == MessageKind::kAnswer || header.kind == MessageKind::kError) worker.current.reset();
+    if (header.kind == MessageKind::kCrash) crash_ = std::move(payload);
+    if (header.kind != MessageKind::kStarted && header.kind != MessageKind::kProgress) worker.current.reset();
     double done = 0.0;
     for (const double fraction : fractions_) done += fraction;
     on_progress_(done);
@@ -202,6 +209,7 @@ class Pool {
   std::vector<double> fractions_;
   const OnProgress& on_progress_;
   std::optional<std::string> error_;
+  std::optional<std::string> crash_;
 };
 
 }  // namespace

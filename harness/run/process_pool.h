@@ -10,10 +10,16 @@
 
 namespace stereobench::harness {
 
-/// A task ended without an answer: its process crashed or was killed.
-class WorkerCrash : public std::runtime_error {
+/// A run broke down, through no fault of what it was given.
+class RunCrash : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// A task ended without an answer: its process crashed or was killed.
+class WorkerCrash : public RunCrash {
+ public:
+  using RunCrash::RunCrash;
 };
 
 /// Computes the answer of one task, as bytes.
@@ -29,8 +35,8 @@ using OnProgress = std::function<void(double tasks_done)>;
 /// @param tasks how many there are
 /// @param jobs processes at a time, >= 1
 /// @return one answer a task
-/// @throws std::runtime_error with the message of the first task that fails, at once; WorkerCrash when a
-///   process dies. The other processes are ended either way.
+/// @throws std::runtime_error with the message of the first task that fails, at once, a RunCrash when it was
+///   one; WorkerCrash when a process dies. The other processes are ended either way.
 std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
                                           const OnProgress& on_progress);
 

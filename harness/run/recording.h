@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/detector/detector.h"
 #include "harness/scoring/vision_score.h"
 #include "harness/types.h"
 #include "renderer/types.h"
@@ -35,6 +36,7 @@ struct Listeners {
 /// What one seed's drive gave.
 struct Recording {
   MeasurementLog log;
+  std::string detector = "none";      ///< who looked: "stereobench", a program's command, "callable"
   std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
   Timing timing;
 };
@@ -44,9 +46,11 @@ struct Recording {
 /// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
 /// @param listeners told of each look (sensors with pixels only) and of the progress
 /// @param backend what renders, for a sensor with pixels
+/// @param detector who looks at the pairs; empty: the program that the scenario names, or the vision stage
 /// @return the log with truth, and how vision scored
-/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
+/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read; DetectorFault
+///   when the program does not do what it should
 Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
-                 renderer::Backend backend = renderer::Backend::kOsmesa);
+                 renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {});
 
 }  // namespace stereobench::harness

@@ -194,6 +194,7 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
                    Seeds seeds) {
   if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
   RunResult result{.name = name, .backend = backend, .batch = {.filter = "batch"}};
+  result.detector = drives.front().recording.detector;
   for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
   for (const SeedDrive& drive : drives) {
     if (drive.runs.size() != result.filters.size())
@@ -221,11 +222,9 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
 nlohmann::ordered_json run_json(const RunResult& result) {
   Json filters = Json::object();
   for (const FilterResult& filter : result.filters) filters[filter.filter] = filter_json(result, filter);
-  Json json = {{"schema", kSchema},
-               {"scenario", result.name},
-               {"seeds", result.seeds},
-               {"renderer", {{"backend", result.backend}}},
-               {"vision", vision_json(result.vision)}};
+  Json json = {{"schema", kSchema},           {"scenario", result.name},
+               {"seeds", result.seeds},       {"renderer", {{"backend", result.backend}}},
+               {"detector", result.detector}, {"vision", vision_json(result.vision)}};
   if (result.odometry_delay_s) json["log"] = {{"odometry_delay_s", *result.odometry_delay_s}};
   json["bound"] = bound_json(result.bounds);
   json["batch"] = batch_json(result.batch.summary);

@@ -36,6 +36,7 @@ struct RunResult {
   std::string name;  ///< of the scenario or the log
   std::vector<std::uint64_t> seeds;
   std::string backend;                ///< what rendered, e.g. "osmesa", or "none"
+  std::string detector = "none";      ///< who looked at the pictures; see Recording
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
   bool identities_known = true;            ///< by every sighting

@@ -64,7 +64,7 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
     if (is_snapshot_step(look.step, task.snapshots, task.scenario->path.size()))
       drive.snapshots.push_back({look.step, draw_detection_picture(look.pair, look.observations)});
   };
-  drive.recording = record(*task.scenario, task.seed, listeners, task.backend);
+  drive.recording = record(*task.scenario, task.seed, listeners, task.backend, task.detector);
   drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),
                               task.seed, drive.recording.timing);
   drive.references = replay_references(drive.recording, *task.scenario, drive.recording.timing);

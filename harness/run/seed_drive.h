@@ -35,6 +35,7 @@ struct DriveTask {
   std::uint64_t seed = 0;
   std::size_t snapshots = 0;  ///< evenly spread over the path
   renderer::Backend backend = renderer::Backend::kOsmesa;
+  Detector detector = {};  ///< who looks; empty: as the scenario says
 };
 
 /// The settings that a scenario gives its filters.

@@ -52,7 +52,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
                                    normalised_errors)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, vision, timing)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, timing)
 
 namespace {
 

@@ -24,17 +24,45 @@ bool must_be_found(const BallOutline& ball) {
          std::min(ball.left_fraction, ball.right_fraction) >= kVisibleFraction;
 }
 
-/// The ball under an observation: one of its colour if there is one, else any that is not wholly hidden.
+/// Whether an observation claims no other colour than the ball has.
+bool suits_colour(const VisionTruth& truth, const BallOutline& ball,
+                  const vision::BallObservation& observation) {
+  return observation.colour == slam::kUnknown ||
+         observation.colour == truth.world.balls[static_cast<std::size_t>(ball.ball)].colour;
+}
+
+/// Whether an observation is within a ball's outline in both eyes. Where it says nothing of heights it is
+/// taken to be at the ball's.
+bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::BallObservation& observation) {
+  if (observation.has_pixels)
+    return contains(ball.left, observation.left_px) && contains(ball.right, observation.right_px);
+  const slam::RangeBearing& seen = observation.range_bearing;
+  const auto [s, c] = slam::sine_cosine(seen.bearing_rad);
+  const Eigen::Vector3d in_robot(seen.range_m * c, seen.range_m * s, ball.ball_in_robot.z());
+  const Eigen::Vector3d in_left = vision::robot_from_camera(truth.rig).inverse() * in_robot;
+  const Eigen::Vector3d in_right = vision::point_in_eye(truth.rig, in_left, vision::Eye::kRight);
+  return in_left.z() > 0.0 && in_right.z() > 0.0 &&
+         contains(ball.left, vision::project(truth.rig.camera, in_left)) &&
+         contains(ball.right, vision::project(truth.rig.camera, in_right));
+}
+
+/// The ball under an observation: one whose colour suits it if there is one, else any that is not wholly
+/// hidden; where no pixels tell balls of one direction apart, the one whose range is nearest.
 std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vector<BallOutline>& balls,
                                       const vision::BallObservation& observation) {
   std::optional<std::size_t> under;
+  std::pair<bool, double> least;
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    const bool hidden = balls[i].left_fraction <= 0.0 || balls[i].right_fraction <= 0.0;
-    if (hidden || !contains(balls[i].left, observation.left_px)) continue;
-    if (!contains(balls[i].right, observation.right_px)) continue;
-    const std::size_t ball = static_cast<std::size_t>(balls[i].ball);
-    if (truth.world.balls[ball].colour == observation.colour) return i;
-    if (!under) under = i;
+    const BallOutline& ball = balls[i];
+    const bool hidden = ball.left_fraction <= 0.0 || ball.right_fraction <= 0.0;
+    if (hidden || !is_on(truth, ball, observation)) continue;
+    const double range_gap_m =
+        std::abs(observation.range_bearing.range_m - ball.ball_in_robot.head<2>().norm());
+    const std::pair<bool, double> misfit(!suits_colour(truth, ball, observation),
+                                         observation.has_pixels ? 0.0 : range_gap_m);
+    if (under && misfit >= least) continue;
+    under = i;
+    least = misfit;
   }
   return under;
 }
@@ -60,7 +88,8 @@ void add_errors(const BallOutline& ball, const vision::BallObservation& observat
   score.range_errors_m.push_back(error.x());
   score.bearing_errors_rad.push_back(error.y());
   const double disparity_px = observation.left_px.x() - observation.right_px.x();
-  score.disparity_errors_px.push_back(disparity_px - (ball.left.centre_px.x() - ball.right.centre_px.x()));
+  if (observation.has_pixels)
+    score.disparity_errors_px.push_back(disparity_px - (ball.left.centre_px.x() - ball.right.centre_px.x()));
   const double squared = error.dot(measured.covariance.inverse() * error);
   if (std::isfinite(squared)) score.normalised_errors.push_back(squared / 2.0);
 }
@@ -142,11 +171,9 @@ VisionScore score_observations(const VisionTruth& truth,
     }
     ++score.observations;
     const auto under = ball_under(truth, balls, observation);
-    const bool same_colour =
-        under && truth.world.balls[static_cast<std::size_t>(balls[*under].ball)].colour == observation.colour;
     if (!under) {
       ++score.spurious;
-    } else if (!same_colour) {
+    } else if (!suits_colour(truth, balls[*under], observation)) {
       ++score.misidentified;
     } else if (found[*under]) {
       ++score.repeated;

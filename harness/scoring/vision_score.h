@@ -36,7 +36,8 @@ struct VisionScore {
 
 /// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
 /// radius of at least 5 px, and at least 95 % of it is seen by each eye. An observation is right
-/// when its centres lie within the outlines of a ball of its colour in both eyes.
+/// when its centres lie within the outlines of a ball of its colour in both eyes; one that claims no colour
+/// is right on any ball, and one without pixels is looked for at the height of each.
 VisionScore score_observations(const VisionTruth& truth,
                                std::span<const vision::BallObservation> observations);
 

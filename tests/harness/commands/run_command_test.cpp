@@ -229,7 +229,7 @@ TEST(DoctorCommand, SaysWhatItRunsOnAndThatATestFrameIsRight) {
 
 TEST(Program, HelpAndVersionEverywhere) {
   EXPECT_THAT(run_stereobench({"--version"}).out, HasSubstr(STEREOBENCH_VERSION));
-  for (const char* command : {"run", "render", "slam", "sweep", "doctor"}) {
+  for (const char* command : {"run", "render", "slam", "sweep", "detect", "doctor"}) {
     const Outcome outcome = run_stereobench({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, HasSubstr("Usage:")) << command;

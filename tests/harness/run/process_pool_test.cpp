@@ -62,6 +62,13 @@ TEST(ProcessPool, CrashOfATaskIsAnErrorThatNamesIt) {
                   testing::AllOf(testing::HasSubstr("signal 9"), testing::HasSubstr("task 5"))));
 }
 
+// Mutation: passed on as any other error.
+TEST(ProcessPool, ABreakdownOfATaskIsOneForTheCaller) {
+  const Task task = [](std::size_t, const auto&) -> std::string { throw RunCrash("the detector is gone"); };
+  EXPECT_THAT([&] { run_in_processes(2, 1, task, kSilent); },
+              testing::ThrowsMessage<RunCrash>("the detector is gone"));
+}
+
 // Mutations: not waiting for the children leaves zombies, which waitpid finds; not killing them first lasts
 // until they wake up.
 TEST(ProcessPool, LeavesNoChildBehindAndWaitsForNoneThatIsAtWork) {

@@ -49,6 +49,41 @@ TEST(VisionScore, EveryKindOfMistakeHasItsCount) {
   EXPECT_EQ(score.range_errors_m.size(), 1U);
 }
 
+// A detector that knows no colours is not wrong about them. Mutation: kUnknown compared as a colour.
+TEST(VisionScore, WhoClaimsNoColourIsRightOnAnyBall) {
+  const Scene scene({kAhead, kAside});
+  const auto outlines = ball_outlines(scene.truth());
+  const VisionScore score = score_observations(
+      scene.truth(), std::vector{perfect(outlines[0], slam::kUnknown), perfect(outlines[1], slam::kUnknown)});
+  EXPECT_EQ(score.right, 2);
+  EXPECT_EQ(score.found, 2);
+}
+
+// What says nothing of heights is looked for at each ball's, and of two in one direction the nearer in range
+// is meant. Mutation: the first ball of a direction.
+TEST(VisionScore, RangeAndBearingAloneTellWhichBallIsMeant) {
+  const worlds::Ball low{{1.5, 0.0, 0.05}, 0.06, 2};
+  const worlds::Ball high{{2.4, 0.0, 0.65}, 0.06, 4};
+  const Scene scene({low, high});
+  const auto outlines = ball_outlines(scene.truth());
+  std::vector<vision::BallObservation> seen;
+  for (const BallOutline& outline : {outlines[1], outlines[0]}) {
+    seen.push_back(perfect(outline, slam::kUnknown));
+    seen.back().has_pixels = false;
+    seen.back().left_px = seen.back().right_px = {1.0, 1.0};
+  }
+  EXPECT_EQ(balls_observed(scene.truth(), seen), (std::vector{1, 0}));
+  seen.push_back(seen[0]);
+  seen.back().range_bearing.bearing_rad += 0.1;
+  seen.push_back(seen[0]);
+  seen.back().range_bearing.bearing_rad = 3.0;
+  const VisionScore score = score_observations(scene.truth(), seen);
+  EXPECT_EQ(score.right, 2);
+  EXPECT_EQ(score.spurious, 2);
+  EXPECT_NEAR(score.range_rms_m(), 0.0, 1e-12);
+  EXPECT_TRUE(score.disparity_errors_px.empty());
+}
+
 TEST(VisionScore, AHiddenBallNeedNotBeFoundAndAFarOneIsTooSmall) {
   const Scene scene({kAhead, kBehindIt, {{20.0, -4.0, 0.3}, 0.1, 9}});
   EXPECT_EQ(score_observations(scene.truth(), {}).visible, 1);

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/commands/commands.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/calibration_file.h"
+#include "harness/dataset/dataset_truth.h"
+#include "harness/dataset/picture_reader.h"
+#include "harness/detector/detection_lines.h"
+#include "harness/detector/detector.h"
+#include "harness/detector/serve.h"
+#include "harness/report/detection_picture.h"
+#include "renderer/develop.h"
+#include "vision/observe.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DetectArguments {
+  std::vector<fs::path> pictures;  ///< LEFT, LEFT RIGHT, or a folder
+  fs::path rig;
+  std::optional<double> ball_radius_m;
+  double noise_sd_levels = 2.0;
+  std::string encoding = "linear";
+  fs::path out;   ///< empty: stdout
+  fs::path draw;  ///< empty: nothing is drawn
+  bool serve = false;
+};
+
+/// What is looked at together: a pair, or a picture alone.
+struct Task {
+  std::size_t frame = 0;
+  fs::path left;
+  fs::path right;  ///< empty for a picture alone
+};
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> pictures;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && is_picture_name(entry.path())) pictures.push_back(entry.path());
+  if (pictures.empty()) throw std::runtime_error(fmt::format("{}: holds no picture", folder.string()));
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+/// The number that a picture is named by, e.g. 12 of 000012.png; else its place in the folder.
+std::size_t frame_of(const fs::path& picture, std::size_t place) {
+  const std::string stem = picture.stem().string();
+  std::size_t frame = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), frame);
+  return error == std::errc() && end == stem.data() + stem.size() ? frame : place;
+}
+
+std::vector<Task> tasks_of(const std::vector<fs::path>& given) {
+  if (given.size() == 2) return {{0, given[0], given[1]}};
+  if (!fs::is_directory(given[0])) return {{0, given[0], {}}};
+  const bool pairs = fs::is_directory(given[0] / "left");
+  std::vector<Task> tasks;
+  for (const fs::path& left : pictures_in(pairs ? given[0] / "left" : given[0]))
+    tasks.push_back(
+        {frame_of(left, tasks.size()), left, pairs ? given[0] / "right" / left.filename() : fs::path()});
+  return tasks;
+}
+
+/// A camera for pictures that come without one: its focal length, of which only the slight eccentricity of
+/// outlines depends, is the picture's width.
+vision::Intrinsics camera_for(const cv::Mat& picture) {
+  return {picture.cols, picture.rows, static_cast<double>(picture.cols), 0.5 * (picture.cols - 1),
+          0.5 * (picture.rows - 1)};
+}
+
+void check_size(const fs::path& file, const cv::Mat& picture, const vision::Intrinsics& camera) {
+  if (picture.cols != camera.width_px || picture.rows != camera.height_px)
+    throw std::runtime_error(fmt::format("{}: {} x {} pixels, the rig's have {} x {}", file.string(),
+                                         picture.cols, picture.rows, camera.width_px, camera.height_px));
+}
+
+/// Looks at pictures as the command line says.
+class Looker {
+ public:
+  explicit Looker(const DetectArguments& arguments) : arguments_(arguments) {
+    const fs::path& given = arguments.pictures[0];
+    const fs::path beside = given / "calibration.yaml";
+    const fs::path file = arguments.rig.empty() && fs::exists(beside) ? beside : arguments.rig;
+    if (!file.empty()) rig_ = read_calibration(file);
+    if (arguments.ball_radius_m)
+      setup_.ball_radius_m = *arguments.ball_radius_m;
+    else if (fs::exists(given / "balls.csv"))
+      setup_.ball_radius_m = read_balls(given / "balls.csv").front().radius_m;
+    setup_.noise_sd_levels = arguments.noise_sd_levels;
+    setup_.encoding = arguments.encoding == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+    if (rig_) setup_.rig = *rig_;
+  }
+
+  /// @return the task's line; its picture is drawn where that is asked for
+  std::string look(const Task& task) const {
+    return task.right.empty() ? look_at_one(task) : look_at_pair(task);
+  }
+
+ private:
+  std::string look_at_pair(const Task& task) const {
+    if (!rig_) throw std::runtime_error("--rig: two eyes need the calibration of their rig");
+    const vision::StereoPair pair = {read_picture(task.left), read_picture(task.right)};
+    check_size(task.left, pair.left, rig_->camera);
+    check_size(task.right, pair.right, rig_->camera);
+    const auto balls = our_detector(setup_)({task.frame, 0, pair, *rig_});
+    if (!arguments_.draw.empty()) write_drawing(task, draw_detection_picture(pair, balls));
+    const std::array<std::string, 2> names = {task.left.filename().string(), task.right.filename().string()};
+    return detections_line(task.frame, balls, names);
+  }
+
+  std::string look_at_one(const Task& task) const {
+    const cv::Mat picture = read_picture(task.left);
+    if (rig_) check_size(task.left, picture, rig_->camera);
+    const cv::Mat light = renderer::decode(picture, {.encoding = setup_.encoding});
+    const auto outlines = vision::find_outlines(
+        light, rig_ ? rig_->camera : camera_for(picture),
+        {.ball_radius_m = setup_.ball_radius_m, .noise_sd_levels = setup_.noise_sd_levels});
+    if (!arguments_.draw.empty()) write_drawing(task, draw_outline_picture(picture, outlines));
+    return outlines_line(task.frame, outlines, task.left.filename().string());
+  }
+
+  void write_drawing(const Task& task, const std::string& png) const {
+    write_file_atomically(arguments_.draw / (task.left.stem().string() + ".png"), png);
+  }
+
+  const DetectArguments& arguments_;
+  std::optional<vision::StereoRig> rig_;
+  DetectorSetup setup_;
+};
+
+int serve() {
+  std::ios::sync_with_stdio(false);
+  serve_detections(std::cin, std::cout);
+  return kPassed;
+}
+
+int detect(const DetectArguments& arguments) {
+  if (arguments.serve) return serve();
+  if (arguments.pictures.empty())
+    throw std::runtime_error("detect: expected LEFT, LEFT RIGHT or a folder; see --help");
+  const Looker looker(arguments);
+  if (!arguments.draw.empty()) prepare_output_folder(arguments.draw);
+  std::string lines;
+  for (const Task& task : tasks_of(arguments.pictures)) {
+    const std::string line = looker.look(task) + "\n";
+    if (arguments.out.empty()) fmt::print("{}", line);
+    lines += line;
+  }
+  if (!arguments.out.empty()) write_file_atomically(arguments.out, lines);
+  return kPassed;
+}
+
+}  // namespace
+
+void add_detect_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("detect", "find balls in pictures from anywhere");
+  auto arguments = std::make_shared<DetectArguments>();
+  command
+      ->add_option("pictures", arguments->pictures,
+                   "LEFT and RIGHT, one picture alone, or a folder: of pictures, or with left/ and right/")
+      ->expected(0, 2);
+  command->add_option("--rig", arguments->rig,
+                      "calibration.yaml as `render` writes it (default: the folder's own, if it has one)");
+  command
+      ->add_option("--ball-radius-m", arguments->ball_radius_m,
+                   "of all balls (default: as in the folder's balls.csv, or 0.05)")
+      ->check(CLI::Range(1e-6, 1e6));
+  command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str();
+  command->add_option("--encoding", arguments->encoding, "how levels stand for light")
+      ->check(CLI::IsMember({"linear", "srgb"}))
+      ->capture_default_str();
+  command->add_option("--out,-o", arguments->out, "file for the lines (default: stdout)");
+  command->add_option("--draw", arguments->draw, "folder for pictures with the detections drawn on them");
+  command->add_flag("--serve", arguments->serve,
+                    "be a detector's program: read the protocol's lines from stdin, answer on stdout");
+  command->footer(
+      "Writes a line of JSON a pair or picture (README, \"Your own detector\"): of pairs range and bearing\n"
+      "with covariance, of single pictures centres, radii and colours.\n\n"
+      "Example: stereobench detect left.png right.png --rig calibration.yaml --draw out/drawn");
+  command->callback([arguments, &action] { action = [arguments] { return detect(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

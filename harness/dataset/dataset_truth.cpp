@@ -1,0 +1,81 @@
+#include "harness/dataset/dataset_truth.h"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/dataset/calibration_file.h"
+#include "harness/dataset/number_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::size_t> frames_in(const fs::path& folder) {
+  std::vector<std::size_t> frames;
+  if (!fs::is_directory(folder)) throw std::runtime_error(fmt::format("{}: no such folder", folder.string()));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    std::size_t frame = 0;
+    const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), frame);
+    if (entry.path().extension() == ".png" && error == std::errc() && end == stem.data() + stem.size())
+      frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+cv::Mat read_ids(const fs::path& file, const vision::Intrinsics& camera) {
+  const cv::Mat ids = fs::exists(file) ? cv::imread(file.string(), cv::IMREAD_UNCHANGED) : cv::Mat();
+  if (ids.type() != CV_8UC1 || ids.cols != camera.width_px || ids.rows != camera.height_px)
+    throw std::runtime_error(fmt::format("{}: expected a grey picture of {} x {} pixels", file.string(),
+                                         camera.width_px, camera.height_px));
+  return ids;
+}
+
+}  // namespace
+
+std::vector<worlds::Ball> read_balls(const fs::path& file) {
+  const NumberTable table = read_csv_table(file, {"ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m"});
+  std::vector<worlds::Ball> balls;
+  for (const TableRow& row : table.rows) {
+    if (whole_number_in(table, row, 0, 0) != static_cast<int>(balls.size()))
+      refuse(table, row, 0, fmt::format("expected {}", balls.size()));
+    worlds::Ball ball;
+    ball.colour = whole_number_in(table, row, 1, 0);
+    ball.centre_m = {number_in(table, row, 5), number_in(table, row, 6), number_in(table, row, 7)};
+    ball.radius_m = number_in(table, row, 8);
+    if (!(ball.radius_m > 0.0)) refuse(table, row, 8, "expected a positive radius");
+    balls.push_back(ball);
+  }
+  if (balls.empty() || balls.size() > 254)
+    throw std::runtime_error(fmt::format("{}: expected 1 to 254 balls", file.string()));
+  return balls;
+}
+
+DatasetTruth read_dataset_truth(const fs::path& folder) {
+  if (!fs::exists(folder / "dataset.json"))
+    throw std::runtime_error(fmt::format(
+        "{}: expected a whole data set of `stereobench render` (it has no dataset.json)", folder.string()));
+  DatasetTruth truth;
+  truth.world.balls = read_balls(folder / "balls.csv");
+  truth.rig = read_calibration(folder / "true_calibration.yaml");
+  truth.believed_rig = read_calibration(folder / "calibration.yaml");
+  truth.frames = frames_in(folder / "left_id");
+  return truth;
+}
+
+renderer::StereoFrame read_ball_ids(const fs::path& folder, std::size_t frame, const vision::StereoRig& rig) {
+  const std::string name = fmt::format("{:06}.png", frame);
+  renderer::StereoFrame ids;
+  ids.left.ball_id = read_ids(folder / "left_id" / name, rig.camera);
+  ids.right.ball_id = read_ids(folder / "right_id" / name, rig.camera);
+  return ids;
+}
+
+}  // namespace stereobench::harness

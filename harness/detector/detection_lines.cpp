@@ -1,0 +1,218 @@
+#include "harness/detector/detection_lines.h"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "harness/detector/json_line.h"
+#include "slam/elementary.h"
+#include "vision/observe.h"
+#include "vision/palette.h"
+#include "vision/range_bearing.h"
+#include "vision/rig.h"
+#include "vision/sphere.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using vision::BallObservation;
+
+constexpr std::size_t kMostBalls = 1000;
+constexpr double kMost_px = 1e6;
+constexpr double kMost_m = 1e6;
+constexpr double kLeast = 1e-9;  // of what must be positive
+
+Eigen::Vector2d read_pixel(const JsonValue& value) {
+  const std::vector<JsonValue> parts = value.list(2, 2);
+  return {parts[0].number(-kMost_px, kMost_px), parts[1].number(-kMost_px, kMost_px)};
+}
+
+Eigen::Matrix2d read_covariance(const JsonValue& value) {
+  Eigen::Matrix2d covariance;
+  const std::vector<JsonValue> rows = value.list(2, 2);
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<JsonValue> row = rows[static_cast<std::size_t>(i)].list(2, 2);
+    for (int j = 0; j < 2; ++j) {
+      const double least = i == j ? 0.0 : -kMost_m;
+      covariance(i, j) = row[static_cast<std::size_t>(j)].number(least, kMost_m * kMost_m);
+    }
+  }
+  const double product = covariance(0, 0) * covariance(1, 1);
+  if (covariance(0, 1) != covariance(1, 0) || covariance(0, 1) * covariance(0, 1) > product * (1.0 + 1e-9))
+    value.refuse("a symmetric matrix without negative eigenvalues");
+  return covariance;
+}
+
+/// Where a ball at the height of the cameras is, in the left camera's frame.
+Eigen::Vector3d at_camera_height(const vision::StereoRig& rig, const slam::RangeBearing& seen) {
+  const auto [s, c] = slam::sine_cosine(seen.bearing_rad);
+  return vision::robot_from_camera(rig).inverse() *
+         Eigen::Vector3d(seen.range_m * c, seen.range_m * s, rig.height_m);
+}
+
+/// The pixels and radii that a ball must have where only its place is known; false where an eye cannot see
+/// it.
+bool imagine_pixels(const BallGeometry& geometry, BallObservation& ball) {
+  const vision::Intrinsics& camera = geometry.rig.camera;
+  const auto left = vision::sphere_outline(camera, ball.ball_in_camera, geometry.radius_m);
+  const auto right = vision::sphere_outline(
+      camera, vision::point_in_eye(geometry.rig, ball.ball_in_camera, vision::Eye::kRight),
+      geometry.radius_m);
+  if (!left || !right) return false;
+  ball.left_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, left->centre_px));
+  ball.right_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, right->centre_px));
+  ball.left_radius_px = left->radius_px();
+  ball.right_radius_px = right->radius_px();
+  return true;
+}
+
+/// The centres as a rig without faults would have them.
+struct StraightCentres {
+  std::optional<Eigen::Vector2d> left, right;
+};
+
+StraightCentres straight_centres(const BallGeometry& geometry, const BallObservation& ball) {
+  return {vision::straight_point(geometry.rig, ball.left_px, vision::Eye::kLeft),
+          vision::straight_point(geometry.rig, ball.right_px, vision::Eye::kRight)};
+}
+
+/// Range, bearing and covariance that the centres' pixels stand for.
+slam::RangeBearing seen_through(const BallGeometry& geometry, const BallObservation& ball, double sd_px) {
+  const Eigen::Matrix2d of_centre = sd_px * sd_px * Eigen::Matrix2d::Identity();
+  const auto [left, right] = straight_centres(geometry, ball);
+  const vision::OutlineCentres centres = {left.value_or(ball.left_px), right.value_or(ball.right_px),
+                                          of_centre, of_centre};
+  return vision::range_bearing(ball.ball_in_camera,
+                               vision::ball_covariance(geometry.rig, centres, geometry.radius_m),
+                               vision::robot_from_camera(geometry.rig));
+}
+
+/// Fills in what the pixels of both centres say.
+void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
+  ball.left_px = read_pixel(value.at("left_px"));
+  ball.right_px = read_pixel(value.at("right_px"));
+  const auto [straight_left, straight_right] = straight_centres(geometry, ball);
+  if (!straight_left || !straight_right) value.at("left_px").refuse("pixels that the rig's lenses can reach");
+  const auto place =
+      vision::triangulate_ball(geometry.rig, *straight_left, *straight_right, geometry.radius_m);
+  if (!place || place->z() > kMost_m)
+    value.at("left_px").refuse("a column to the right of right_px's: a ball that is ahead");
+  ball.ball_in_camera = *place;
+  const auto left = value.find("left_radius_px");
+  const auto right = value.find("right_radius_px");
+  const double expected_px = geometry.rig.camera.focal_px * geometry.radius_m / place->z();
+  ball.left_radius_px = left ? left->number(kLeast, kMost_px) : expected_px;
+  ball.right_radius_px = right ? right->number(kLeast, kMost_px) : expected_px;
+}
+
+void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
+  slam::RangeBearing& seen = ball.range_bearing;
+  seen.range_m = value.at("range_m").number(kLeast, kMost_m);
+  seen.bearing_rad = value.at("bearing_rad").number(-std::numbers::pi, std::numbers::pi);
+  if (ball.has_pixels) return;
+  ball.ball_in_camera = at_camera_height(geometry.rig, seen);
+  if (!imagine_pixels(geometry, ball) && !value.find("covariance"))
+    value.refuse("a covariance beside a ball that is not ahead of both eyes");
+}
+
+BallObservation read_ball(const JsonValue& value, const BallGeometry& geometry) {
+  value.allow({"colour", "left_px", "right_px", "left_radius_px", "right_radius_px", "range_m", "bearing_rad",
+               "covariance", "centre_sd_px", "truncated", "occluded"});
+  BallObservation ball;
+  const JsonValue colour = value.at("colour");
+  if (!colour.is_null())
+    ball.colour = static_cast<int>(colour.integer(0, static_cast<int>(vision::kPalette.size()) - 1));
+  ball.has_pixels = value.find("left_px") || value.find("right_px");
+  const bool has_range = value.find("range_m") || value.find("bearing_rad");
+  if (!ball.has_pixels && !has_range)
+    value.refuse("\"range_m\" and \"bearing_rad\", or \"left_px\" and \"right_px\"");
+  if (ball.has_pixels) place_by_pixels(value, geometry, ball);
+  if (has_range) place_by_range(value, geometry, ball);
+  const auto covariance = value.find("covariance");
+  const auto sd = value.find("centre_sd_px");
+  if (covariance && sd) sd->refuse("no covariance beside it");
+  const double sd_px = sd ? sd->number(kLeast, kMost_px) : kUnstatedSd_px;
+  const slam::RangeBearing stated = ball.range_bearing;
+  if (!covariance || !has_range) ball.range_bearing = seen_through(geometry, ball, sd_px);
+  if (has_range) ball.range_bearing.range_m = stated.range_m;
+  if (has_range) ball.range_bearing.bearing_rad = stated.bearing_rad;
+  if (covariance) ball.range_bearing.covariance = read_covariance(*covariance);
+  ball.range_bearing.colour_class = ball.colour;
+  if (const auto flag = value.find("truncated")) ball.truncated = flag->flag();
+  if (const auto flag = value.find("occluded")) ball.occluded = flag->flag();
+  return ball;
+}
+
+Json pixel_json(const Eigen::Vector2d& pixel) {
+  return {pixel.x(), pixel.y()};
+}
+
+Json colour_json(int colour) {
+  return colour == slam::kUnknown ? Json(nullptr) : Json(colour);
+}
+
+Json ball_json(const BallObservation& ball) {
+  const slam::RangeBearing& seen = ball.range_bearing;
+  Json json = {
+      {"colour", colour_json(ball.colour)},
+      {"range_m", seen.range_m},
+      {"bearing_rad", seen.bearing_rad},
+      {"covariance",
+       {{seen.covariance(0, 0), seen.covariance(0, 1)}, {seen.covariance(1, 0), seen.covariance(1, 1)}}}};
+  if (ball.has_pixels) {
+    json["left_px"] = pixel_json(ball.left_px);
+    json["right_px"] = pixel_json(ball.right_px);
+    json["left_radius_px"] = ball.left_radius_px;
+    json["right_radius_px"] = ball.right_radius_px;
+  }
+  if (ball.truncated) json["truncated"] = true;
+  if (ball.occluded) json["occluded"] = true;
+  return json;
+}
+
+Json frame_json(std::size_t frame, std::span<const std::string> pictures) {
+  Json json = {{"frame", frame}};
+  if (!pictures.empty()) json["left"] = pictures[0];
+  if (pictures.size() > 1) json["right"] = pictures[1];
+  return json;
+}
+
+}  // namespace
+
+std::vector<BallObservation> read_detections(const std::string& line, std::size_t frame,
+                                             const BallGeometry& geometry) {
+  const nlohmann::json json = parse_line(line);
+  const JsonValue value(json, "");
+  value.allow({"frame", "left", "right", "balls"});
+  value.at("frame").integer(static_cast<std::int64_t>(frame), static_cast<std::int64_t>(frame));
+  std::vector<BallObservation> balls;
+  for (const JsonValue& ball : value.at("balls").list(0, kMostBalls))
+    balls.push_back(read_ball(ball, geometry));
+  return balls;
+}
+
+std::string detections_line(std::size_t frame, std::span<const BallObservation> balls,
+                            std::span<const std::string> pictures) {
+  Json json = frame_json(frame, pictures);
+  json["balls"] = Json::array();
+  for (const BallObservation& ball : balls) json["balls"].push_back(ball_json(ball));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string outlines_line(std::size_t frame, std::span<const vision::MeasuredOutline> outlines,
+                          const std::string& picture) {
+  Json json = frame_json(frame, std::span(&picture, 1));
+  json["balls"] = Json::array();
+  for (const vision::MeasuredOutline& outline : outlines) {
+    Json ball = {{"colour", colour_json(outline.colour)},
+                 {"left_px", pixel_json(outline.centre_px)},
+                 {"left_radius_px", outline.radius_px}};
+    if (outline.outside_fraction > vision::kMostHidden) ball["truncated"] = true;
+    if (outline.hidden_fraction > vision::kMostHidden) ball["occluded"] = true;
+    json["balls"].push_back(std::move(ball));
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace stereobench::harness

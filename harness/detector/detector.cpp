@@ -1,0 +1,34 @@
+#include "harness/detector/detector.h"
+
+#include "renderer/develop.h"
+#include "vision/observe.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kTypicalLevel = 128.0;  ///< at which detectors are told how large the camera's noise is
+
+}  // namespace
+
+DetectorSetup detector_setup(const worlds::Scenario& scenario) {
+  DetectorSetup setup{.rig = scenario.believed_rig,
+                      .noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel),
+                      .encoding = scenario.camera.encoding,
+                      .gamma = scenario.camera.gamma};
+  if (!scenario.world.balls.empty()) setup.ball_radius_m = scenario.world.balls.front().radius_m;
+  return setup;
+}
+
+Detector our_detector(const DetectorSetup& setup) {
+  vision::ObserverSettings settings;
+  settings.ball_radius_m = setup.ball_radius_m;
+  settings.noise_sd_levels = setup.noise_sd_levels;
+  const worlds::CameraSensor camera{.encoding = setup.encoding, .gamma = setup.gamma};
+  return [settings, camera, rectification = vision::Rectification(setup.rig)](const DetectorInput& input) {
+    const vision::StereoPair light = {renderer::decode(input.pair.left, camera),
+                                      renderer::decode(input.pair.right, camera)};
+    return vision::observe(light, rectification, settings);
+  };
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,79 @@
+#include "harness/run/detections_file.h"
+
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/dataset/dataset_truth.h"
+#include "harness/detector/detection_lines.h"
+#include "harness/detector/json_line.h"
+#include "harness/run/sightings.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+worlds::Identity identity_by_colour(const std::vector<worlds::Ball>& balls) {
+  std::set<int> colours;
+  for (const worlds::Ball& ball : balls) colours.insert(ball.colour);
+  return colours.size() == balls.size() ? worlds::Identity::kKnown : worlds::Identity::kColourClass;
+}
+
+[[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, what));
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || fs::is_directory(file))
+    throw std::runtime_error(fmt::format("{}: no such file of detections", file.string()));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
+                              std::optional<worlds::Identity> identity) {
+  const DatasetTruth truth = read_dataset_truth(folder);
+  const BallGeometry geometry = {truth.believed_rig, truth.world.balls.front().radius_m};
+  const worlds::Identity told = identity.value_or(identity_by_colour(truth.world.balls));
+  const std::vector<std::string> lines = lines_of(detections);
+  for (LogStep& step : log.steps) {
+    step.measurements.clear();
+    step.true_landmarks.clear();
+  }
+  VisionScore score;
+  for (std::size_t i = 0; i < truth.frames.size(); ++i) {
+    const std::size_t frame = truth.frames[i];
+    if (i >= lines.size()) refuse(detections, i + 1, fmt::format("expected the line of frame {}", frame));
+    if (frame >= log.steps.size() || !log.steps[frame].truth)
+      throw std::runtime_error(
+          fmt::format("{}: there is a picture of frame {}, but no truth", folder.string(), frame));
+    LogStep& step = log.steps[frame];
+    const renderer::StereoFrame ids = read_ball_ids(folder, frame, truth.rig);
+    const VisionTruth seen = {truth.world, truth.rig, *step.truth, ids};
+    try {
+      const auto observations = read_detections(lines[i], frame, geometry);
+      score += score_observations(seen, observations);
+      Sightings sightings =
+          sightings_of(observations, balls_observed(seen, observations), truth.world.balls, told);
+      step.measurements = std::move(sightings.measurements);
+      step.true_landmarks = std::move(sightings.balls);
+    } catch (const BadLine& bad) {
+      refuse(detections, i + 1, bad.what());
+    }
+  }
+  if (lines.size() > truth.frames.size())
+    refuse(detections, truth.frames.size() + 1, "expected no more lines: the data set has no more frames");
+  return score;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,24 @@
+/// Detections that were made elsewhere, in the pictures of a rendered data set.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "harness/scoring/vision_score.h"
+#include "harness/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Puts detections in place of a log's sightings, and scores them against the data set's truth.
+/// @param log of the data set
+/// @param folder that `stereobench render` wrote
+/// @param detections lines of detection_lines.h: one for each frame there are pictures of, in order
+/// @param identity how filters are to tell landmarks apart; empty: by their colours if no two share one, as
+///   colour classes otherwise
+/// @throws std::runtime_error "file:line: what was expected" for whatever is not exactly so
+VisionScore replace_sightings(MeasurementLog& log, const std::filesystem::path& folder,
+                              const std::filesystem::path& detections,
+                              std::optional<worlds::Identity> identity);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,244 @@
+/// `stereobench detect` on pictures from anywhere, and `slam --detections` on what it and others write.
+#include <algorithm>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/harness/commands/program.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+
+/// A short data set, rendered once for all tests of this file.
+class Dataset : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<ScratchFolder>();
+    const Outcome outcome = run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.1",
+                                             "--set", "shutter.drop_probability=0.2", "--set",
+                                             "believed_rig={baseline_m: 0.1205, pitch_down_deg: 0.2}",
+                                             "--set", "gates=[]", "--seed", "2", "--out", data()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    ASSERT_EQ(run_stereobench({"detect", data(), "--out", detections()}).exit_code, 0);
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  static std::string data() { return (folder_->path() / "data").string(); }
+  static std::string detections() { return (folder_->path() / "ours.jsonl").string(); }
+  static std::vector<std::string> lines() {
+    std::ifstream file(detections());
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+  }
+  static std::string first_left() {
+    return data() + "/left/" + nlohmann::json::parse(lines().at(0))["left"].get<std::string>();
+  }
+  static Outcome slam(const ScratchFolder& scratch, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {
+        "slam", data(), "--seeds", "0", "--particles", "10", "--out", (scratch.path() / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_stereobench(arguments);
+  }
+  static std::unique_ptr<ScratchFolder> folder_;
+};
+std::unique_ptr<ScratchFolder> Dataset::folder_;
+
+nlohmann::json result_in(const ScratchFolder& scratch) {
+  return nlohmann::json::parse(bytes_of(scratch.path() / "out/run.json"));
+}
+
+// Law: what our detector finds in a data set's pictures, put in by hand, gives the filters what the run that
+// rendered them gave, and vision the score of that run. Mutations: frames counted in place of named; the
+// believed rig for the true one in the score.
+TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(slam(scratch, {}).exit_code, 0);
+  const auto recorded = result_in(scratch);
+  const Outcome outcome = slam(scratch, {"--detections", detections()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto detected = result_in(scratch);
+  EXPECT_EQ(detected["detector"], "file");
+  for (const char* filter : {"dead_reckoning", "fastslam2", "ufastslam"})
+    for (const char* metric : {"ate_rms_m", "heading_rms_rad", "landmark_rms_m", "anees"})
+      EXPECT_EQ(detected["filters"][filter][metric], recorded["filters"][filter][metric]) << filter << metric;
+  EXPECT_GT(detected["filters"]["ufastslam"]["association"]["correct"].get<int>(), 5);
+
+  const ScratchFolder run;
+  ASSERT_EQ(
+      run_stereobench({"run", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--set",
+                       "shutter.drop_probability=0.2", "--set",
+                       "believed_rig={baseline_m: 0.1205, pitch_down_deg: 0.2}", "--set", "gates=[]",
+                       "--seeds", "2", "--filters", "dead_reckoning", "--out", (run.path() / "out").string()})
+          .exit_code,
+      0);
+  const auto vision = result_in(run)["vision"];
+  for (const auto& [key, value] : vision.items())
+    EXPECT_NEAR(detected["vision"][key].get<double>(), value.get<double>(), 1e-9) << key;
+  EXPECT_GT(vision["found"].get<int>(), 5);
+}
+
+TEST_F(Dataset, HowLandmarksAreToldApartCanBeChosen) {
+  const ScratchFolder scratch;
+  for (const auto& [identity, code] :
+       {std::pair{"none", 0}, {"colour_class", 0}, {"known", 0}, {"guessed", 2}})
+    EXPECT_EQ(slam(scratch, {"--detections", detections(), "--identity", identity}).exit_code, code)
+        << identity;
+  EXPECT_EQ(slam(scratch, {"--identity", "none"}).exit_code, 2);
+}
+
+// Mutation: lines beyond the last frame are passed over.
+TEST_F(Dataset, FilesOfDetectionsThatAreNotRightAreBadInput) {
+  const ScratchFolder scratch;
+  const std::vector<std::string> good = lines();
+  ASSERT_GT(good.size(), 2U);
+  const auto complaint = [&](const std::vector<std::string>& changed) {
+    std::string text;
+    for (const std::string& line : changed) text += line + "\n";
+    const Outcome outcome = slam(scratch, {"--detections", scratch.write("bad.jsonl", text)});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  };
+  const std::string next = std::to_string(good.size() + 1);
+  EXPECT_THAT(complaint({}), HasSubstr("bad.jsonl:1: expected the line of frame"));
+  auto changed = good;
+  changed.pop_back();
+  EXPECT_THAT(complaint(changed), HasSubstr("expected the line of frame"));
+  changed = good;
+  changed.push_back(good.back());
+  EXPECT_THAT(complaint(changed), HasSubstr("bad.jsonl:" + next + ": expected no more lines"));
+  changed = good;
+  std::swap(changed[0], changed[1]);
+  EXPECT_THAT(complaint(changed), HasSubstr("bad.jsonl:1: frame: expected"));
+  changed = good;
+  changed[1] = "rubbish";
+  EXPECT_THAT(complaint(changed), HasSubstr("bad.jsonl:2: expected a line of JSON (got 'rubbish')"));
+  EXPECT_THAT(slam(scratch, {"--detections", "/nowhere.jsonl"}).err,
+              HasSubstr("/nowhere.jsonl: no such file"));
+  std::filesystem::create_directory(scratch.path() / "log");
+  scratch.write("log/odometry.csv", "t_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
+  scratch.write("log/observations.csv", "t_s,landmark_id,range_m,bearing_rad\n0.5,1,2,0.1\n");
+  const Outcome no_pictures =
+      run_stereobench({"slam", (scratch.path() / "log").string(), "--detections", detections()});
+  EXPECT_EQ(no_pictures.exit_code, 2);
+  EXPECT_THAT(no_pictures.err, HasSubstr("expected a whole data set"));
+}
+
+// A pair, the same alone, and with its picture drawn.
+TEST_F(Dataset, OnePictureIsMeasuredAsInItsPair) {
+  const ScratchFolder scratch;
+  const std::string left = first_left();
+  const Outcome one = run_stereobench(
+      {"detect", left, "--rig", data() + "/calibration.yaml", "--draw", scratch.path().string()});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const auto alone = nlohmann::json::parse(one.out)["balls"];
+  const auto both = nlohmann::json::parse(lines().at(0))["balls"];
+  ASSERT_GT(both.size(), 0U);
+  for (const auto& ball : both) {
+    const bool is_there = std::any_of(alone.begin(), alone.end(), [&](const auto& other) {
+      return other["colour"] == ball["colour"] && other["left_px"] == ball["left_px"] &&
+             other["left_radius_px"] == ball["left_radius_px"];
+    });
+    EXPECT_TRUE(is_there) << ball;
+  }
+  const cv::Mat drawn = cv::imread((scratch.path() / std::filesystem::path(left).filename()).string());
+  EXPECT_EQ(drawn.size(), cv::Size(1024, 768));
+  EXPECT_GT(cv::norm(drawn, cv::imread(left), cv::NORM_L1), 1e5);
+}
+
+// Mutation: 16 bits cut off at 255.
+TEST_F(Dataset, SixteenBitsAndTransparencyChangeNothing) {
+  const ScratchFolder scratch;
+  const cv::Mat picture = cv::imread(first_left());
+  cv::Mat deep, clear;
+  picture.convertTo(deep, CV_16U, 257.0);
+  cv::cvtColor(picture, clear, cv::COLOR_BGR2BGRA);
+  const auto found_in = [&](const cv::Mat& as) {
+    const std::string file = (scratch.path() / "picture.png").string();
+    cv::imwrite(file, as);
+    return run_stereobench({"detect", file}).out;
+  };
+  const std::string plain = found_in(picture);
+  EXPECT_THAT(plain, HasSubstr("\"colour\":"));
+  EXPECT_EQ(found_in(deep), plain);
+  EXPECT_EQ(found_in(clear), plain);
+  EXPECT_THAT(found_in(cv::Mat(1, 1, CV_8UC3, cv::Scalar(0, 0, 200))), HasSubstr("\"balls\":[]"));
+}
+
+struct OddCall {
+  std::string kind;
+  std::vector<std::string> arguments;  ///< {data} and {odd} stand for folders
+  std::string message;
+};
+
+// Every odd input is one line and exit 2. Mutations: a truncated picture taken for a whole one (JPEG),
+// libpng's own line let through.
+TEST_F(Dataset, OddInputsAreOneLine) {
+  const ScratchFolder odd;
+  const std::string png = bytes_of(first_left());
+  odd.write("empty.png", "");
+  odd.write("text.png", "no picture");
+  odd.write("truncated.png", png.substr(0, png.size() / 2));
+  odd.write("header.png", png.substr(0, 40));
+  const cv::Mat picture = cv::imread(first_left());
+  cv::imwrite((odd.path() / "whole.jpg").string(), picture);
+  const std::string jpeg = bytes_of(odd.path() / "whole.jpg");
+  odd.write("truncated.jpg", jpeg.substr(0, jpeg.size() / 2));
+  cv::imwrite((odd.path() / "grey.png").string(), cv::Mat(768, 1024, CV_8U, cv::Scalar(7)));
+  cv::imwrite((odd.path() / "tiny.png").string(), cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(7)));
+  odd.write("empty.yaml", "");
+  odd.write("text.yaml", "hello");
+  odd.write("part.yaml", "%YAML:1.0\n---\nimage_width: 4\nimage_height: 4\n");
+  std::filesystem::create_directory(odd.path() / "nothing");
+  const std::string rig = data() + "/calibration.yaml";
+  const std::string place = odd.path().string() + "/";
+  const OddCall calls[] = {
+      {"NoPicture", {}, "expected LEFT"},
+      {"Missing", {place + "none.png"}, "none.png: no such file"},
+      {"Empty", {place + "empty.png"}, "empty.png: is no whole picture"},
+      {"Text", {place + "text.png"}, "is no whole picture"},
+      {"Truncated", {place + "truncated.png"}, "is no whole picture"},
+      {"HeaderAlone", {place + "header.png"}, "is no whole picture"},
+      {"TruncatedJpeg", {place + "truncated.jpg"}, "is no whole picture"},
+      {"Grey", {place + "grey.png"}, "has no colour"},
+      {"TinyForTheRig", {place + "tiny.png", "--rig", rig}, "1 x 1 pixels, the rig's have 1024 x 768"},
+      {"PairWithoutRig", {first_left(), first_left()}, "--rig: two eyes need"},
+      {"PairOfTwoSizes", {first_left(), place + "tiny.png", "--rig", rig}, "tiny.png: 1 x 1 pixels"},
+      {"ThreePictures", {first_left(), first_left(), first_left()}, "pictures"},
+      {"EmptyFolder", {place + "nothing"}, "holds no picture"},
+      {"MissingRig", {first_left(), "--rig", place + "none.yaml"}, "none.yaml: no such file"},
+      {"EmptyRig", {first_left(), "--rig", place + "empty.yaml"}, "empty.yaml: expected a calibration"},
+      {"TextForARig", {first_left(), "--rig", place + "text.yaml"}, "text.yaml: "},
+      {"FolderForARig", {first_left(), "--rig", place + "nothing"}, "expected a calibration"},
+      {"PartOfARig", {first_left(), "--rig", place + "part.yaml"}, "part.yaml: K: this key is missing"},
+      {"NegativeRadius", {first_left(), "--ball-radius-m", "-1"}, "--ball-radius-m"},
+      {"OutInAMissingFolder", {first_left(), "--out", place + "no/where.jsonl"}, "no/where.jsonl"},
+  };
+  for (const OddCall& call : calls) {
+    std::vector<std::string> arguments = {"detect"};
+    arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
+    const Outcome outcome = run_stereobench(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << call.kind << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(call.message)) << call.kind;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
+        << call.kind << ": " << outcome.err;
+  }
+}
+
+TEST_F(Dataset, AFolderOfPicturesIsLookedAtInOrderOfNames) {
+  const Outcome outcome = run_stereobench({"detect", data() + "/right"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
+            lines().size());
+  EXPECT_EQ(nlohmann::json::parse(outcome.out.substr(0, outcome.out.find('\n')))["frame"],
+            nlohmann::json::parse(lines().at(0))["frame"]);
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,69 @@
+#include "harness/dataset/calibration_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/dataset/rendered_dataset.h"
+#include "slam/random.h"
+#include "tests/harness/dataset/log_folder.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// Law: a rig is read as it was written. Mutations: the pitch looks up; the right eye's turn about the axes in
+// another order.
+TEST(CalibrationFile, IsReadAsItWasWritten) {
+  const TestFolder folder;
+  slam::RandomStream random(3, slam::Stream::kWorld);
+  for (int i = 0; i < 40; ++i) {
+    vision::StereoRig rig{
+        {640, 480, 500.0 + random.normal(), 319.5 + random.normal(), 239.5 + random.normal()},
+        0.1 + 0.1 * random.uniform(),
+        0.5 * random.uniform(),
+        0.3 * random.normal()};
+    if (i % 2 == 1)
+      rig.right_turn_rad = 0.1 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    rig.distortion = {
+        .k1 = 0.1 * random.uniform(), .p1 = 1e-3 * random.normal(), .k3 = 0.01 * random.uniform()};
+    folder.write("rig.yaml", calibration_yaml(rig));
+    const vision::StereoRig read = read_calibration(folder.path() / "rig.yaml");
+    EXPECT_EQ(read.camera.width_px, 640);
+    EXPECT_EQ(read.camera.height_px, 480);
+    EXPECT_EQ(read.camera.focal_px, rig.camera.focal_px);
+    EXPECT_EQ(read.camera.cx_px, rig.camera.cx_px);
+    EXPECT_EQ(read.camera.cy_px, rig.camera.cy_px);
+    EXPECT_EQ(read.baseline_m, rig.baseline_m);
+    EXPECT_EQ(read.height_m, rig.height_m);
+    EXPECT_EQ(read.distortion, rig.distortion);
+    EXPECT_NEAR(read.pitch_down_rad, rig.pitch_down_rad, 1e-15);
+    EXPECT_LT((read.right_turn_rad - rig.right_turn_rad).norm(), 1e-14);
+    EXPECT_EQ(read.right_turn_rad.isZero(0.0), i % 2 == 0);
+  }
+}
+
+TEST(CalibrationFile, RefusesWhatItCannotComputeWith) {
+  const TestFolder folder;
+  const auto complaint_of = [&](const std::string& from, const std::string& to) {
+    std::string text = calibration_yaml({{640, 480, 500.0, 319.5, 239.5}, 0.12, 0.3, 0.0});
+    text.replace(text.find(from), from.size(), to);
+    folder.write("rig.yaml", text);
+    try {
+      read_calibration(folder.path() / "rig.yaml");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_THAT(complaint_of("baseline_m:", "base:"), HasSubstr("rig.yaml: baseline_m: expected a number"));
+  EXPECT_THAT(complaint_of("1.2000000000000000e-01", "-1."), HasSubstr("positive sizes and baseline"));
+  EXPECT_THAT(complaint_of("image_width: 640", "image_width: 0"), HasSubstr("positive sizes"));
+  EXPECT_THAT(complaint_of("data: [ 0., 0.,", "data: [ -3., 0.,"), HasSubstr("D: expected a lens"));
+  EXPECT_THAT(complaint_of("data: [ 500.", "data: [ .Nan"), testing::Not(HasSubstr("no complaint")));
+  EXPECT_THAT(complaint_of("K: !!opencv-matrix", "K: 3 #"), HasSubstr("rig.yaml: "));
+}
+
+}  // namespace
+}  // namespace stereobench::harness
