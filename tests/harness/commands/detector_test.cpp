@@ -92,8 +92,7 @@ long left_in(const std::filesystem::path& folder) {
 }
 
 // Mutations: the frame's number not looked at; what comes after the last frame, or how it ended, not looked
-// at; told as bad input. `EndlessErrors` hung some runs when errors that never pause kept the deadline from
-// being looked at.
+// at; told as bad input.
 TEST_P(MisbehavingDetector, EndsTheRunWithFourAndOneLineAndNothingLeft) {
   const ScratchFolder scratch;
   const auto began = std::chrono::steady_clock::now();
