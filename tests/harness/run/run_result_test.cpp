@@ -45,8 +45,8 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result);
-  EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "vision",
-                                                  "bound", "batch", "filters", "comparisons"}));
+  EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector",
+                                                  "vision", "bound", "batch", "filters", "comparisons"}));
   EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
