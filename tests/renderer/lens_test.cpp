@@ -109,8 +109,10 @@ TEST_P(LensTest, RendersRowsAloneAsInTheWholePicture) {
        {cv::Range(0, 3), cv::Range(100, 104), cv::Range(199, 300), cv::Range(479, 480)}) {
     const StereoFrame alone = renderer.render(pose, pose, rows);
     EXPECT_EQ(cv::norm(alone.left.colour, whole.left.colour.rowRange(rows), cv::NORM_INF), 0.0) << rows.start;
-    EXPECT_EQ(cv::norm(alone.right.colour, whole.right.colour.rowRange(rows), cv::NORM_INF), 0.0) << rows.start;
-    EXPECT_EQ(cv::norm(alone.right.ball_id, whole.right.ball_id.rowRange(rows), cv::NORM_INF), 0.0) << rows.start;
+    EXPECT_EQ(cv::norm(alone.right.colour, whole.right.colour.rowRange(rows), cv::NORM_INF), 0.0)
+        << rows.start;
+    EXPECT_EQ(cv::norm(alone.right.ball_id, whole.right.ball_id.rowRange(rows), cv::NORM_INF), 0.0)
+        << rows.start;
     EXPECT_EQ(cv::norm(alone.left.depth_m != whole.left.depth_m.rowRange(rows)), 0.0) << rows.start;
   }
   for (const cv::Range none : {cv::Range(-1, 3), cv::Range(5, 5), cv::Range(470, 481)})
