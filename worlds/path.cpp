@@ -60,32 +60,6 @@ std::vector<Control> cut_at_readings(std::vector<Control> controls, double odome
   return cut;
 }
 
-/// Cuts a drive into steps; their poses follow from the controls.
-GroundTruth drive(const Pose& start, std::vector<Control> pieces, double step_s, double odometry_s) {
-  const double total_s = duration_s(pieces);
-  require_positive(step_s, "step_s");
-  if (!(total_s / step_s <= kMostSteps)) {
-    throw std::invalid_argument(
-        fmt::format("expected at most {} steps (got {:.0f})", kMostSteps, total_s / step_s));
-  }
-  if (odometry_s != 0.0 && !(odometry_s > kSliver_s && total_s / odometry_s <= kMostReadings)) {
-    throw std::invalid_argument(fmt::format("expected at most {} readings of the odometry", kMostReadings));
-  }
-  GroundTruth path = {{0, start, {}}};
-  std::size_t next = 0;
-  for (std::int64_t k = 1; next < pieces.size(); ++k) {
-    PathStep step;
-    const double until_s = std::min(static_cast<double>(k) * step_s, total_s);
-    step.stamp_ns = std::llround(until_s * 1e9);
-    step.controls = cut_at_readings(take(pieces, next, step_s), odometry_s);
-    if (step.controls.empty()) break;
-    step.pose = path.back().pose;
-    for (const Control& control : step.controls) step.pose = slam::advance(step.pose, control);
-    path.push_back(step);
-  }
-  return path;
-}
-
 /// A polyline's corner: how far from it the arc begins and ends, and by how much it turns.
 struct Corner {
   double tangent_m = 0.0;
@@ -162,13 +136,39 @@ void require_drivable(const PolylinePath& path) {
 
 }  // namespace
 
+GroundTruth drive_controls(const Pose& start, std::vector<Control> pieces, double step_s, double odometry_s) {
+  const double total_s = duration_s(pieces);
+  require_positive(step_s, "step_s");
+  if (!(total_s / step_s <= kMostSteps)) {
+    throw std::invalid_argument(
+        fmt::format("expected at most {} steps (got {:.0f})", kMostSteps, total_s / step_s));
+  }
+  if (odometry_s != 0.0 && !(odometry_s > kSliver_s && total_s / odometry_s <= kMostReadings)) {
+    throw std::invalid_argument(fmt::format("expected at most {} readings of the odometry", kMostReadings));
+  }
+  GroundTruth path = {{0, start, {}}};
+  std::size_t next = 0;
+  for (std::int64_t k = 1; next < pieces.size(); ++k) {
+    PathStep step;
+    const double until_s = std::min(static_cast<double>(k) * step_s, total_s);
+    step.stamp_ns = std::llround(until_s * 1e9);
+    step.controls = cut_at_readings(take(pieces, next, step_s), odometry_s);
+    if (step.controls.empty()) break;
+    step.pose = path.back().pose;
+    for (const Control& control : step.controls) step.pose = slam::advance(step.pose, control);
+    path.push_back(step);
+  }
+  return path;
+}
+
 GroundTruth drive_circle(const CirclePath& path) {
   require_positive(path.radius_m, "radius_m");
   require_positive(path.speed_mps, "speed_mps");
   require_positive(path.laps, "laps");
   const double turn_rate_radps = path.speed_mps / path.radius_m;
   const double duration_s = path.laps * 2.0 * std::numbers::pi / turn_rate_radps;
-  return drive(path.start, {{path.speed_mps, turn_rate_radps, duration_s}}, path.step_s, path.odometry_s);
+  return drive_controls(path.start, {{path.speed_mps, turn_rate_radps, duration_s}}, path.step_s,
+                        path.odometry_s);
 }
 
 GroundTruth drive_polyline(const PolylinePath& path) {
@@ -178,8 +178,8 @@ GroundTruth drive_polyline(const PolylinePath& path) {
   const Eigen::Vector2d start_m = path.points_m[0] + corners[0].tangent_m * along;
   std::vector<Control> pieces = pieces_of(path, corners);
   if (path.overlap_m > 0.0) pieces = with_overlap(std::move(pieces), path.overlap_m / path.speed_mps);
-  return drive({start_m.x(), start_m.y(), heading_of(along)}, std::move(pieces), path.step_s,
-               path.odometry_s);
+  return drive_controls({start_m.x(), start_m.y(), heading_of(along)}, std::move(pieces), path.step_s,
+                        path.odometry_s);
 }
 
 slam::Pose pose_near(const GroundTruth& path, std::size_t index, double offset_s) {

@@ -50,6 +50,13 @@ GroundTruth drive_circle(const CirclePath& path);
 ///         or readings
 GroundTruth drive_polyline(const PolylinePath& path);
 
+/// Drives what controls say, one after another. Step 0 is the start without controls.
+///
+/// @return as above
+/// @throws std::invalid_argument when there are too many steps or readings
+GroundTruth drive_controls(const slam::Pose& start, std::vector<slam::Control> pieces, double step_s,
+                           double odometry_s);
+
 /// Where the robot is a little before or after a step, on its way.
 ///
 /// @param index of the step, below path.size()

@@ -101,7 +101,7 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   const auto made = world.find("generator");
   std::optional<Generator> generator;
   if (made) generator = read_generator(*made, read_ball_radius_m(world));
-  scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr);
+  scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr, folder);
   scenario.world = read_world(world, folder);
   if (generator)
     generate(*made, *generator, scenario);

@@ -33,9 +33,11 @@ MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& fold
 /// `world.mesh_limits:` what a mesh file may cost.
 MeshLimits read_mesh_limits(const YamlValue& value);
 
-/// `path:` a circle, a polyline, or the tour of a generated world, driven.
+/// `path:` a circle, a polyline, a smooth curve, a figure eight, a recorded trajectory, or the tour of a
+/// generated world, driven.
 /// @param layout of the world, where it is generated
-GroundTruth read_path(const YamlValue& value, const Layout* layout);
+/// @param folder that files are relative to
+GroundTruth read_path(const YamlValue& value, const Layout* layout, const std::filesystem::path& folder);
 
 /// `rig:` the cameras and how they sit on the robot.
 vision::StereoRig read_rig(const YamlValue& value);

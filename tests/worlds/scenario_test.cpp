@@ -2,6 +2,7 @@
 #include "worlds/scenario.h"
 
 #include <cmath>
+#include <fstream>
 #include <locale>
 #include <numbers>
 #include <string>
@@ -166,6 +167,19 @@ TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
   EXPECT_EQ(blind.believed_rig.right_turn_rad, Eigen::Vector3d::Zero());
   EXPECT_EQ(blind.believed_rig.distortion, vision::Distortion{});
   EXPECT_EQ(scenario.rig.camera.focal_px, read_small().believed_rig.camera.focal_px);
+}
+
+TEST(Scenario, DrivesSmoothPaths) {
+  EXPECT_NEAR(
+      length_m(read_small({"path={kind: figure_eight, radius_m: 1, speed_mps: 1, step_s: 0.1}"}).path),
+      4.0 * std::numbers::pi, 1e-9);
+  const Scenario spline =
+      read_small({"path={kind: spline, points_m: [[0, 0], [1, 0], [2, 1]], speed_mps: 1, step_s: 0.1}"});
+  EXPECT_NEAR(spline.path.back().pose.y_m, 1.0, 1e-9);
+  const std::string file = testing::TempDir() + "/drive.txt";
+  std::ofstream(file) << "0 1 1 0 0 0 0 1\n2 3 1 0 0 0 0 1\n";
+  const Scenario recorded = read_small({"path={kind: recorded, file: " + file + ", step_s: 1}"});
+  EXPECT_NEAR(recorded.path[1].pose.x_m, 2.0, 1e-12);
 }
 
 /// A language that writes a comma where C++ writes a point.
