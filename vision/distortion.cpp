@@ -5,28 +5,39 @@
 #include "vision/rig.h"
 
 namespace stereobench::vision {
+namespace {
+
+/// 1 + k1 r^2 + k2 r^4 + k3 r^6, and its derivative by r^2.
+struct Radial {
+  double factor;
+  double by_r2;
+};
+
+Radial radial_at(const Distortion& lens, double r2) {
+  return {1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3)),
+          lens.k1 + r2 * (2.0 * lens.k2 + r2 * 3.0 * lens.k3)};
+}
+
+}  // namespace
+
 Eigen::Matrix2d distortion_slope(const Distortion& lens, const Eigen::Vector2d& direction) {
-  const auto& [k1, k2, p1, p2, k3] = lens;
   const double x = direction.x();
   const double y = direction.y();
-  const double r2 = direction.squaredNorm();
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double radial_by_r2 = k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3);
+  const Radial radial = radial_at(lens, direction.squaredNorm());
+  const double both = 2.0 * (lens.p1 * x + lens.p2 * y);
   Eigen::Matrix2d decentred;
-  decentred << 2.0 * p1 * y + 6.0 * p2 * x, 2.0 * p1 * x + 2.0 * p2 * y,  //
-      2.0 * p1 * x + 2.0 * p2 * y, 6.0 * p1 * y + 2.0 * p2 * x;
-  return radial * Eigen::Matrix2d::Identity() + 2.0 * radial_by_r2 * direction * direction.transpose() +
-         decentred;
+  decentred << 2.0 * lens.p1 * y + 6.0 * lens.p2 * x, both, both, 6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
+  return radial.factor * Eigen::Matrix2d::Identity() +
+         2.0 * radial.by_r2 * direction * direction.transpose() + decentred;
 }
 
 Eigen::Vector2d distort(const Distortion& lens, const Eigen::Vector2d& direction) {
-  const auto& [k1, k2, p1, p2, k3] = lens;
   const double x = direction.x();
   const double y = direction.y();
   const double r2 = direction.squaredNorm();
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+  const double radial = radial_at(lens, r2).factor;
+  return {x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (r2 + 2.0 * x * x),
+          y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y};
 }
 
 std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Vector2d& place,

@@ -14,7 +14,8 @@ constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kSpeed_mps = {1e-3, 100.0};
 constexpr Interval kStep_s = {1e-3, 1e3};
 
-GroundTruth read_circle(const YamlValue& value) {
+/// What a circle and a figure eight are both said by.
+CirclePath read_circles(const YamlValue& value) {
   const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s",
                             "odometry_s"});
   CirclePath path;
@@ -28,7 +29,7 @@ GroundTruth read_circle(const YamlValue& value) {
   path.laps = map.number("laps", {1e-3, 1e3}, 1.0);
   path.step_s = map.number("step_s", kStep_s);
   path.odometry_s = map.number("odometry_s", kStep_s, 0.0);
-  return drive_circle(path);
+  return path;
 }
 
 GroundTruth read_polyline(const YamlValue& value) {
@@ -75,23 +76,6 @@ GroundTruth read_spline(const YamlValue& value) {
   return drive_spline(path);
 }
 
-GroundTruth read_figure_eight(const YamlValue& value) {
-  const YamlMap map(value, {"kind", "start_m", "start_heading_deg", "radius_m", "speed_mps", "laps", "step_s",
-                            "odometry_s"});
-  FigureEightPath path;
-  if (const auto start = map.find("start_m")) {
-    const Eigen::Vector2d start_m = read_vector<2>(*start, kPlace_m);
-    path.start = {start_m.x(), start_m.y(), 0.0};
-  }
-  path.start.heading_rad = map.number("start_heading_deg", {-179.999999, 180.0}, 0.0) * kDegree;
-  path.radius_m = map.number("radius_m", kSize_m);
-  path.speed_mps = map.number("speed_mps", kSpeed_mps);
-  path.laps = map.number("laps", {1e-3, 1e3}, 1.0);
-  path.step_s = map.number("step_s", kStep_s);
-  path.odometry_s = map.number("odometry_s", kStep_s, 0.0);
-  return drive_figure_eight(path);
-}
-
 GroundTruth read_recorded(const YamlValue& value, const std::filesystem::path& folder) {
   const YamlMap map(value, {"kind", "file", "step_s", "odometry_s"});
   const std::vector<TimedPose> poses = read_trajectory(folder / map.at("file").text());
@@ -109,7 +93,7 @@ GroundTruth read_path(const YamlValue& value, const Layout* layout, const std::f
   try {
     switch (kind) {
       case 0:
-        return read_circle(value);
+        return drive_circle(read_circles(value));
       case 1:
         return read_polyline(value);
       case 2:
@@ -117,7 +101,7 @@ GroundTruth read_path(const YamlValue& value, const Layout* layout, const std::f
       case 3:
         return read_spline(value);
       case 4:
-        return read_figure_eight(value);
+        return drive_figure_eight(read_circles(value));
       default:
         return read_recorded(value, folder);
     }

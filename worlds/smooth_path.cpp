@@ -69,13 +69,10 @@ std::vector<Control> between(const TimedPose& from, const TimedPose& to) {
 
 }  // namespace
 
-GroundTruth drive_figure_eight(const FigureEightPath& path) {
-  CirclePath half{path.start, path.radius_m, path.speed_mps, 1.0, path.step_s, path.odometry_s};
-  drive_circle(half);  // refuses what is no size
+GroundTruth drive_figure_eight(const CirclePath& path) {
+  drive_circle(path);  // refuses what is no size
   const double turn_radps = path.speed_mps / path.radius_m;
   const double circle_s = 2.0 * std::numbers::pi / turn_radps;
-  if (!(path.laps > 0.0 && path.laps * circle_s / path.step_s < 1e6))
-    throw std::invalid_argument(fmt::format("expected a positive number of laps (got {:g})", path.laps));
   std::vector<Control> pieces;
   for (double left = 2.0 * path.laps; left > 0.0; left -= 1.0) {
     const double side = pieces.size() % 2 == 0 ? 1.0 : -1.0;

@@ -10,16 +10,6 @@
 
 namespace stereobench::worlds {
 
-/// A circle to the left, then one to the right, that touch at the start.
-struct FigureEightPath {
-  slam::Pose start;
-  double radius_m = 1.0;
-  double speed_mps = 1.0;
-  double laps = 1.0;  ///< > 0, need not be whole
-  double step_s = 1.0;
-  double odometry_s = 0.0;
-};
-
 /// A smooth curve through points, at constant speed. At each point it heads as from the point before to the
 /// point after (Catmull and Rom); between them lie biarcs.
 struct SplinePath {
@@ -36,8 +26,9 @@ struct TimedPose {
   slam::Pose pose;
 };
 
+/// A circle to the left, then one of the same size to the right; they touch at the start. Both are a lap.
 /// @throws std::invalid_argument as drive_circle
-GroundTruth drive_figure_eight(const FigureEightPath& path);
+GroundTruth drive_figure_eight(const CirclePath& path);
 
 /// @throws std::invalid_argument as drive_polyline, but for corners
 GroundTruth drive_spline(const SplinePath& path);
