@@ -2,7 +2,6 @@
 #include "worlds/scenario.h"
 
 #include <cmath>
-#include <fstream>
 #include <locale>
 #include <numbers>
 #include <string>
@@ -176,9 +175,9 @@ TEST(Scenario, DrivesSmoothPaths) {
   const Scenario spline =
       read_small({"path={kind: spline, points_m: [[0, 0], [1, 0], [2, 1]], speed_mps: 1, step_s: 0.1}"});
   EXPECT_NEAR(spline.path.back().pose.y_m, 1.0, 1e-9);
-  const std::string file = testing::TempDir() + "/drive.txt";
-  std::ofstream(file) << "0 1 1 0 0 0 0 1\n2 3 1 0 0 0 0 1\n";
-  const Scenario recorded = read_small({"path={kind: recorded, file: " + file + ", step_s: 1}"});
+  const ScenarioFolder folder;
+  const auto file = folder.write("drive.txt", "0 1 1 0 0 0 0 1\n2 3 1 0 0 0 0 1\n");
+  const Scenario recorded = read_small({"path={kind: recorded, file: " + file.string() + ", step_s: 1}"});
   EXPECT_NEAR(recorded.path[1].pose.x_m, 2.0, 1e-12);
 }
 

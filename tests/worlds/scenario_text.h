@@ -1,6 +1,7 @@
 /// Scenario files made up by tests: a small one that is right, and files that vanish with the test.
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -50,11 +51,9 @@ gates:
 class ScenarioFolder {
  public:
   ScenarioFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "_" + test->name();
-    for (char& c : name) c = c == '/' ? '_' : c;
-    folder_ = std::filesystem::path(testing::TempDir()) / ("stereobench_" + name);
-    std::filesystem::create_directories(folder_);
+    std::string name = (std::filesystem::path(testing::TempDir()) / "stereobench_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for a test");
+    folder_ = name;
     write("thing.obj", "v 0 0 0\n");
   }
   ~ScenarioFolder() { std::filesystem::remove_all(folder_); }

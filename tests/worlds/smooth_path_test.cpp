@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -14,6 +13,7 @@
 #include "slam/motion.h"
 #include "slam/random.h"
 #include "tests/slam/checks.h"
+#include "tests/worlds/scenario_text.h"
 #include "worlds/biarc.h"
 
 namespace stereobench::worlds {
@@ -134,15 +134,14 @@ TEST(Recorded, IsWhereItWasRecorded) {
   EXPECT_THROW(drive_recorded({{1.0, {}}, {1.0, {}}}, 0.5, 0.0), std::invalid_argument);
 }
 
-std::filesystem::path written(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "trajectory.txt";
-  std::ofstream(file) << text;
-  return file;
+std::vector<TimedPose> poses_in(const std::string& text) {
+  const ScenarioFolder folder;
+  return read_trajectory(folder.write("trajectory.txt", text));
 }
 
 std::string complaint_about(const std::string& text) {
   try {
-    read_trajectory(written(text));
+    poses_in(text);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -151,13 +150,13 @@ std::string complaint_about(const std::string& text) {
 
 // Mutation: qx for qz in the heading.
 TEST(Trajectory, IsReadInBothFormats) {
-  const auto tum = read_trajectory(
-      written("# a comment\n1305031098.5 1 2 3 0 0 0 1\n1305031099.5 1 2.5 3 0 0 0.70710678 0.70710678\n"));
+  const auto tum =
+      poses_in("# a comment\n1305031098.5 1 2 3 0 0 0 1\n1305031099.5 1 2.5 3 0 0 0.70710678 0.70710678\n");
   ASSERT_EQ(tum.size(), 2U);
   EXPECT_EQ(tum[0].time_s, 1305031098.5);
   EXPECT_TRUE(near(slam::displacement(tum[0].pose, {1.0, 2.0, 0.0}), Eigen::Vector3d::Zero().eval(), 1e-12));
   EXPECT_NEAR(tum[1].pose.heading_rad, 0.5 * std::numbers::pi, 1e-7);
-  const auto own = read_trajectory(written("t_s,x_m,y_m,theta_rad\n0,1,2,0.25\r\n1,1,2,-3\n"));
+  const auto own = poses_in("t_s,x_m,y_m,theta_rad\n0,1,2,0.25\r\n1,1,2,-3\n");
   EXPECT_EQ(own[0].pose.heading_rad, 0.25);
   EXPECT_EQ(own[1].pose.heading_rad, -3.0);
 }
