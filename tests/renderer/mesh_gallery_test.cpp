@@ -58,9 +58,15 @@ std::vector<Expected> read_table() {
   return rows;
 }
 
-/// Ours reads fewer: no ply, and nothing that is a million units away.
+/// What may be read at all: ours takes no ply.
+bool is_readable(const Expected& row) {
+  return row.exit_status == 0 && row.file.extension() != ".ply";
+}
+
+/// What must be read. Ours refuses what is a million units away; assimp puts such vertices there by reading
+/// memory that it has not written, and elsewhere the next time.
 bool is_good(const Expected& row) {
-  return row.exit_status == 0 && row.file.extension() != ".ply" && row.farthest < 1e6;
+  return is_readable(row) && row.farthest < 1e6;
 }
 
 // Meant to catch: loading in this process (it dies of the crash file where ply is allowed); incomplete scenes
@@ -73,7 +79,7 @@ TEST(MeshGallery, EveryFileIsReadInFullOrRefusedByNameInOneLine) {
     SCOPED_TRACE(row.file.string());
     const auto start = std::chrono::steady_clock::now();
     try {
-      EXPECT_EQ(read_mesh(row.file).size(), is_good(row) ? row.triangles : 0U);
+      EXPECT_EQ(read_mesh(row.file).size(), is_readable(row) ? row.triangles : 0U);
     } catch (const std::runtime_error& error) {
       EXPECT_FALSE(is_good(row)) << error.what();
       EXPECT_THAT(error.what(), testing::StartsWith(row.file.string() + ": "));
