@@ -136,9 +136,11 @@ struct Renderer::Parts {
     gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
   }
 
+  int height_px() const { return lens ? lens->height_px() : rig.camera.height_px; }
+
   /// Rows of the picture that is asked for, not of what is drawn.
   cv::Range checked_rows(const cv::Range& asked) const {
-    const cv::Range all(0, lens ? lens->height_px() : rig.camera.height_px);
+    const cv::Range all(0, height_px());
     if (asked == cv::Range::all()) return all;
     require(asked.start >= 0 && asked.start < asked.end && asked.end <= all.end,
             "Renderer::render: the picture has no such rows");
@@ -158,6 +160,10 @@ Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Bac
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
+
+int Renderer::height_px() const {
+  return parts_->height_px();
+}
 
 StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose,
                              const cv::Range& asked) {

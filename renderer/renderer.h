@@ -39,6 +39,9 @@ class Renderer {
     return render(left_pose, right_pose, cv::Range::all());
   }
 
+  /// Of the pictures that it renders.
+  int height_px() const;
+
   /// The same for cameras whose rows look one after another.
   /// @param rows of the picture, those that look now
   /// @return pictures of these rows alone

@@ -57,6 +57,7 @@ std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Ve
 
 std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Vector2d& place) {
   constexpr int kStages = 32;
+  if (lens == Distortion{}) return place;
   std::optional<Eigen::Vector2d> direction = Eigen::Vector2d::Zero();
   for (int stage = 1; stage <= kStages && direction; ++stage)
     direction = undistort(lens, place * stage / kStages, *direction);

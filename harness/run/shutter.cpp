@@ -15,6 +15,7 @@ struct Step {
   const worlds::GroundTruth& path;
   std::size_t index;
   const worlds::Shutter& shutter;
+  int height_px;
 
   renderer::StereoFrame seen(double offset_s, const cv::Range& rows) const {
     return renderer.render(worlds::pose_near(path, index, offset_s),
@@ -22,24 +23,24 @@ struct Step {
   }
 };
 
-void put(const renderer::EyeFrame& rows, int first_row, renderer::EyeFrame& whole) {
-  const cv::Range place(first_row, first_row + rows.colour.rows);
-  rows.colour.copyTo(whole.colour.rowRange(place));
-  rows.ball_id.copyTo(whole.ball_id.rowRange(place));
-  rows.depth_m.copyTo(whole.depth_m.rowRange(place));
+void append(const renderer::EyeFrame& rows, renderer::EyeFrame& picture) {
+  picture.colour.push_back(rows.colour);
+  picture.ball_id.push_back(rows.ball_id);
+  picture.depth_m.push_back(rows.depth_m);
 }
 
 /// The picture whose middle row looks at an offset from the step's time.
 renderer::StereoFrame rolled(const Step& step, double offset_s) {
-  renderer::StereoFrame frame = step.seen(offset_s, cv::Range::all());
   const double readout_s = step.shutter.readout_s;
-  const int height = frame.left.colour.rows;
-  for (int first = 0; readout_s != 0.0 && first < height; first += kRowsAtOnce) {
+  if (readout_s == 0.0) return step.seen(offset_s, cv::Range::all());
+  renderer::StereoFrame frame;
+  const int height = step.height_px;
+  for (int first = 0; first < height; first += kRowsAtOnce) {
     const cv::Range rows(first, std::min(first + kRowsAtOnce, height));
     const double share = (0.5 * (rows.start + rows.end) - 0.5 * height) / height;
     const renderer::StereoFrame band = step.seen(offset_s + share * readout_s, rows);
-    put(band.left, first, frame.left);
-    put(band.right, first, frame.right);
+    append(band.left, frame.left);
+    append(band.right, frame.right);
   }
   return frame;
 }
@@ -48,7 +49,7 @@ renderer::StereoFrame rolled(const Step& step, double offset_s) {
 
 renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
                                    std::size_t index, const worlds::Shutter& shutter, double late_s) {
-  const Step step = {renderer, path, index, shutter};
+  const Step step = {renderer, path, index, shutter, renderer.height_px()};
   renderer::StereoFrame frame = rolled(step, late_s);
   if (shutter.open_s == 0.0) return frame;
   cv::Mat left = cv::Mat::zeros(frame.left.colour.size(), CV_32SC3);

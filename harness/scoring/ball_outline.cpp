@@ -30,10 +30,11 @@ Eigen::Vector2d point_on(const OutlineEllipse& ellipse, double turn_rad) {
 }
 
 /// Whether the picture that a rig takes holds all of an outline.
-bool lies_inside(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
+/// @param seen its directions_seen()
+bool lies_inside(const vision::StereoRig& rig, const std::optional<Eigen::AlignedBox2d>& seen,
+                 const OutlineEllipse& ellipse) {
   constexpr int kPoints = 64;
   if (rig.distortion == vision::Distortion{}) return vision::lies_inside(rig.camera, ellipse);
-  const auto seen = vision::directions_seen(rig.distortion, rig.camera);
   for (int i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d ray =
         vision::pixel_ray(rig.camera, point_on(ellipse, 2.0 * std::numbers::pi * i / kPoints));
@@ -65,6 +66,7 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
   const Eigen::Isometry3d camera_from_robot = vision::robot_from_camera(truth.rig).inverse();
   const auto left_ids = renderer::pixels_by_id(truth.frame.left.ball_id);
   const auto right_ids = renderer::pixels_by_id(truth.frame.right.ball_id);
+  const auto seen = vision::directions_seen(truth.rig.distortion, camera);
   std::vector<BallOutline> outlines;
   for (std::size_t i = 0; i < truth.world.balls.size(); ++i) {
     const worlds::Ball& ball = truth.world.balls[i];
@@ -78,7 +80,7 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     outline.left_fraction = static_cast<double>(left_ids.at(i + 1).count) / whole_area_px(truth.rig, *left);
     outline.right_fraction =
         static_cast<double>(right_ids.at(i + 1).count) / whole_area_px(truth.rig, *right);
-    outline.inside_both = lies_inside(truth.rig, *left) && lies_inside(truth.rig, *right);
+    outline.inside_both = lies_inside(truth.rig, seen, *left) && lies_inside(truth.rig, seen, *right);
     outlines.push_back(outline);
   }
   return outlines;

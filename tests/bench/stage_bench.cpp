@@ -41,6 +41,13 @@ void render_pair(benchmark::State& state, const Scene& scene) {
   }
 }
 
+/// Behind a lens that bends straight lines by tens of pixels.
+Scene behind_a_lens() {
+  Scene scene = scenario_scene("ball_circle");
+  scene.rig.distortion = {.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
+  return scene;
+}
+
 void expose_pair(benchmark::State& state, const Scene& scene, const worlds::CameraSensor& sensor) {
   Bench bench(scene);
   std::uint64_t index = 0;
@@ -80,6 +87,7 @@ void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_l
 
 STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls())->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"))->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair, behind_a_lens, behind_a_lens())->DenseRange(0, 0);
 STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), plain_noise());
 STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle"), noise_and_vignette());

@@ -100,7 +100,7 @@ TEST(Shutter, ReadsRowsOneAfterAnother) {
   EXPECT_FALSE(same(rolled.left.colour, renderer.render(scenario.path[2].pose).left.colour));
 }
 
-// Mutations: one eye that is late, a frame that is never late.
+// Mutations: a lateness that the shutter does not know of, a frame that is never late.
 TEST(Shutter, LooksLateAsOftenAsAsked) {
   worlds::Scenario scenario = bend();
   scenario.shutter = {.late_probability = 0.5, .late_s = 0.05};
