@@ -54,22 +54,20 @@ std::vector<MeasuredOutline> without_duplicates(std::vector<MeasuredOutline> out
   return result;
 }
 
-BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const ObserverSettings& settings) {
-  const OutlineCentres centres{pair.left.centre_px, pair.right.centre_px, pair.left.covariance_px2,
-                               pair.right.covariance_px2};
+BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   BallObservation ball;
   ball.colour = pair.left.colour;
   ball.left_px = pair.left.centre_px;
   ball.right_px = pair.right.centre_px;
   ball.left_radius_px = pair.left.radius_px;
   ball.right_radius_px = pair.right.radius_px;
-  ball.ball_in_camera = triangulate_ball(rig, ball.left_px, ball.right_px, settings.ball_radius_m).value();
-  ball.range_bearing = range_bearing(
-      ball.ball_in_camera, ball_covariance(rig, centres, settings.ball_radius_m), robot_from_camera(rig));
+  ball.ball_in_camera = pair.ball.ball_in_camera;
+  ball.range_bearing = range_bearing(ball.ball_in_camera, pair.ball.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
-  ball.occluded =
-      !pair.sizes_agree || std::max(pair.left.hidden_fraction, pair.right.hidden_fraction) > kMostHidden;
+  if (!pair.sizes_agree) {
+    ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
+    ball.occluded = !ball.truncated;
+  }
   return ball;
 }
 
@@ -104,7 +102,7 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
   const auto right = find_outlines(pair.right, rig.camera, settings);
   std::vector<BallObservation> balls;
   for (const OutlinePair& outlines : match_outlines(left, right, rig, settings))
-    balls.push_back(measure(outlines, rig, settings));
+    balls.push_back(measure(outlines, rig));
   std::sort(balls.begin(), balls.end(), by_colour_then_column);
   return balls;
 }

@@ -19,8 +19,7 @@ struct ObserverSettings {
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
 };
 
-/// Of an outline's area, what may be hidden, or outside of the picture, of a ball that is to be trusted:
-/// between the 5 % that are fine and the 7 % that are not.
+/// Of an outline's area, what may be hidden, or outside of the picture, of a ball that passes for whole.
 inline constexpr double kMostHidden = 0.06;
 
 /// Finds the outlines of balls in one eye's picture.
@@ -34,8 +33,11 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 /// Colour gives the identity (or its class), the outline's centre in each eye the position; eq. of sphere.h.
 /// @param pair two CV_8UC3 images of the rig's size, BGR, linear light; row padding is fine
 /// @param rig the rig as it is believed to be
-/// @return the balls sorted by colour, then by column; truncated and occluded ones are included, flagged, and
-///         their measurements are not to be trusted; empty when no ball is seen by both eyes
+///
+/// Of a ball that is hidden or cut in part, at least a third of the outline must speak for it in each eye. It
+/// is measured by that and by the size that balls have (ball_fit.h), with the covariance that is left.
+/// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball are included,
+///         flagged, and not to be trusted; empty when no ball is seen by both eyes
 /// @throws std::invalid_argument when an image is empty, not CV_8UC3 or not of the rig's size, or when the
 /// rig
 ///         or the settings are not positive and finite

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "vision/arc_fit.h"
+#include "vision/boundary_guess.h"
 #include "vision/palette.h"
 #include "vision/rim.h"
 
@@ -17,12 +18,14 @@ constexpr double kGap_px = 0.9;           // between a sharp edge and the colour
 constexpr double kRing_px = 2.0;          // width of the ring that the colours are sampled in
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kLookAgainAbove_px = 0.2;
-constexpr int kSharpSteps = 6;
+constexpr int kSharpSteps = 12;
 constexpr double kConverged_px = 1e-3;
-constexpr double kRimDepth_px = 1.2;  // inside of it a pixel is wholly the ball's
-constexpr double kMinFill = 0.25;     // of the bounding box; a disc has 0.79
+constexpr double kTolerance_px = 0.02;  // between arcs of one sharp outline, whatever the noise says
+constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ball's
+constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 1000.0;
+constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for it, a part may be hidden
 
 Eigen::Vector3d palette_bgr(int colour) {
   const PaletteColour& c = kPalette[static_cast<std::size_t>(colour)];
@@ -57,7 +60,7 @@ OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
 // One step of the fit; the change's size, or empty when the arcs no longer make an outline.
 std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px) {
   fit.arcs = arc_offsets(fit.rim, fit.colours, fit.outline, ramp_px);
-  const auto step = solve_arcs(fit.arcs, ramp_px > 0.0 ? 0.5 * ramp_px : 0.05);
+  const auto step = solve_arcs(fit.arcs, ramp_px > 0.0 ? 0.5 * ramp_px : kTolerance_px);
   if (!step) return std::nullopt;
   const double limit = std::max(ramp_px, 0.5);
   const Eigen::Vector3d change = step->change_px.cwiseMax(-limit).cwiseMin(limit);
@@ -75,9 +78,9 @@ void look(Fit& fit, const cv::Mat& image, UnmixSettings unmix, double ramp_px) {
   fit.colours = arc_colours(fit.rim, unmix);
 }
 
-std::optional<Fit> converge(const cv::Mat& image, const Blob& blob, const FitSettings& settings,
+std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
                             const UnmixSettings& unmix) {
-  Fit fit{first_guess(blob, settings.camera), {}, {}, {}};
+  Fit fit{start, {}, {}, {}};
   for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
     look(fit, image, unmix, ramp);
     const auto change = improve(fit, settings, ramp);
@@ -92,6 +95,28 @@ std::optional<Fit> converge(const cv::Mat& image, const Blob& blob, const FitSet
     if (!change) return std::nullopt;
   }
   return fit;
+}
+
+// How much of an outline speaks for it, less what speaks against it, in radii along it.
+double support(const Fit& fit) {
+  double sum = 0.0;
+  for (const ArcOffset& arc : fit.arcs) {
+    if (arc.variance_px2 > 0.0) sum += 2.0 * arc.weight - 1.0;
+  }
+  return sum / static_cast<double>(fit.arcs.size()) * fit.outline.radius_px();
+}
+
+// From the patch as a whole, and unless all around speaks for what comes of that, from its boundary.
+std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSettings& settings,
+                             const UnmixSettings& unmix) {
+  std::optional<Fit> whole = converge(image, first_guess(blob, settings.camera), settings, unmix);
+  if (whole && support(*whole) >= kWhole * whole->outline.radius_px()) return whole;
+  const std::optional<Circle> circle = guess_from_boundary(image, blob);
+  if (!circle) return whole;
+  std::optional<Fit> part =
+      converge(image, {settings.camera, circle->centre_px, circle->radius_px}, settings, unmix);
+  const bool better = part && (!whole || support(*part) > support(*whole));
+  return better ? part : whole;
 }
 
 // How much of a rim pixel something else covers, of the part that the ball should.
@@ -152,15 +177,14 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
                                            const FitSettings& settings) {
   if (!may_be_ball(blob)) return std::nullopt;
   const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels, kGap_px};
-  const std::optional<Fit> fit = converge(image, blob, settings, unmix);
+  const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
   if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
   const double radius = fit->outline.radius_px();
   MeasuredOutline result;
   result.colour = blob.colour;
   result.centre_px = fit->outline.centre_px();
-  result.covariance_px2 = fit->covariance_px2.topLeftCorner<2, 2>();
   result.radius_px = radius;
-  result.radius_sd_px = std::sqrt(fit->covariance_px2(2, 2));
+  result.covariance_px2 = fit->covariance_px2;
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, *fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit->outline) / (kPi * radius * radius);

@@ -15,9 +15,8 @@ namespace stereobench::vision {
 struct MeasuredOutline {
   int colour = 0;                                            ///< index into kPalette
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();       ///< of the ellipse
-  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
   double radius_px = 0.0;                                    ///< of the circle of the same area
-  double radius_sd_px = 0.0;
+  Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();  ///< of (centre, radius)
   double hidden_fraction = 0.0;   ///< of the outline's area, hidden by something in front of it, in [0, 1]
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by
@@ -35,7 +34,8 @@ struct FitSettings {
 /// Each arc of about three rim pixels is unmixed into ball and background and says how far the edge is from
 /// where the model has it (Gauss-Newton on the coverage, weighted by what the arc can know); arcs that are
 /// hidden, cut off, without contrast or at odds with the rest do not count. The edge starts as a wide ramp,
-/// for a poor start, and ends as the pixels' own box filter, for precision.
+/// for a poor start, and ends as the pixels' own box filter, for precision. A patch that shows a part of a
+/// ball only is fitted once more from the circle that its boundary suggests.
 /// @param image CV_8UC3, BGR
 /// @return empty when there is no ball's outline around the patch
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,

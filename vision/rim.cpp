@@ -185,13 +185,21 @@ std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setting
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
   const Disturbance disturbance{noise_variance, texture_covariance(samples, noise_variance)};
   std::vector<ArcColours> arcs(rim.sectors);
+  std::vector<std::size_t> hidden;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     ArcSamples arc = samples[i];
     if (arc.inside.count < 3.0) borrow_inside(samples, i, arc);
     if (arc.inside.count < 2.0 || arc.outside.count < 2.0) continue;
     const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / arc.inside.count));
-    if (!shades.contain(arc.inside.mean())) continue;
-    arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), disturbance);
+    if (shades.contain(arc.inside.mean())) {
+      arcs[i] = unmixing(arc, background_slope(samples, i, noise_variance), disturbance);
+    } else {
+      hidden.push_back(i);
+    }
+  }
+  for (const std::size_t i : hidden) {  // what hides one arc may begin in the next
+    arcs[(i + 1) % arcs.size()].usable = false;
+    arcs[(i + arcs.size() - 1) % arcs.size()].usable = false;
   }
   return arcs;
 }

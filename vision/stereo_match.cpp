@@ -5,9 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "vision/rig.h"
-#include "vision/sphere.h"
-
 namespace stereobench::vision {
 namespace {
 
@@ -23,32 +20,25 @@ struct Misfit {
   double size = 0.0;  // of both radii, relative to the gate
   double row = 0.0;
   bool sizes_agree = true;
+  BallFit ball;
   double total() const { return std::max(size, row); }
 };
-
-double radius_error(const Intrinsics& camera, const Eigen::Vector3d& ball_in_eye, double ball_radius_m,
-                    const MeasuredOutline& outline) {
-  const auto expected = sphere_outline(camera, ball_in_eye, ball_radius_m);
-  return expected ? std::abs(outline.radius_px - expected->radius_px()) : outline.radius_px;
-}
 
 std::optional<Misfit> misfit(const MeasuredOutline& left, const MeasuredOutline& right, const StereoRig& rig,
                              const ObserverSettings& settings) {
   if (left.colour != right.colour) return std::nullopt;
-  const auto ball = triangulate_ball(rig, left.centre_px, right.centre_px, settings.ball_radius_m);
-  if (!ball || ball->z() < settings.min_depth_m) return std::nullopt;
+  const auto ball = fit_ball(rig, left, right, settings.ball_radius_m);
+  if (!ball || ball->ball_in_camera.z() < settings.min_depth_m) return std::nullopt;
 
   Misfit result;
+  result.ball = *ball;
   const double row_sd = std::sqrt(left.covariance_px2(1, 1) + right.covariance_px2(1, 1));
-  result.row = std::abs(left.centre_px.y() - right.centre_px.y()) / (kRowGate_px + kGateSigmas * row_sd);
-  const double left_error = radius_error(rig.camera, *ball, settings.ball_radius_m, left);
-  const double right_error =
-      radius_error(rig.camera, point_in_eye(rig, *ball, Eye::kRight), settings.ball_radius_m, right);
-  const double error = std::max(left_error, right_error);
+  result.row = ball->row_misfit_px / (kRowGate_px + kGateSigmas * row_sd);
   const double radius = std::max(left.radius_px, right.radius_px);
-  const double noise = kGateSigmas * std::max(left.radius_sd_px, right.radius_sd_px);
-  result.size = error / (kSizeGate_px + kSizeGate * radius + noise);
-  result.sizes_agree = error <= kWholeSizeGate_px + kWholeSizeGate * radius + noise;
+  const double noise =
+      kGateSigmas * std::sqrt(std::max(left.covariance_px2(2, 2), right.covariance_px2(2, 2)));
+  result.size = ball->radius_misfit_px / (kSizeGate_px + kSizeGate * radius + noise);
+  result.sizes_agree = ball->radius_misfit_px <= kWholeSizeGate_px + kWholeSizeGate * radius + noise;
   return result.total() <= 1.0 ? std::optional(result) : std::nullopt;
 }
 
@@ -80,7 +70,7 @@ std::vector<OutlinePair> match_outlines(const std::vector<MeasuredOutline>& left
   for (std::size_t l = 0; l < left.size(); ++l) {
     const std::size_t r = best_of_left[l];
     if (r == kNobody || best_of_right[r] != l) continue;
-    pairs.push_back({left[l], right[r], misfit_of_left[l].sizes_agree});
+    pairs.push_back({left[l], right[r], misfit_of_left[l].ball, misfit_of_left[l].sizes_agree});
   }
   return pairs;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "vision/ball_fit.h"
 #include "vision/observe.h"
 #include "vision/outline_fit.h"
 
@@ -12,6 +13,7 @@ namespace stereobench::vision {
 struct OutlinePair {
   MeasuredOutline left;
   MeasuredOutline right;
+  BallFit ball;             ///< that explains both
   bool sizes_agree = true;  ///< both radii are what a whole ball at the triangulated place must have
 };
 

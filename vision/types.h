@@ -60,10 +60,10 @@ struct BallObservation {
   bool has_pixels = true;  ///< false: range and bearing are all that was seen, and the pixels are made up
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< centre in the left camera's frame, m
   slam::RangeBearing range_bearing;  ///< in the robot frame; colour_class is set, landmark_id is not
-  bool truncated = false;            ///< cut by the image border in an eye
-  bool occluded = false;             ///< partly hidden in an eye
-  /// True when the measurement can be trusted.
-  bool whole() const { return !truncated && !occluded; }
+  bool truncated = false;            ///< cut by the image border, in an eye, by more than can be measured
+  bool occluded = false;             ///< hidden, in an eye, by more than can be measured
+  /// True when the measurement can be trusted as far as its covariance says.
+  bool trusted() const { return !truncated && !occluded; }
 };
 
 }  // namespace stereobench::vision

@@ -23,7 +23,7 @@ struct DetectorInput {
 /// Finds the balls of a pair. Each drive has one of its own, which is shown the frames in order of time.
 ///
 /// An observation needs `range_bearing` with its covariance, in the robot's frame and with its colour_class,
-/// `colour` (or kUnknown), and both eyes' pixels, or `has_pixels = false`; one that is not whole() goes
+/// `colour` (or kUnknown), and both eyes' pixels, or `has_pixels = false`; one that is not trusted() goes
 /// neither to the score nor to the filters.
 using Detector = std::function<std::vector<vision::BallObservation>(const DetectorInput&)>;
 

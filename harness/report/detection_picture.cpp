@@ -126,7 +126,7 @@ std::vector<Ring> rings_of(std::span<const vision::BallObservation> observations
   for (const vision::BallObservation& ball : observations) {
     const bool left = eye == vision::Eye::kLeft;
     rings.push_back({left ? ball.left_px : ball.right_px, left ? ball.left_radius_px : ball.right_radius_px,
-                     ball.whole(), label_of(ball)});
+                     ball.trusted(), label_of(ball)});
   }
   return rings;
 }

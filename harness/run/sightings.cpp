@@ -10,7 +10,7 @@ Sightings sightings_of(std::span<const vision::BallObservation> observations,
   Sightings seen;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const vision::BallObservation& observation = observations[i];
-    if (!observation.whole()) continue;
+    if (!observation.trusted()) continue;
     slam::RangeBearing measurement = observation.range_bearing;
     if (identity == worlds::Identity::kNone) measurement.colour_class = slam::kUnknown;
     if (identity == worlds::Identity::kKnown) {

@@ -16,7 +16,7 @@ struct Sightings {
   std::vector<int> balls;  ///< index of the ball, which no filter is told, or kUnknown
 };
 
-/// The measurements a filter is given: whole balls only, and where colours are unique the ball's identity,
+/// The measurements a filter is given: trusted ones only, and where colours are unique the ball's identity,
 /// which the robot knows by its colour.
 /// @param balls_observed whose each observation is
 Sightings sightings_of(std::span<const vision::BallObservation> observations,

@@ -165,7 +165,7 @@ VisionScore score_observations(const VisionTruth& truth,
   std::vector<bool> found(balls.size(), false);
   VisionScore score;
   for (const vision::BallObservation& observation : straightened(truth.rig, observations)) {
-    if (!observation.whole()) {
+    if (!observation.trusted()) {
       ++score.flagged;
       continue;
     }

@@ -13,12 +13,12 @@ namespace stereobench::harness {
 struct VisionScore {
   long visible = 0;                    ///< balls that had to be found, see score_observations
   long found = 0;                      ///< of these, the ones that were
-  long observations = 0;               ///< whole observations (neither truncated nor occluded)
+  long observations = 0;               ///< those that are to be trusted
   long right = 0;                      ///< of these, the first of each ball, with the ball's colour
   long misidentified = 0;              ///< of these, the ones on a ball of another colour
   long spurious = 0;                   ///< of these, the ones on no ball
   long repeated = 0;                   ///< of these, the ones on a ball that is observed already
-  long flagged = 0;                    ///< truncated or occluded observations, which are not scored
+  long flagged = 0;                    ///< observations that are not to be trusted, which are not scored
   std::vector<double> range_errors_m;  ///< of the right ones, measured minus true, horizontal
   std::vector<double> bearing_errors_rad;
   std::vector<double> disparity_errors_px;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "vision/palette.h"
 
 namespace stereobench::vision::painter {
@@ -63,15 +65,39 @@ class EyePainter {
         const Eigen::Vector2d p = middle + Eigen::Vector2d(i, j) * (reach_x / 64.0);
         if (!std::isfinite(ball_depth(ball, ray(p)))) continue;
         ++total;
-        const bool inside =
-            p.x() > -0.5 && p.y() > -0.5 && p.x() < camera_.width_px - 0.5 && p.y() < camera_.height_px - 0.5;
-        if (inside && trace_all(p).ball == static_cast<int>(ball)) ++seen;
+        if (is_inside(p) && trace_all(p).ball == static_cast<int>(ball)) ++seen;
       }
     }
     return static_cast<double>(seen) / static_cast<double>(total);
   }
 
+  // Directions around the ball's centre in which its rim is seen, and nothing else just outside of it.
+  double arc_deg(std::size_t ball) const {
+    const Eigen::Vector3d centre = in_eye(ball);
+    const Eigen::Vector3d across = centre.cross(Eigen::Vector3d::UnitY()).normalized();
+    const Eigen::Vector3d up = across.cross(centre).normalized();
+    int seen = 0;
+    for (int degree = 0; degree < 360; ++degree) {
+      const double turn = degree * 3.14159265358979 / 180.0;
+      const Eigen::Vector3d aside = std::cos(turn) * across + std::sin(turn) * up;
+      const auto at = [&](double radii) {
+        return pixel_of(centre + radii * scene_.balls[ball].radius_m * aside);
+      };
+      const bool shown = is_inside(at(1.05)) && trace_all(at(0.9)).ball == static_cast<int>(ball);
+      const Hit outside = trace_all(at(1.1));
+      if (shown && outside.ball == kNothing && outside.panel == kNothing) ++seen;
+    }
+    return seen;
+  }
+
  private:
+  Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) const {
+    return {camera_.cx_px + camera_.focal_px * point.x() / point.z(),
+            camera_.cy_px + camera_.focal_px * point.y() / point.z()};
+  }
+  bool is_inside(const Eigen::Vector2d& p) const {
+    return p.x() > -0.5 && p.y() > -0.5 && p.x() < camera_.width_px - 0.5 && p.y() < camera_.height_px - 0.5;
+  }
   Eigen::Vector3d ray(const Eigen::Vector2d& p) const {
     return {(p.x() - camera_.cx_px) / camera_.focal_px, (p.y() - camera_.cy_px) / camera_.focal_px, 1.0};
   }
@@ -243,6 +269,11 @@ StereoPair paint(const Scene& scene, const StereoRig& rig) {
 double visible_share(const Scene& scene, const StereoRig& rig, std::size_t ball) {
   return std::min(EyePainter(scene, rig, 0.0).visible(ball),
                   EyePainter(scene, rig, rig.baseline_m).visible(ball));
+}
+
+double visible_arc_deg(const Scene& scene, const StereoRig& rig, std::size_t ball) {
+  return std::min(EyePainter(scene, rig, 0.0).arc_deg(ball),
+                  EyePainter(scene, rig, rig.baseline_m).arc_deg(ball));
 }
 
 std::vector<PaintedBall> scattered_balls(const StereoRig& rig, double min_depth_m, double max_depth_m,

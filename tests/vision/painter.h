@@ -43,6 +43,10 @@ StereoPair paint(const Scene& scene, const StereoRig& rig);
 /// is not seen.
 double visible_share(const Scene& scene, const StereoRig& rig, std::size_t ball);
 
+/// How much of a ball's outline, in degrees around its centre, stands before the backdrop in an eye, the
+/// smaller of both eyes.
+double visible_arc_deg(const Scene& scene, const StereoRig& rig, std::size_t ball);
+
 /// Balls of 18 colours at random places within view, at random depths; outlines neither touch each other nor
 /// the border in either eye when `apart`.
 std::vector<PaintedBall> scattered_balls(const StereoRig& rig, double min_depth_m, double max_depth_m,

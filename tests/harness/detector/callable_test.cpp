@@ -34,7 +34,7 @@ TEST(CallableDetector, IsAskedInPlaceOfOursAndScoredAlike) {
     auto balls = ours(input);
     for (vision::BallObservation& ball : balls) ball.range_bearing.range_m += kOff_m;
     const auto whole =
-        std::find_if(balls.begin(), balls.end(), [](const auto& ball) { return ball.whole(); });
+        std::find_if(balls.begin(), balls.end(), [](const auto& ball) { return ball.trusted(); });
     unnamed.push_back(whole == balls.end() ? 0 : 1);
     if (whole != balls.end()) whole->colour = slam::kUnknown;
     return balls;

@@ -185,8 +185,8 @@ TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
       const slam::Pose& pose = scenario.path[look.step].pose;
       const auto balls = ball_outlines({scenario.world, scenario.rig, pose, look.frame});
       for (const vision::BallObservation& seen : look.observations) {
-        EXPECT_TRUE(!seen.whole() || balls[0].inside_both) << k1 << ' ' << pose.y_m;
-        measured += seen.whole() ? 1 : 0;
+        EXPECT_TRUE(!seen.trusted() || balls[0].inside_both) << k1 << ' ' << pose.y_m;
+        measured += seen.trusted() ? 1 : 0;
       }
     };
     record(scenario, 0, {.on_look = check});

@@ -1,0 +1,124 @@
+#include "vision/boundary_guess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "vision/colour_table.h"
+
+namespace stereobench::vision {
+namespace {
+
+constexpr std::size_t kPoints = 48;     // of a boundary that are looked at
+constexpr double kOnCircle_px = 0.8;    // a boundary of whole pixels is as rough as that
+constexpr double kOnCircle = 0.02;      // of the radius: outlines are ellipses
+constexpr double kLeastOn = 1.0 / 3.0;  // of the boundary
+constexpr double kLargestRadius = 1.1;  // of the patch's longer side; a straight cut is no outline
+constexpr std::array<std::size_t, 5> kSteps = {3, 5, 7, 10, 14};  // between the points of a triple
+
+// The first and last pixel that has the patch's colour, of a row or a column.
+struct Extent {
+  int first = 0;
+  int last = -1;
+
+  void add(int place) {
+    if (last < first) first = place;
+    first = std::min(first, place);
+    last = std::max(last, place);
+  }
+};
+
+// Middles of the outer sides of the outermost pixels in each row and column, those on the border left out.
+std::vector<Eigen::Vector2d> boundary(const cv::Mat& image, const Blob& blob) {
+  const ColourTable& table = palette_table();
+  std::vector<Extent> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
+  std::vector<Extent> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
+  for (int y = blob.min_y; y <= blob.max_y; ++y) {
+    const auto* bgr = image.ptr<std::uint8_t>(y) + 3 * blob.min_x;
+    for (int x = blob.min_x; x <= blob.max_x; ++x, bgr += 3) {
+      if (table.classify(bgr[0], bgr[1], bgr[2]) != blob.colour) continue;
+      rows[static_cast<std::size_t>(y - blob.min_y)].add(x);
+      columns[static_cast<std::size_t>(x - blob.min_x)].add(y);
+    }
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (int y = blob.min_y; y <= blob.max_y; ++y) {
+    const Extent& row = rows[static_cast<std::size_t>(y - blob.min_y)];
+    if (row.last < row.first) continue;
+    if (row.first > 0) points.emplace_back(row.first - 0.5, y);
+    if (row.last < image.cols - 1) points.emplace_back(row.last + 0.5, y);
+  }
+  for (int x = blob.min_x; x <= blob.max_x; ++x) {
+    const Extent& column = columns[static_cast<std::size_t>(x - blob.min_x)];
+    if (column.last < column.first) continue;
+    if (column.first > 0) points.emplace_back(x, column.first - 0.5);
+    if (column.last < image.rows - 1) points.emplace_back(x, column.last + 0.5);
+  }
+  return points;
+}
+
+// Once around the patch: angles about its middle grow, as far as their octants and slopes tell.
+double turn_order(const Eigen::Vector2d& from_middle) {
+  const double size = std::abs(from_middle.x()) + std::abs(from_middle.y());
+  if (!(size > 0.0)) return 0.0;
+  const double along = from_middle.x() / size;  // falls from 1 to -1 while y is positive
+  return from_middle.y() >= 0.0 ? 1.0 - along : 3.0 + along;
+}
+
+std::vector<Eigen::Vector2d> a_few_in_order(std::vector<Eigen::Vector2d> points) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) middle += point / static_cast<double>(points.size());
+  std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+    return turn_order(a - middle) < turn_order(b - middle);
+  });
+  if (points.size() <= kPoints) return points;
+  std::vector<Eigen::Vector2d> few;
+  for (std::size_t i = 0; i < kPoints; ++i) few.push_back(points[i * points.size() / kPoints]);
+  return few;
+}
+
+// Empty when the points are on a line.
+std::optional<Circle> circle_through(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                     const Eigen::Vector2d& c) {
+  Eigen::Matrix2d sides;
+  sides << (b - a).transpose(), (c - a).transpose();
+  if (!(std::abs(sides.determinant()) > 1e-9 * sides.squaredNorm())) return std::nullopt;
+  const Eigen::Vector2d from_a =
+      sides.inverse() * Eigen::Vector2d(0.5 * (b - a).squaredNorm(), 0.5 * (c - a).squaredNorm());
+  return Circle{a + from_a, from_a.norm()};
+}
+
+// How many points lie on the circle.
+std::size_t support(const Circle& circle, const std::vector<Eigen::Vector2d>& points) {
+  const double tolerance = kOnCircle_px + kOnCircle * circle.radius_px;
+  return static_cast<std::size_t>(std::ranges::count_if(points, [&](const Eigen::Vector2d& point) {
+    return std::abs((point - circle.centre_px).norm() - circle.radius_px) <= tolerance;
+  }));
+}
+
+}  // namespace
+
+std::optional<Circle> guess_from_boundary(const cv::Mat& image, const Blob& blob) {
+  const std::vector<Eigen::Vector2d> points = a_few_in_order(boundary(image, blob));
+  const double largest = kLargestRadius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
+  std::optional<Circle> best;
+  std::size_t most = static_cast<std::size_t>(kLeastOn * static_cast<double>(points.size()));
+  for (const std::size_t step : kSteps) {
+    for (std::size_t i = 0; i < points.size() && 2 * step < points.size(); ++i) {
+      const auto circle = circle_through(points[i], points[(i + step) % points.size()],
+                                         points[(i + 2 * step) % points.size()]);
+      if (!circle || circle->radius_px > largest) continue;
+      const std::size_t on = support(*circle, points);
+      if (on <= most) continue;
+      most = on;
+      best = circle;
+    }
+  }
+  return best;
+}
+
+}  // namespace stereobench::vision
