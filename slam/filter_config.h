@@ -51,6 +51,8 @@ struct FilterConfig {
   OdometryNoise odometry_noise;  ///< what the filter believes of its odometry
 
   std::optional<NoiseLaw> noise_law;  ///< of all sightings; none = each is believed what it states
+  /// By how much the standard deviations of (range, bearing) are larger than sightings state them.
+  Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();
 
   /// Floor under the measurement noise, added as a variance: a sensor that claims 0.02 mm would make weights
   /// vanish in all particles but one. 1 mm and 0.05 mrad are about a good rig's calibration error.

@@ -10,6 +10,9 @@ Observation observe(const RangeBearing& seen, const FilterConfig& config) {
     const Eigen::Vector2d sd(config.noise_law->range_sd_m, config.noise_law->bearing_sd_rad);
     observation.noise = sd.cwiseAbs2().asDiagonal();
     observation.range_sd_per_m2 = config.noise_law->range_sd_per_m2;
+  } else {
+    observation.noise =
+        config.stated_sd_scale.asDiagonal() * seen.covariance * config.stated_sd_scale.asDiagonal();
   }
   observation.noise.diagonal() += Eigen::Vector2d(config.range_floor_m, config.bearing_floor_rad).cwiseAbs2();
   return observation;

@@ -8,8 +8,8 @@
 
 namespace stereobench::slam {
 
-/// A sighting with the noise that is believed of it: the law's, or what the sighting states itself, above the
-/// floor.
+/// A sighting with the noise that is believed of it: the law's, or what the sighting states itself to scale,
+/// above the floor.
 Observation observe(const RangeBearing& seen, const FilterConfig& config);
 
 /// @param range_m where the landmark should be seen

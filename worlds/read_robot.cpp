@@ -1,5 +1,6 @@
 #include <array>
 #include <numbers>
+#include <span>
 
 #include "vision/distortion.h"
 #include "worlds/scenario_parts.h"
@@ -72,26 +73,58 @@ slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
   return noise;
 }
 
-std::optional<slam::NoiseLaw> read_measurement_noise(const YamlValue& value,
-                                                     const std::optional<vision::StereoRig>& rig) {
-  constexpr std::array<std::string_view, 3> kKinds = {"per_observation", "constant", "stereo"};
-  const YamlMap any(value, {"kind", "range_sd_m", "bearing_sd_deg", "disparity_sd_px", "bearing_sd_px"});
-  const std::size_t kind = any.at("kind").choice(kKinds);
-  if (kind == 0) {
-    YamlMap(value, {"kind"});
-    return std::nullopt;
-  }
-  if (kind == 1) {
-    const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg"});
-    return slam::NoiseLaw{.range_sd_m = map.number("range_sd_m", kNoise),
-                          .bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree};
-  }
+namespace {
+
+constexpr Interval kScale = {1e-3, 1e3};
+
+MeasurementNoise read_stated_noise(const YamlValue& value) {
+  const YamlMap map(value, {"kind", "range_sd_scale", "bearing_sd_scale"});
+  return {.stated_sd_scale = {map.number("range_sd_scale", kScale, 1.0),
+                              map.number("bearing_sd_scale", kScale, 1.0)}};
+}
+
+MeasurementNoise read_constant_noise(const YamlValue& value) {
+  const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg"});
+  return {.law = slam::NoiseLaw{.range_sd_m = map.number("range_sd_m", kNoise),
+                                .bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree}};
+}
+
+MeasurementNoise read_stereo_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig) {
   const YamlMap map(value, {"kind", "range_sd_m", "disparity_sd_px", "bearing_sd_px"});
   if (!rig) value.refuse("expected a rig beside the stereo law");
-  return slam::NoiseLaw{
-      .range_sd_m = map.number("range_sd_m", kNoise, 0.0),
-      .range_sd_per_m2 = map.number("disparity_sd_px", kNoise) / (rig->camera.focal_px * rig->baseline_m),
-      .bearing_sd_rad = map.number("bearing_sd_px", kNoise) / rig->camera.focal_px};
+  const double focal_px = rig->camera.focal_px;
+  return {.law = slam::NoiseLaw{
+              .range_sd_m = map.number("range_sd_m", kNoise, 0.0),
+              .range_sd_per_m2 = map.number("disparity_sd_px", kNoise) / (focal_px * rig->baseline_m),
+              .bearing_sd_rad = map.number("bearing_sd_px", kNoise) / focal_px}};
+}
+
+constexpr std::array<std::string_view, 4> kNoiseKinds = {"per_observation", "constant", "stereo", "file"};
+
+std::size_t noise_kind(const YamlValue& value, std::size_t kinds) {
+  const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg", "disparity_sd_px", "bearing_sd_px",
+                            "range_sd_scale", "bearing_sd_scale", "file"});
+  return map.at("kind").choice(std::span(kNoiseKinds).first(kinds));
+}
+
+/// A law that is written where it is asked for, and not in a file.
+MeasurementNoise read_noise_law(const YamlValue& value, const std::optional<vision::StereoRig>& rig) {
+  const std::size_t kind = noise_kind(value, kNoiseKinds.size() - 1);
+  if (kind == 0) return read_stated_noise(value);
+  return kind == 1 ? read_constant_noise(value) : read_stereo_noise(value, rig);
+}
+
+}  // namespace
+
+MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig,
+                                        const std::filesystem::path& folder) {
+  if (noise_kind(value, kNoiseKinds.size()) + 1 < kNoiseKinds.size()) return read_noise_law(value, rig);
+  const YamlValue file = YamlMap(value, {"kind", "file"}).at("file");
+  const std::filesystem::path path = folder / file.text();
+  if (!std::filesystem::is_regular_file(path))
+    file.fail("expected a file that `stereobench calibrate` wrote");
+  const YamlDocument document = load_yaml(path, {});
+  return read_noise_law(YamlValue(document, "", document.root, document.root.Mark()), rig);
 }
 
 OracleSensor read_oracle(const YamlValue& value) {

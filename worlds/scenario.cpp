@@ -52,7 +52,7 @@ void read_run(const YamlMap& map, Scenario& scenario) {
   if (const auto gates = map.find("gates")) scenario.gates = read_gates(*gates);
 }
 
-void read_sensing(const YamlMap& map, Scenario& scenario) {
+void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scenario& scenario) {
   constexpr std::array<std::string_view, 2> kSensors = {"stereo", "oracle"};
   constexpr std::array<std::string_view, 3> kIdentities = {"known", "colour_class", "none"};
   constexpr std::array<std::string_view, 2> kAssociations = {"individual", "joint"};
@@ -74,7 +74,9 @@ void read_sensing(const YamlMap& map, Scenario& scenario) {
   scenario.detector.timeout_s = map.number("detector_timeout_s", {1e-3, 1e6}, scenario.detector.timeout_s);
   if (const auto noise = map.find("believed_measurement_noise")) {
     const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;
-    scenario.believed_measurement_noise = read_measurement_noise(*noise, rig);
+    const MeasurementNoise told = read_measurement_noise(*noise, rig, folder);
+    scenario.believed_measurement_noise = told.law;
+    scenario.stated_sd_scale = told.stated_sd_scale;
   }
   if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
     scenario.oracle = read_oracle(*oracle);
@@ -141,7 +143,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   scenario.name = read_name(map.at("name"));
   if (const auto description = map.find("description")) scenario.description = description->text();
   read_run(map, scenario);
-  read_sensing(map, scenario);
+  read_sensing(map, file.parent_path(), scenario);
   read_odometry(map, scenario);
   scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
   read_world_and_path(map, file.parent_path(), scenario);

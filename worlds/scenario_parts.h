@@ -54,11 +54,16 @@ Shutter read_shutter(const YamlValue& value);
 /// `odometry_noise:` and `believed_odometry_noise:`.
 slam::OdometryNoise read_odometry_noise(const YamlValue& value);
 
-/// `believed_measurement_noise:` the law that the filters are told, or none to take each sighting at its
-/// word.
+/// `believed_measurement_noise:` what the filters are told of sightings.
+struct MeasurementNoise {
+  std::optional<slam::NoiseLaw> law;  ///< none: each sighting is taken at its word, to scale
+  Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();  ///< of range, bearing
+};
+
 /// @param rig where there is one: the stereo law is about its focal length and baseline
-std::optional<slam::NoiseLaw> read_measurement_noise(const YamlValue& value,
-                                                     const std::optional<vision::StereoRig>& rig);
+/// @param folder that a file of such lines is relative to
+MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig,
+                                        const std::filesystem::path& folder);
 
 /// `oracle:` the pixel-free sensor.
 OracleSensor read_oracle(const YamlValue& value);

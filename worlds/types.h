@@ -139,6 +139,8 @@ struct Scenario {
   slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
   slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told
   std::optional<slam::NoiseLaw> believed_measurement_noise;  ///< none: each sighting states its own
+  /// By how much (range, bearing) are worse than sightings state.
+  Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
   CameraSensor camera;

@@ -72,6 +72,12 @@ std::string written_out(const std::filesystem::path& file, const std::vector<std
   const World world = read_scenario(file, overrides).world;
   YamlDocument document = load_yaml(file, overrides);
   YAML::Node lines = document.root["world"];
+  for (const char* group : {"path", "believed_measurement_noise"}) {
+    YAML::Node named = document.root[group];
+    if (named && named["file"])
+      named["file"] =
+          std::filesystem::absolute(file.parent_path() / named["file"].as<std::string>()).string();
+  }
   for (std::size_t i = 0; i < world.meshes.size(); ++i) lines["meshes"][i]["file"] = world.meshes[i].file;
   if (lines["generator"]) {
     YAML::Node path = document.root["path"];

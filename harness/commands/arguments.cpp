@@ -60,6 +60,10 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   fmt::join(slam::filter_names(), ", ")));
   command.add_option("--particles", arguments.particles, "particles of each particle filter")
       ->check(CLI::Range(1, 1'000'000));
+  add_seed_options(command, arguments);
+}
+
+void add_seed_options(CLI::App& command, RunArguments& arguments) {
   command.add_option_function<std::string>(
       "--seeds", [&arguments](const std::string& text) { arguments.seeds = parse_seeds(text); },
       "which seeds to run: 0..9, or 0,2,5");

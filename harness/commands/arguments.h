@@ -28,7 +28,10 @@ inline constexpr const char* kBaselineFilter = "dead_reckoning";
 /// @throws std::runtime_error that names the unknown filter and the ones there are
 std::vector<std::string> parse_filters(const std::string& text);
 
-/// Adds --filters, --particles, --seeds, --jobs and --out to a command.
+/// Adds --seeds, --jobs and --out to a command.
+void add_seed_options(CLI::App& command, RunArguments& arguments);
+
+/// Adds --filters and --particles, and the options above.
 void add_run_options(CLI::App& command, RunArguments& arguments);
 
 /// Adds --set KEY=VALUE, a change of the scenario.

@@ -19,7 +19,10 @@ struct ScenarioArguments {
   double detector_timeout_s = 0.0;  ///< 0: as the scenario says
 };
 
-/// Adds SCENARIO, --set, --backend and the options of a run.
+/// Adds SCENARIO, --set, --backend, --detector and its timeout.
+void add_eyes_options(CLI::App& command, ScenarioArguments& arguments);
+
+/// Adds those and the options of a run.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Reads the scenario and lets the command line have the last word on filters, particles and seeds.

@@ -37,6 +37,7 @@ slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
   config.particles = scenario.particles;
   config.odometry_noise = scenario.believed_odometry_noise;
   config.noise_law = scenario.believed_measurement_noise;
+  config.stated_sd_scale = scenario.stated_sd_scale;
   config.colour_spacing_m = scenario.colour_spacing_m;
   config.association = scenario.association;
   if (scenario.sensor == worlds::SensorKind::kOracle) {

@@ -52,6 +52,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
                                    normalised_errors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bound, depth_m, whole)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, timing)
 
 namespace {
@@ -100,6 +102,14 @@ std::string to_bytes(const std::vector<FilterRun>& runs) {
 
 std::vector<FilterRun> filter_runs_from_bytes(std::string_view bytes) {
   return json_of(bytes).get<std::vector<FilterRun>>();
+}
+
+std::string to_bytes(const CalibrationTake& take) {
+  return bytes_of(take);
+}
+
+CalibrationTake calibration_take_from_bytes(std::string_view bytes) {
+  return json_of(bytes).get<CalibrationTake>();
 }
 
 }  // namespace stereobench::harness

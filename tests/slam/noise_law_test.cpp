@@ -37,6 +37,18 @@ TEST(NoiseLaw, ReplacesWhatASightingStatesAndKeepsTheFloor) {
   EXPECT_EQ(noise(0, 1), 0.0);
 }
 
+// Deviations are scaled, so that a covariance of both goes with their product, and the floor stays as it is.
+// Mutation: variances to scale.
+TEST(NoiseLaw, StatedNoiseIsBelievedToScale) {
+  RangeBearing seen = sighting({10.0, 0.3}, 0.5, 0.02);
+  seen.covariance(0, 1) = seen.covariance(1, 0) = 0.005;
+  const FilterConfig config{.stated_sd_scale = {3.0, 0.5}, .range_floor_m = 0.01, .bearing_floor_rad = 0.001};
+  const Eigen::Matrix2d noise = noise_at(observe(seen, config), {20.0, 0.0});
+  EXPECT_NEAR(noise(0, 0), 9.0 * 0.25 + 1e-4, 1e-12);
+  EXPECT_NEAR(noise(1, 1), 0.25 * 4e-4 + 1e-6, 1e-15);
+  EXPECT_NEAR(noise(0, 1), 1.5 * 0.005, 1e-15);
+}
+
 // A law that is constant and sightings that state the same are the same to the last bit.
 // Mutation: a law that is not asked.
 TEST(NoiseLaw, ConstantIsWhatSightingsThatStateItAre) {

@@ -130,6 +130,14 @@ TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
   EXPECT_NEAR(stereo.bearing_sd_rad, 0.0002, 1e-15);
 }
 
+TEST(Scenario, ReadsByHowMuchStatedNoiseIsTooSmall) {
+  EXPECT_EQ(read_small().stated_sd_scale, Eigen::Vector2d::Ones());
+  const Scenario scenario = read_small(
+      {"believed_measurement_noise={kind: per_observation, range_sd_scale: 1.5, bearing_sd_scale: 0.9}"});
+  EXPECT_FALSE(scenario.believed_measurement_noise);
+  EXPECT_EQ(scenario.stated_sd_scale, Eigen::Vector2d(1.5, 0.9));
+}
+
 TEST(Scenario, ReadsTheCameraAndItsShutter) {
   const Scenario scenario = read_small(
       {"camera={noise_sd_levels: 1.5, defocus_sd_px: 0.8, vignette: 0.3, exposure: 0.5, "

@@ -1,0 +1,172 @@
+#include "harness/calibration/noise_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "slam/elementary.h"
+#include "slam/gaussian.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kGateProbability = 0.9999;
+constexpr double kMedianOfSquares = 0.4549;  // of a standard normal's square
+constexpr double kGate1 = 15.14;             // chi-square of one degree of freedom at 0.9999
+constexpr int kReweightings = 50;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The mean of squares that are chi-square's of one degree of freedom times a number, to that number.
+double robust_scale2(const std::vector<double>& squares) {
+  const double limit = kGate1 * median(squares) / kMedianOfSquares;
+  double sum = 0.0;
+  long count = 0;
+  for (const double square : squares) {
+    if (!(square <= limit)) continue;
+    sum += square;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 1.0;
+}
+
+/// Variance of a range error as a + b r^4, both at least 0: regression of the squares on (1, r^4), each
+/// weighed by the inverse of its variance, twice the square of its mean.
+Eigen::Vector2d fit_range_variance(std::span<const CalibrationSample> samples) {
+  std::vector<double> squares, growth;
+  for (const CalibrationSample& sample : samples) {
+    squares.push_back(sample.error.x() * sample.error.x());
+    growth.push_back(std::pow(sample.truth.x(), 4));
+  }
+  if (squares.empty()) return Eigen::Vector2d::Zero();
+  std::vector<double> relative;
+  for (std::size_t i = 0; i < squares.size(); ++i) relative.push_back(squares[i] / growth[i]);
+  Eigen::Vector2d law(0.0, median(relative) / kMedianOfSquares);
+  const double least = 1e-6 * law.y() * median(growth);
+  for (int pass = 0; pass < kReweightings; ++pass) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const Eigen::Vector2d by_law(1.0, growth[i]);
+      const double variance = std::max(law.dot(by_law), least);
+      if (squares[i] > kGate1 * variance) continue;
+      normal += by_law * by_law.transpose() / (variance * variance);
+      right += by_law * squares[i] / (variance * variance);
+    }
+    if (!(normal.determinant() > 0.0)) break;
+    const Eigen::Vector2d free = normal.inverse() * right;
+    law = free;
+    if (free.x() < 0.0) law = {0.0, right.y() / normal(1, 1)};
+    if (free.y() < 0.0) law = {right.x() / normal(0, 0), 0.0};
+  }
+  return law;
+}
+
+double squared_length(const CalibrationSample& sample, const Eigen::Matrix2d& covariance) {
+  return sample.error.dot(covariance.inverse() * sample.error);
+}
+
+double correlation(const Eigen::Matrix2d& covariance) {
+  return covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1));
+}
+
+CalibrationBin summarise(std::span<const CalibrationSample* const> samples, const FittedNoise& noise) {
+  const double gate = slam::chi_square_2_quantile(kGateProbability);
+  CalibrationBin bin;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d pulls = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d over_bound = Eigen::Vector2d::Zero();
+  double stated_correlation = 0.0;
+  long bounded = 0;
+  for (const CalibrationSample* sample : samples) {
+    ++bin.samples;
+    if (!(squared_length(*sample, covariance_of(*sample, noise, NoiseKind::kScaled)) <= gate)) {
+      ++bin.refused;
+      continue;
+    }
+    bin.bias += sample->error;
+    squares += sample->error * sample->error.transpose();
+    const Eigen::Vector2d pull = sample->error.cwiseQuotient(sample->stated.diagonal().cwiseSqrt());
+    pulls += pull * pull.transpose();
+    stated_correlation += correlation(sample->stated);
+    for (const NoiseKind kind : {NoiseKind::kStated, NoiseKind::kScaled, NoiseKind::kStereo})
+      bin.half_nis[static_cast<int>(kind)] +=
+          squared_length(*sample, covariance_of(*sample, noise, kind)) / 2.0;
+    if (!(sample->bound.determinant() > 0.0)) continue;
+    over_bound += sample->error.cwiseAbs2().cwiseQuotient(sample->bound.diagonal());
+    ++bounded;
+  }
+  const auto used = static_cast<double>(bin.samples - bin.refused);
+  bin.bias /= used;
+  bin.sd = (squares.diagonal() / used).cwiseSqrt();
+  bin.half_nis /= used;
+  bin.correlation = {correlation(pulls), stated_correlation / used};
+  bin.over_bound = (over_bound / static_cast<double>(bounded)).cwiseSqrt();
+  return bin;
+}
+
+}  // namespace
+
+FittedNoise fit_noise(std::span<const CalibrationSample> samples) {
+  FittedNoise fitted;
+  std::array<std::vector<double>, 2> relative;
+  std::vector<double> bearing_squares;
+  for (const CalibrationSample& sample : samples) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double square = sample.error[axis] * sample.error[axis];
+      if (sample.stated(axis, axis) > 0.0)
+        relative[static_cast<std::size_t>(axis)].push_back(square / sample.stated(axis, axis));
+      if (axis == 1) bearing_squares.push_back(square);
+    }
+  }
+  if (samples.empty()) return fitted;
+  for (int axis = 0; axis < 2; ++axis)
+    fitted.stated_sd_scale[axis] = std::sqrt(robust_scale2(relative[static_cast<std::size_t>(axis)]));
+  const Eigen::Vector2d law = fit_range_variance(samples);
+  fitted.stereo = {.range_sd_m = std::sqrt(law.x()),
+                   .range_sd_per_m2 = std::sqrt(law.y()),
+                   .bearing_sd_rad = std::sqrt(robust_scale2(bearing_squares))};
+  return fitted;
+}
+
+Eigen::Matrix2d covariance_of(const CalibrationSample& sample, const FittedNoise& noise, NoiseKind kind) {
+  if (kind == NoiseKind::kStated) return sample.stated;
+  if (kind == NoiseKind::kScaled)
+    return noise.stated_sd_scale.asDiagonal() * sample.stated * noise.stated_sd_scale.asDiagonal();
+  const double growing = noise.stereo.range_sd_per_m2 * sample.truth.x() * sample.truth.x();
+  const Eigen::Vector2d variance(noise.stereo.range_sd_m * noise.stereo.range_sd_m + growing * growing,
+                                 noise.stereo.bearing_sd_rad * noise.stereo.bearing_sd_rad);
+  return variance.asDiagonal();
+}
+
+std::vector<CalibrationBin> bin_samples(std::span<const CalibrationSample> samples, const FittedNoise& noise,
+                                        double nearest_m, double farthest_m, int count) {
+  const auto edge = [&](int i) {
+    return nearest_m * slam::power(farthest_m / nearest_m, static_cast<double>(i) / count);
+  };
+  const auto take = [&](double from, double to, bool whole) {
+    std::vector<const CalibrationSample*> taken;
+    for (const CalibrationSample& sample : samples)
+      if (sample.whole == whole && sample.depth_m >= from && sample.depth_m < to) taken.push_back(&sample);
+    CalibrationBin bin = summarise(taken, noise);
+    bin.nearest_m = from;
+    bin.farthest_m = to;
+    bin.whole = whole;
+    return bin;
+  };
+  std::vector<CalibrationBin> bins;
+  for (int i = 0; i < count; ++i) bins.push_back(take(edge(i), edge(i + 1), true));
+  bins.push_back(take(0.0, std::numeric_limits<double>::infinity(), false));
+  return bins;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,49 @@
+#include "harness/calibration/outline_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/LU>
+
+#include "vision/outline_model.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kBeside_px = 1.5;  // of the outline, where a rim pixel's two colours are pure
+
+Eigen::Vector3d colour_at(const cv::Mat& light, const Eigen::Vector2d& place) {
+  const int x = std::clamp(static_cast<int>(std::lround(place.x())), 0, light.cols - 1);
+  const int y = std::clamp(static_cast<int>(std::lround(place.y())), 0, light.rows - 1);
+  const auto* bgr = light.ptr<std::uint8_t>(y) + 3 * x;
+  return {static_cast<double>(bgr[0]), static_cast<double>(bgr[1]), static_cast<double>(bgr[2])};
+}
+
+}  // namespace
+
+std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision::Intrinsics& camera,
+                                             const vision::OutlineEllipse& outline, double noise_sd_levels) {
+  const vision::OutlineModel model(camera, outline.centre_px, outline.radius_px());
+  const Eigen::Vector2d reach = outline.half_extent_px().array() + 1.0;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (int y = static_cast<int>(outline.centre_px.y() - reach.y()); y <= outline.centre_px.y() + reach.y();
+       ++y) {
+    for (int x = static_cast<int>(outline.centre_px.x() - reach.x()); x <= outline.centre_px.x() + reach.x();
+         ++x) {
+      const Eigen::Vector2d pixel(x, y);
+      const vision::RimPoint rim = model.rim_point(pixel);
+      const double slope = vision::edge_coverage(rim).per_px;
+      if (!(slope > 0.0)) continue;
+      const Eigen::Vector2d on_rim = pixel - rim.distance_px * rim.normal;
+      const Eigen::Vector3d contrast = colour_at(light, on_rim - kBeside_px * rim.normal) -
+                                       colour_at(light, on_rim + kBeside_px * rim.normal);
+      information += slope * slope * contrast.squaredNorm() * rim.normal * rim.normal.transpose();
+    }
+  }
+  information /= noise_sd_levels * noise_sd_levels;
+  if (!(information.determinant() > 0.0)) return std::nullopt;
+  return information.inverse();
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,75 @@
+#include "harness/calibration/sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/calibration/outline_bound.h"
+#include "harness/detector/detector.h"
+#include "harness/run/recording.h"
+#include "harness/scoring/ball_outline.h"
+#include "slam/elementary.h"
+#include "slam/motion.h"
+#include "vision/range_bearing.h"
+#include "vision/rig.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kWholeFraction = 0.95;
+constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding
+
+/// The bound on range and bearing that those on both outlines' centres make; zero where there is none.
+Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::StereoFrame& frame,
+                         const BallOutline& ball, double noise_sd_levels) {
+  const vision::StereoRig& rig = gallery.rig;
+  const double noise = std::sqrt(noise_sd_levels * noise_sd_levels + kQuantisation);
+  const auto left = outline_bound(frame.left.colour, rig.camera, ball.left, noise);
+  const auto right = outline_bound(frame.right.colour, rig.camera, ball.right, noise);
+  if (!left || !right || !(ball.left.centre_px.x() > ball.right.centre_px.x()))
+    return Eigen::Matrix2d::Zero();
+  const double radius_m = gallery.world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
+  const vision::OutlineCentres centres = {ball.left.centre_px, ball.right.centre_px, *left, *right};
+  const Eigen::Isometry3d robot_from_camera = vision::robot_from_camera(rig);
+  return vision::range_bearing(robot_from_camera.inverse() * ball.ball_in_robot,
+                               vision::ball_covariance(rig, centres, radius_m), robot_from_camera)
+      .covariance;
+}
+
+CalibrationSample compare(const BallOutline& ball, const slam::RangeBearing& seen) {
+  CalibrationSample sample;
+  const Eigen::Vector2d place = ball.ball_in_robot.head<2>();
+  sample.truth = {place.norm(), slam::arc_tangent(place.y(), place.x())};
+  sample.error = {seen.range_m - sample.truth.x(), slam::wrap_angle(seen.bearing_rad - sample.truth.y())};
+  sample.stated = seen.covariance;
+  sample.whole = ball.inside_both && std::min(ball.left_fraction, ball.right_fraction) >= kWholeFraction;
+  return sample;
+}
+
+}  // namespace
+
+CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend backend) {
+  CalibrationTake take;
+  const double noise_sd_levels = detector_setup(gallery).noise_sd_levels;
+  Listeners listeners;
+  listeners.on_look = [&](const Look& look) {
+    const VisionTruth truth = {gallery.world, gallery.rig, gallery.path[look.step].pose, look.frame};
+    const std::vector<BallOutline> outlines = ball_outlines(truth);
+    const std::vector<int> balls = balls_observed(truth, look.observations);
+    for (std::size_t i = 0; i < look.observations.size(); ++i) {
+      const vision::BallObservation& observation = look.observations[i];
+      if (!observation.trusted()) continue;
+      const auto ball = std::ranges::find(outlines, balls[i], &BallOutline::ball);
+      if (ball == outlines.end()) continue;
+      const int colour = gallery.world.balls[static_cast<std::size_t>(ball->ball)].colour;
+      if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
+      CalibrationSample sample = compare(*ball, observation.range_bearing);
+      sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
+      if (sample.whole) sample.bound = bound_of(gallery, look.frame, *ball, noise_sd_levels);
+      take.samples.push_back(sample);
+    }
+  };
+  take.score = *record(gallery, gallery.seeds.front(), listeners, backend).vision;
+  return take;
+}
+
+}  // namespace stereobench::harness

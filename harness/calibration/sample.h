@@ -1,0 +1,35 @@
+/// What a detector made of balls whose places are known.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "harness/scoring/vision_score.h"
+#include "renderer/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// One trusted observation beside the truth.
+struct CalibrationSample {
+  Eigen::Vector2d truth = Eigen::Vector2d::Zero();   ///< range m, bearing rad, in the robot's frame
+  Eigen::Vector2d error = Eigen::Vector2d::Zero();   ///< measured minus true
+  Eigen::Matrix2d stated = Eigen::Matrix2d::Zero();  ///< the covariance that it came with
+  Eigen::Matrix2d bound = Eigen::Matrix2d::Zero();   ///< the least there can be; zero for parts of balls
+  double depth_m = 0.0;
+  bool whole = true;  ///< at least 95 % of the ball is seen by each eye
+};
+
+/// What one gallery gave.
+struct CalibrationTake {
+  std::vector<CalibrationSample> samples;
+  VisionScore score;
+};
+
+/// Looks around in a gallery (worlds::gallery) with the scenario's detector.
+/// @param gallery its single seed is that of the noise
+CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend backend);
+
+}  // namespace stereobench::harness

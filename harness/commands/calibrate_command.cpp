@@ -1,0 +1,103 @@
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/calibration/calibration_result.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/scenario_arguments.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/run/process_pool.h"
+#include "harness/run/progress.h"
+#include "harness/run/serialise.h"
+#include "vision/observe.h"
+#include "worlds/gallery.h"
+#include "worlds/seeds.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr const char* kUsualSeeds = "0..39";
+
+struct CalibrateArguments {
+  ScenarioArguments scenario;
+  std::string law = "per_observation";
+};
+
+worlds::Scenario read_stereo_scenario(const CalibrateArguments& arguments) {
+  worlds::Scenario scenario = read_scenario(arguments.scenario);
+  if (scenario.sensor != worlds::SensorKind::kStereo)
+    throw std::runtime_error(fmt::format("{}: sensor: expected stereo, since the oracle has no pictures",
+                                         arguments.scenario.scenario.string()));
+  return scenario;
+}
+
+std::vector<CalibrationTake> take_all(const worlds::Scenario& scenario, const worlds::GalleryDepths& depths,
+                                      const std::vector<std::uint64_t>& seeds, const ScenarioArguments& how) {
+  Progress progress("calibrate " + scenario.name, static_cast<double>(seeds.size()));
+  const auto take = [&](std::size_t index, const std::function<void(double)>&) {
+    return to_bytes(take_samples(worlds::gallery(scenario, depths, seeds[index]), how.backend));
+  };
+  std::vector<CalibrationTake> takes;
+  for (const std::string& bytes :
+       run_in_processes(seeds.size(), how.run.jobs, take, [&](double done) { progress.show(done); }))
+    takes.push_back(calibration_take_from_bytes(bytes));
+  return takes;
+}
+
+int run_calibration(const CalibrateArguments& arguments) {
+  const worlds::Scenario scenario = read_stereo_scenario(arguments);
+  const std::vector<std::uint64_t>& seeds = arguments.scenario.run.seeds;
+  if (seeds.size() < 2)
+    throw std::runtime_error("--seeds: expected at least two, one of them to be held out");
+  const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
+  prepare_output_folder(out);
+  const double radius_m =
+      scenario.world.balls.empty() ? worlds::Ball{}.radius_m : scenario.world.balls[0].radius_m;
+  const worlds::GalleryDepths depths =
+      worlds::measurable_depths(scenario.rig, radius_m, vision::ObserverSettings{}.min_radius_px);
+  const auto takes = take_all(scenario, depths, seeds, arguments.scenario);
+  CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
+  result.scenario = scenario.name;
+  result.detector = scenario.detector.command.empty() ? "stereobench" : scenario.detector.command;
+  const NoiseKind kind = arguments.law == "stereo" ? NoiseKind::kStereo : NoiseKind::kScaled;
+  write_file_atomically(out / "noise.yaml", noise_yaml(result, kind, scenario.believed_rig));
+  write_file_atomically(out / "calibration.json", calibration_json(result).dump(2) + "\n");
+  fmt::print(
+      "{}: {} balls seen in the half held out, recall {:.4f}, {} misidentified, {} spurious, {} flagged\n\n"
+      "{}\nresults: {}\n",
+      scenario.name, result.score.observations, result.score.recall(), result.score.misidentified,
+      result.score.spurious, result.score.flagged, calibration_table(result), (out / "").string());
+  return kPassed;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "calibrate", "measure a detector's noise on rendered balls, and write it for the filters");
+  auto arguments = std::make_shared<CalibrateArguments>();
+  ScenarioArguments& scenario = arguments->scenario;
+  scenario.run.seeds = worlds::parse_seeds(kUsualSeeds);
+  add_eyes_options(*command, scenario);
+  add_seed_options(*command, scenario.run);
+  command
+      ->add_option("--law", arguments->law,
+                   "what noise.yaml says: stated covariances to scale, or the stereo law")
+      ->check(CLI::IsMember({"per_observation", "stereo"}))
+      ->capture_default_str();
+  command->footer(
+      "Takes the eyes of a scenario (rig, camera, detector, size of balls) through galleries: balls of all\n"
+      "colours at all depths, under any light, before any wall. The noise is fitted to the galleries of "
+      "every\n"
+      "other seed and held against the rest, by depth: errors beside the Cramer-Rao bound, and NIS/2, which "
+      "is\n"
+      "1 where covariances are honest. Writes noise.yaml, for a scenario's\n"
+      "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
+      "and calibration.json.\n\n"
+      "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");
+  command->callback([arguments, &action] { action = [arguments] { return run_calibration(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

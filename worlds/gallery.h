@@ -1,0 +1,30 @@
+/// A world to calibrate eyes in: balls of all colours at all distances around a robot that turns on the spot.
+#pragma once
+
+#include <cstdint>
+
+#include "worlds/types.h"
+
+namespace stereobench::worlds {
+
+/// Depths that the balls of a gallery are drawn from.
+struct GalleryDepths {
+  double nearest_m = 0.0;  ///< where one outline and its shift between the eyes fill six tenths of a row
+  double farthest_m = 0.0;
+};
+
+/// The depths at which a rig can measure balls at all.
+/// @param smallest_radius_px outlines below that are not measured
+GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
+                                double smallest_radius_px);
+
+/// A scenario with the eyes of another: its rig, what is believed of it, its camera, its detector and its
+/// size of balls. All else is drawn: where balls are (evenly over the logarithm of their depth and over the
+/// pictures), their colours, the sun and the ambient light, the materials of the floor and of walls behind
+/// them. Balls may hide parts of each other. The robot stands at the origin and looks once into each
+/// direction, as many as its field of view has room for; it does not move, so that the shutter is left out.
+/// @param scenario with a stereo sensor
+/// @param seed of the draws
+Scenario gallery(const Scenario& scenario, const GalleryDepths& depths, std::uint64_t seed);
+
+}  // namespace stereobench::worlds
