@@ -16,7 +16,8 @@ enum class Stream : std::uint32_t {
   kClutter,
   kShotNoise,
   kReadNoise,
-  kFrameLoss
+  kFrameLoss,
+  kRandomise
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).
