@@ -1,6 +1,5 @@
 #include "worlds/write_scenario.h"
 
-#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -56,21 +55,14 @@ YAML::Node lines_of(const Wall& wall) {
   return node;
 }
 
-/// The number of degrees that is read back as exactly this angle.
-double degrees(double angle_rad) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const double about = angle_rad / kDegree;
-  for (const double degrees : {std::nextafter(about, -1e9), std::nextafter(about, 1e9)})
-    if (degrees * kDegree == angle_rad) return degrees;
-  return about;
-}
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A shape that stands upright, as things that are strewn do.
 YAML::Node lines_of(const MeshInstance& mesh) {
   YAML::Node node;
   node["shape"] = std::string(kShapeNames[static_cast<std::size_t>(mesh.shape) - 1]);
   node["at_m"] = list_of(mesh.position_m);
-  node["heading_deg"] = digits(degrees(mesh.heading_rad));
+  node["heading_deg"] = digits(mesh.heading_rad / kDegree);
   node["scale"] = list_of(mesh.scale);
   node["material"] = name_of(mesh.material);
   node["tint_rgb"] = list_of(mesh.tint_rgb);

@@ -45,7 +45,7 @@ std::map<std::string, double> values_of(const Scenario& scenario, std::uint64_t 
 
 // A uniform draw has mean 1/2 and variance 1/12 of its range; whole numbers of n values (n^2 - 1) / (12 n^2).
 // 600 seeds, some 150 keys: 5 standard errors are passed by chance once in ten thousand tests.
-// Meant to catch: ranges that are half open the wrong way, one draw for two keys.
+// Mutation: one stream for all keys that begin alike.
 TEST(Randomise, DrawsUniformlyWithinItsRanges) {
   constexpr int kSeeds = 600;
   std::map<std::string, std::vector<double>> shares;
@@ -73,7 +73,7 @@ TEST(Randomise, DrawsUniformlyWithinItsRanges) {
   }
 }
 
-// Meant to catch: one stream for all keys of a group.
+// Mutation: one stream for all keys that begin alike.
 TEST(Randomise, KeysAreUncorrelated) {
   constexpr int kSeeds = 600;
   const std::vector<std::string> keys = {"light.azimuth_deg",      "light.ambient", "walls[0].shade",
@@ -95,7 +95,7 @@ TEST(Randomise, KeysAreUncorrelated) {
 }
 
 // Each group alone draws what it draws among all others, and so does all that stays when one is left out.
-// Meant to catch: one stream for all keys, numbered as they come.
+// Mutation: one stream for all keys, numbered as they come.
 TEST(Randomise, NoKeyMovesAnother) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const auto all = values_of(everything(), seed);
@@ -152,7 +152,7 @@ std::string print(const World& world) {
   return text;
 }
 
-// Meant to catch: the heading written as the quotient; the floor's tint, or a ball's paint, not written.
+// Mutation: the floor's tint not written.
 TEST(Randomise, WrittenOutItIsAPlainScenarioOfTheSameWorld) {
   const ScenarioFolder folder;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -190,7 +190,7 @@ TEST(Randomise, TheLogIsWhatWasPutIntoTheWorld) {
   EXPECT_EQ(static_cast<double>(world.meshes.size() - given + made.left_out.size()), things);
 }
 
-// Meant to catch: each ball's colour drawn for itself.
+// Mutation: colours given by the number of the ball.
 TEST(Randomise, ShuffledColoursTellApartWhatWasToldApart) {
   Scenario scenario = everything();
   scenario.world.balls[5].colour = scenario.world.balls[2].colour;

@@ -61,9 +61,11 @@ bool is_hidden(const World& world, const Ball& ball, const Eigen::Vector2d& eye_
 
 class Strewn : public testing::TestWithParam<std::uint64_t> {};
 
-// Meant to catch: balls_in_view not asked; what is hidden not taken off the list.
+// Mutation: balls_in_view not asked. Not caught: what is hidden not taken off the list; the spheres around
+// things are so generous that several together never hide too much here.
 TEST_P(Strewn, ThingsLeaveEnoughBallsInViewAtEachStep) {
-  const Scenario& scenario = everything();
+  static const Scenario scenario =
+      scenario_with("randomise={clutter: {count: 14}, distractors: {}, balls_in_view: 1}");
   const World world = world_for_seed(scenario, GetParam());
   World bare = world;
   bare.meshes.resize(scenario.world.meshes.size());
@@ -91,7 +93,7 @@ TEST_P(Strewn, ThingsLeaveEnoughBallsInViewAtEachStep) {
   RecordProperty("hidden", hidden);
 }
 
-// Meant to catch: no clearance; walls not looked at.
+// Mutation: no clearance. Meant to catch: walls not looked at.
 TEST_P(Strewn, ThingsStandClearOfDriveWallsBallsAndEachOther) {
   const Scenario& scenario = everything();
   const World world = world_for_seed(scenario, GetParam());
