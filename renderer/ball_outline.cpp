@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/palette.h"
+#include "worlds/paint.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -55,9 +55,8 @@ std::array<float, 4> split_centre(const EyeView& view, const Eigen::Vector2d& ce
 }
 
 std::array<float, 4> colour_of(const worlds::Ball& ball, int identity) {
-  const vision::PaletteColour colour = vision::kPalette.at(static_cast<std::size_t>(ball.colour));
-  return {narrow(colour.r / 255.0), narrow(colour.g / 255.0), narrow(colour.b / 255.0),
-          narrow(identity / 255.0)};
+  const Eigen::Vector3d rgb = worlds::paint_of(ball);
+  return {narrow(rgb.x()), narrow(rgb.y()), narrow(rgb.z()), narrow(identity / 255.0)};
 }
 
 }  // namespace

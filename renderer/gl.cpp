@@ -15,6 +15,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glBindBuffer", BindBuffer);
   fetch(context, "glBindFramebuffer", BindFramebuffer);
   fetch(context, "glBindRenderbuffer", BindRenderbuffer);
+  fetch(context, "glBindTexture", BindTexture);
   fetch(context, "glBindVertexArray", BindVertexArray);
   fetch(context, "glBlendFuncSeparate", BlendFuncSeparate);
   fetch(context, "glBufferData", BufferData);
@@ -30,6 +31,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glDeleteFramebuffers", DeleteFramebuffers);
   fetch(context, "glDeleteProgram", DeleteProgram);
   fetch(context, "glDeleteRenderbuffers", DeleteRenderbuffers);
+  fetch(context, "glDeleteTextures", DeleteTextures);
   fetch(context, "glDeleteShader", DeleteShader);
   fetch(context, "glDeleteVertexArrays", DeleteVertexArrays);
   fetch(context, "glDepthFunc", DepthFunc);
@@ -44,6 +46,7 @@ Gl::Gl(const Context& context) {
   fetch(context, "glGenBuffers", GenBuffers);
   fetch(context, "glGenFramebuffers", GenFramebuffers);
   fetch(context, "glGenRenderbuffers", GenRenderbuffers);
+  fetch(context, "glGenTextures", GenTextures);
   fetch(context, "glGenVertexArrays", GenVertexArrays);
   fetch(context, "glGetError", GetError);
   fetch(context, "glGetProgramInfoLog", GetProgramInfoLog);
@@ -58,7 +61,9 @@ Gl::Gl(const Context& context) {
   fetch(context, "glRenderbufferStorage", RenderbufferStorage);
   fetch(context, "glScissor", Scissor);
   fetch(context, "glShaderSource", ShaderSource);
+  fetch(context, "glTexBuffer", TexBuffer);
   fetch(context, "glUniform1f", Uniform1f);
+  fetch(context, "glUniform1iv", Uniform1iv);
   fetch(context, "glUniform2f", Uniform2f);
   fetch(context, "glUniform2i", Uniform2i);
   fetch(context, "glUniform3f", Uniform3f);

@@ -31,6 +31,9 @@ void delete_renderbuffer(const Gl& gl, GLuint name) {
 void delete_shader(const Gl& gl, GLuint name) {
   gl.DeleteShader(name);
 }
+void delete_texture(const Gl& gl, GLuint name) {
+  gl.DeleteTextures(1, &name);
+}
 void delete_vertex_array(const Gl& gl, GLuint name) {
   gl.DeleteVertexArrays(1, &name);
 }
@@ -111,6 +114,17 @@ void VertexArray::upload(std::span<const float> values) {
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.get());
   gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values.size_bytes()), values.data(),
                   GL_STREAM_DRAW);
+}
+
+NumberList::NumberList(const Gl& gl, std::span<const std::uint32_t> numbers)
+    : gl_(&gl),
+      buffer_(gl, generate(gl.GenBuffers), delete_buffer),
+      texture_(gl, generate(gl.GenTextures), delete_texture) {
+  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
+  gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(numbers.size_bytes()), numbers.data(),
+                GL_STATIC_DRAW);
+  bind();
+  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, buffer_.get());
 }
 
 Framebuffer::Framebuffer(const Gl& gl, int width_px, int height_px)

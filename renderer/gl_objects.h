@@ -2,6 +2,7 @@
 /// The context must be current when they are made, used and destroyed.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -57,6 +58,19 @@ class VertexArray {
   const Gl* gl_;
   GlName array_;
   GlName buffer_;
+};
+
+/// A list of 32-bit numbers that shaders can look into: a usamplerBuffer of texture unit 0.
+class NumberList {
+ public:
+  NumberList(const Gl& gl, std::span<const std::uint32_t> numbers);
+
+  void bind() const { gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.get()); }
+
+ private:
+  const Gl* gl_;
+  GlName buffer_;
+  GlName texture_;
 };
 
 /// A picture to draw to: 8-bit RGBA and a 32-bit float depth.

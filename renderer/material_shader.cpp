@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "renderer/texture_shader.h"
+
 namespace stereobench::renderer {
 namespace {
 
@@ -9,14 +11,17 @@ constexpr const char* kVertex = R"glsl(#version 450 core
 layout(location = 0) in vec4 a_position;
 layout(location = 1) in vec2 a_along;
 layout(location = 2) in float a_light;
+layout(location = 3) in vec3 a_colour;
 uniform mat4 u_clip_from_position;
 out vec2 v_along;
 out float v_light;
+out vec3 v_colour;
 
 void main() {
   gl_Position = u_clip_from_position * a_position;
   v_along = a_along;
   v_light = a_light;
+  v_colour = a_colour;
 }
 )glsl";
 
@@ -24,6 +29,7 @@ constexpr const char* kHead = R"glsl(#version 450 core
 in vec2 v_along;
 in float v_light;
 out vec4 o_colour;  // blue, green, red, identity
+uniform vec3 u_tint;  // factors on the material's colours
 
 // A random value of a cell in [-1, 1]. key: the cell's coordinates times odd numbers, combined.
 float random(uint key) {
@@ -78,7 +84,7 @@ vec3 albedo(vec2 place, vec2 footprint);  // place on the material and the pixel
 
 void main() {
   vec2 footprint = max(abs(dFdx(v_along)) + abs(dFdy(v_along)), 1e-5);
-  o_colour = vec4((albedo(v_along, footprint) * v_light).bgr, 0.0);
+  o_colour = vec4((albedo(v_along, footprint) * v_light * u_tint).bgr, 0.0);
 }
 )glsl";
 
@@ -124,27 +130,35 @@ vec3 albedo(vec2 place, vec2 footprint) {
 }
 )glsl";
 
-constexpr const char* kFile = R"glsl(
-uniform vec3 u_colour;
-vec3 albedo(vec2 place, vec2 footprint) { return u_colour; }
+constexpr const char* kPaint = R"glsl(
+vec3 albedo(vec2 place, vec2 footprint) { return vec3(1.0); }
 )glsl";
 
-const char* albedo_of(worlds::Material material) {
-  switch (material) {
-    case worlds::Material::kPlain:
+constexpr const char* kCorners = R"glsl(
+in vec3 v_colour;
+vec3 albedo(vec2 place, vec2 footprint) { return v_colour; }
+)glsl";
+
+std::string albedo_of(SurfacePaint paint) {
+  switch (paint) {
+    case SurfacePaint::kPlain:
       return kPlain;
-    case worlds::Material::kTiles:
+    case SurfacePaint::kTiles:
       return kTiles;
-    case worlds::Material::kPlaster:
+    case SurfacePaint::kPlaster:
       return kPlaster;
-    case worlds::Material::kBricks:
+    case SurfacePaint::kBricks:
       return kBricks;
-    case worlds::Material::kWood:
+    case SurfacePaint::kWood:
       return kWood;
-    case worlds::Material::kFile:
-      return kFile;
+    case SurfacePaint::kPaint:
+      return kPaint;
+    case SurfacePaint::kCorners:
+      return kCorners;
+    case SurfacePaint::kTexture:
+      return texture_albedo();
   }
-  throw std::invalid_argument("surface_fragment_shader: no such material");
+  throw std::invalid_argument("surface_fragment_shader: no such paint");
 }
 
 }  // namespace
@@ -153,8 +167,8 @@ std::string surface_vertex_shader() {
   return kVertex;
 }
 
-std::string surface_fragment_shader(worlds::Material material) {
-  return std::string(kHead) + albedo_of(material);
+std::string surface_fragment_shader(SurfacePaint paint) {
+  return kHead + albedo_of(paint);
 }
 
 }  // namespace stereobench::renderer

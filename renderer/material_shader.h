@@ -3,14 +3,24 @@
 
 #include <string>
 
-#include "worlds/types.h"
-
 namespace stereobench::renderer {
+
+/// What a surface shows: that of a material, or of a mesh file.
+enum class SurfacePaint {
+  kPlain,  ///< those of materials are in Material's order
+  kTiles,
+  kPlaster,
+  kBricks,
+  kWood,
+  kPaint,
+  kCorners,  ///< colours between those of the corners
+  kTexture   ///< a picture, times those colours (texture_shader.h)
+};
 
 std::string surface_vertex_shader();
 
-/// One program per material: a rasteriser that works on eight pixels at once runs every branch of an `if`.
-/// All materials are grey or beige, so that none is taken for a ball's colour, but for those of mesh files.
-std::string surface_fragment_shader(worlds::Material material);
+/// One program per paint: a rasteriser that works on eight pixels at once runs every branch of an `if`.
+/// All materials are grey or beige, so that none is taken for a ball's colour; tints may make them so.
+std::string surface_fragment_shader(SurfacePaint paint);
 
 }  // namespace stereobench::renderer

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@
 #include <fmt/core.h>
 
 #include "renderer/child_call.h"
+#include "renderer/mesh_bytes.h"
+#include "renderer/texture_file.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -24,8 +27,7 @@ constexpr std::array<std::string_view, 6> kEndings = {".obj", ".dae", ".gltf", "
 constexpr double kFarthest = 1e6;  // mesh units: beyond, single precision has nothing left for the shape
 constexpr unsigned kSteps =
     aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure;
-
-constexpr std::size_t kTriangleNumbers = 21;  // corners, normals, colour: what a triangle is in a pipe
+constexpr unsigned kTextureSteps = kSteps | aiProcess_TransformUVCoords;
 
 /// Which file it is about is added in one place, by read_mesh.
 [[noreturn]] void refuse(const std::string& why) {
@@ -74,67 +76,90 @@ Triangle read_triangle(const aiMesh& mesh, const aiFace& face) {
   return triangle;
 }
 
-const aiScene& import(Assimp::Importer& importer, const std::filesystem::path& file) {
-  const aiScene* scene = importer.ReadFile(file.string(), kSteps);
+const aiScene& import(Assimp::Importer& importer, const std::filesystem::path& file, unsigned steps) {
+  const aiScene* scene = importer.ReadFile(file.string(), steps);
   if (scene == nullptr) refuse(fmt::format("not a readable mesh: {}", importer.GetErrorString()));
   if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) refuse("the mesh is incomplete");
   if (scene->mNumMeshes == 0) refuse("the file has no meshes");
   return *scene;
 }
 
-void append(const aiMesh& mesh, const Eigen::Vector3d& colour_rgb, std::vector<Triangle>& triangles) {
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    if (mesh.mFaces[f].mNumIndices != 3) continue;
-    triangles.push_back(read_triangle(mesh, mesh.mFaces[f]));
-    triangles.back().colour_rgb = colour_rgb;
+/// The colours that the file gives a face's corners.
+void colour_corners(const aiMesh& mesh, const aiFace& face, Triangle& triangle) {
+  if (!mesh.HasVertexColors(0)) return;
+  for (unsigned i = 0; i < 3; ++i) {
+    const aiColor4D& colour = mesh.mColors[0][face.mIndices[i]];
+    const Eigen::Vector3f rgb(colour.r, colour.g, colour.b);
+    if (rgb.allFinite()) triangle.corner_rgb[i] = rgb.cwiseMax(0.0F).cwiseMin(1.0F);
   }
+}
+
+/// Where a face's corners lie on a picture; what has no such places has no picture.
+void lay_on(const Texture& texture, int index, const aiMesh& mesh, const aiFace& face, Triangle& triangle) {
+  if (!mesh.HasTextureCoords(0)) return;
+  for (unsigned i = 0; i < 3; ++i) {
+    const Eigen::Vector3d place = vector(mesh.mTextureCoords[0][face.mIndices[i]]);  // from the lower left
+    if (!(place.cwiseAbs().maxCoeff() <= kFarthest)) refuse("a place on a texture is not finite, or absurd");
+    triangle.place_px[i] =
+        Eigen::Vector2d(place.x() * texture.width_px, (1.0 - place.y()) * texture.height_px).cast<float>();
+  }
+  triangle.texture = index;
 }
 
 /// What the child does.
-std::vector<Triangle> parse(const std::filesystem::path& file, int most_triangles) {
-  Assimp::Importer importer;
-  const aiScene& scene = import(importer, file);
-  std::vector<Triangle> triangles;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    if (mesh.mMaterialIndex >= scene.mNumMaterials) refuse("a part has a material that does not exist");
-    append(mesh, diffuse_colour(*scene.mMaterials[mesh.mMaterialIndex]), triangles);
-    if (triangles.size() > static_cast<std::size_t>(most_triangles))
-      refuse(fmt::format("has more than {} triangles", most_triangles));
+class Parser {
+ public:
+  Parser(const std::filesystem::path& file, const worlds::MeshLimits& limits, bool with_textures)
+      : limits_(limits), folder_(file.parent_path()), with_textures_(with_textures) {
+    scene_ = &import(importer_, file, with_textures ? kTextureSteps : kSteps);
   }
-  if (triangles.empty()) refuse("the mesh has no faces");
-  return triangles;
-}
 
-std::string packed(const std::vector<Triangle>& triangles) {
-  std::vector<double> numbers;
-  numbers.reserve(triangles.size() * kTriangleNumbers);
-  for (const Triangle& t : triangles) {
-    for (const Eigen::Vector3d* vectors : {t.corners, t.normals})
-      for (int i = 0; i < 3; ++i) numbers.insert(numbers.end(), vectors[i].data(), vectors[i].data() + 3);
-    numbers.insert(numbers.end(), t.colour_rgb.data(), t.colour_rgb.data() + 3);
+  Mesh parse() {
+    for (unsigned m = 0; m < scene_->mNumMeshes; ++m) {
+      const aiMesh& mesh = *scene_->mMeshes[m];
+      if (mesh.mMaterialIndex >= scene_->mNumMaterials) refuse("a part has a material that does not exist");
+      append(mesh);
+      if (result_.triangles.size() > static_cast<std::size_t>(limits_.triangles))
+        refuse(fmt::format("has more than {} triangles", limits_.triangles));
+    }
+    if (result_.triangles.empty()) refuse("the mesh has no faces");
+    return std::move(result_);
   }
-  std::string bytes(numbers.size() * sizeof(double), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return bytes;
-}
 
-std::vector<Triangle> unpacked(const std::string& bytes) {
-  if (bytes.empty() || bytes.size() % (kTriangleNumbers * sizeof(double)) != 0)
-    refuse("what was read of it is cut off");
-  std::vector<Triangle> triangles(bytes.size() / (kTriangleNumbers * sizeof(double)));
-  const char* from = bytes.data();
-  const auto take = [&](Eigen::Vector3d& vector) {
-    std::memcpy(vector.data(), from, 3 * sizeof(double));
-    from += 3 * sizeof(double);
-  };
-  for (Triangle& t : triangles) {
-    for (Eigen::Vector3d& corner : t.corners) take(corner);
-    for (Eigen::Vector3d& normal : t.normals) take(normal);
-    take(t.colour_rgb);
+ private:
+  void append(const aiMesh& mesh) {
+    const Eigen::Vector3d colour_rgb = diffuse_colour(*scene_->mMaterials[mesh.mMaterialIndex]);
+    const int texture = with_textures_ ? texture_of(mesh.mMaterialIndex) : -1;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      Triangle triangle = read_triangle(mesh, face);
+      triangle.colour_rgb = colour_rgb;
+      if (with_textures_) colour_corners(mesh, face, triangle);
+      if (texture >= 0)
+        lay_on(result_.textures[static_cast<std::size_t>(texture)], texture, mesh, face, triangle);
+      result_.triangles.push_back(triangle);
+    }
   }
-  return triangles;
-}
+
+  /// The index of a material's picture, read once; -1 where it has none.
+  int texture_of(unsigned material) {
+    const auto [known, is_new] = textures_.try_emplace(material, -1);
+    if (!is_new) return known->second;
+    std::optional<Texture> texture = read_texture(*scene_, *scene_->mMaterials[material], folder_, limits_);
+    if (!texture) return -1;
+    result_.textures.push_back(*std::move(texture));
+    return known->second = static_cast<int>(result_.textures.size()) - 1;
+  }
+
+  const worlds::MeshLimits& limits_;
+  std::filesystem::path folder_;
+  bool with_textures_;
+  Assimp::Importer importer_;
+  const aiScene* scene_ = nullptr;
+  std::map<unsigned, int> textures_;  // by material
+  Mesh result_;
+};
 
 void check_file(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
   check_ending(file);
@@ -151,16 +176,24 @@ std::string one_line(std::string text) {
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
-}  // namespace
-
-std::vector<Triangle> read_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
+Mesh read(const std::filesystem::path& file, const worlds::MeshLimits& limits, bool with_textures) {
   try {
     check_file(file, limits);
-    return unpacked(call_in_child([&] { return packed(parse(file, limits.triangles)); },
+    return unpacked(call_in_child([&] { return packed(Parser(file, limits, with_textures).parse()); },
                                   {limits.seconds, static_cast<std::size_t>(limits.memory_mib) << 20U}));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
   }
+}
+
+}  // namespace
+
+std::vector<Triangle> read_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
+  return read(file, limits, false).triangles;
+}
+
+Mesh read_textured_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
+  return read(file, limits, true);
 }
 
 }  // namespace stereobench::renderer

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
 #include <fmt/core.h>
 
 #include "renderer/opposite_faces.h"
+#include "renderer/texture_pyramid.h"
+#include "renderer/unit_shapes.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -51,15 +54,20 @@ std::array<int, 2> axes_on(const Triangle& triangle) {
   return flat.x() >= flat.y() ? std::array<int, 2>{1, 2} : std::array<int, 2>{0, 2};
 }
 
-void append(const Triangle& triangle, const Placement& placement, const worlds::Light& light,
-            std::vector<SurfaceVertex>& vertices) {
+void append(const Triangle& triangle, const Placement& placement, const MeshRun& run,
+            const worlds::Light& light, std::vector<SurfaceVertex>& vertices) {
   const std::array<int, 2> axes = axes_on(triangle);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d upright = placement.upright(triangle.corners[i]);
     const Eigen::Vector3f place = (placement.position_m + placement.turn * upright).cast<float>();
+    const Eigen::Vector2f along = run.texture >= 0
+                                      ? triangle.place_px[i]
+                                      : Eigen::Vector2d(upright[axes[0]], upright[axes[1]]).cast<float>();
+    const Eigen::Vector3f& rgb = triangle.corner_rgb[i];
     vertices.push_back({{place.x(), place.y(), place.z(), 1.0F},
-                        {static_cast<float>(upright[axes[0]]), static_cast<float>(upright[axes[1]])},
-                        static_cast<float>(lit(light, placement.normal(triangle.normals[i])))});
+                        {along.x(), along.y()},
+                        static_cast<float>(lit(light, placement.normal(triangle.normals[i]))),
+                        {rgb.x(), rgb.y(), rgb.z()}});
   }
 }
 
@@ -79,19 +87,61 @@ void enclose(const std::vector<SurfaceVertex>& vertices, MeshRun& run) {
 struct Shape {
   std::vector<Triangle> triangles;
   std::vector<bool> one_sided;
+  int first_texture = 0;  ///< of the world's
 };
 
-Shape read_shape(const std::string& file, const worlds::MeshLimits& limits) {
-  Shape shape{read_mesh(file, limits), {}};
+/// Whether an instance of the same file shows the file's colours.
+bool shows_file(const worlds::World& world, const worlds::MeshInstance& mesh) {
+  return std::any_of(world.meshes.begin(), world.meshes.end(), [&](const worlds::MeshInstance& other) {
+    return other.shape == mesh.shape && other.file == mesh.file && other.material == worlds::Material::kFile;
+  });
+}
+
+Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh) {
+  if (mesh.shape != worlds::MeshShape::kFile) return {unit_shape(mesh.shape), {}};
+  if (shows_file(world, mesh)) return read_textured_mesh(mesh.file, world.mesh_limits);
+  return {read_mesh(mesh.file, world.mesh_limits), {}};
+}
+
+/// Reads a shape and puts its textures beside the others.
+Shape read_shape(const worlds::World& world, const worlds::MeshInstance& mesh,
+                 std::vector<Texture>& textures) {
+  Mesh form = read_form(world, mesh);
+  Shape shape{std::move(form.triangles), {}, static_cast<int>(textures.size())};
   shape.one_sided = have_opposites(shape.triangles);
+  std::move(form.textures.begin(), form.textures.end(), std::back_inserter(textures));
+  std::size_t texels = 0;
+  for (const Texture& texture : textures) texels += pyramid_size(texture);
+  if (texels > static_cast<std::size_t>(world.mesh_limits.texture_mib) << 18U)  // of four bytes each
+    throw std::runtime_error(fmt::format("{}: with it the world's textures are more than {} MiB", mesh.file,
+                                         world.mesh_limits.texture_mib));
   return shape;
 }
 
-/// Whether a triangle of an instance goes on with the run: its sides do, and where the file's colours are
-/// shown, its colour.
-bool goes_on(const MeshRun& run, const Triangle& triangle, bool one_sided) {
-  return run.one_sided == one_sided &&
-         (run.material != worlds::Material::kFile || run.colour_rgb == triangle.colour_rgb.cast<float>());
+/// The factors on a triangle's colours: its instance's and, where the file's colours are shown, its own.
+Eigen::Vector3f tint_of(const worlds::MeshInstance& mesh, const Triangle& triangle) {
+  if (mesh.material != worlds::Material::kFile) return mesh.tint_rgb.cast<float>();
+  return mesh.tint_rgb.cwiseProduct(triangle.colour_rgb).cast<float>();
+}
+
+/// The run that a triangle is of, without its vertices.
+MeshRun run_of(int index, const worlds::MeshInstance& mesh, const Shape& shape, std::size_t triangle) {
+  const Triangle& t = shape.triangles[triangle];
+  MeshRun run{.mesh = index,
+              .material = mesh.material,
+              .tint_rgb = tint_of(mesh, t),
+              .one_sided = shape.one_sided[triangle]};
+  if (mesh.material != worlds::Material::kFile) return run;
+  run.texture = t.texture < 0 ? -1 : shape.first_texture + t.texture;
+  run.has_corner_colours = std::any_of(t.corner_rgb, t.corner_rgb + 3, [](const Eigen::Vector3f& rgb) {
+    return rgb != Eigen::Vector3f::Ones();
+  });
+  return run;
+}
+
+bool goes_on(const MeshRun& a, const MeshRun& b) {
+  return a.one_sided == b.one_sided && a.tint_rgb == b.tint_rgb && a.texture == b.texture &&
+         a.has_corner_colours == b.has_corner_colours;
 }
 
 void place(const worlds::World& world, int index, const Shape& shape, MeshSurfaces& surfaces) {
@@ -99,15 +149,12 @@ void place(const worlds::World& world, int index, const Shape& shape, MeshSurfac
   const Placement placement = placement_of(mesh);
   const std::size_t first_run = surfaces.runs.size();
   for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
-    const Triangle& triangle = shape.triangles[i];
-    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), triangle, shape.one_sided[i])) {
-      surfaces.runs.push_back({.mesh = index,
-                               .material = mesh.material,
-                               .colour_rgb = triangle.colour_rgb.cast<float>(),
-                               .one_sided = shape.one_sided[i],
-                               .first = static_cast<int>(surfaces.vertices.size())});
+    const MeshRun run = run_of(index, mesh, shape, i);
+    if (surfaces.runs.size() == first_run || !goes_on(surfaces.runs.back(), run)) {
+      surfaces.runs.push_back(run);
+      surfaces.runs.back().first = static_cast<int>(surfaces.vertices.size());
     }
-    append(stood_up(triangle, mesh.up), placement, world.light, surfaces.vertices);
+    append(stood_up(shape.triangles[i], mesh.up), placement, run, world.light, surfaces.vertices);
     surfaces.runs.back().count += 3;
   }
   for (std::size_t i = first_run; i < surfaces.runs.size(); ++i) enclose(surfaces.vertices, surfaces.runs[i]);
@@ -116,17 +163,17 @@ void place(const worlds::World& world, int index, const Shape& shape, MeshSurfac
 }  // namespace
 
 MeshSurfaces place_meshes(const worlds::World& world) {
-  std::map<std::string, Shape> files;
+  std::map<std::pair<worlds::MeshShape, std::string>, Shape> shapes;
   MeshSurfaces surfaces;
   const auto most_vertices = 3 * static_cast<std::size_t>(world.mesh_limits.triangles);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const worlds::MeshInstance& mesh = world.meshes[i];
-    const auto [file, is_new] = files.try_emplace(mesh.file);
-    if (is_new) file->second = read_shape(mesh.file, world.mesh_limits);
-    if (surfaces.vertices.size() + 3 * file->second.triangles.size() > most_vertices)
+    const auto [shape, is_new] = shapes.try_emplace({mesh.shape, mesh.file});
+    if (is_new) shape->second = read_shape(world, mesh, surfaces.textures);
+    if (surfaces.vertices.size() + 3 * shape->second.triangles.size() > most_vertices)
       throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
                                            world.mesh_limits.triangles));
-    place(world, static_cast<int>(i), file->second, surfaces);
+    place(world, static_cast<int>(i), shape->second, surfaces);
   }
   return surfaces;
 }

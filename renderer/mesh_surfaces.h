@@ -12,21 +12,25 @@ namespace stereobench::renderer {
 struct MeshRun {
   int mesh = 0;  ///< index into World::meshes
   worlds::Material material = worlds::Material::kPlain;
-  Eigen::Vector3f colour_rgb = Eigen::Vector3f::Zero();  ///< of material kFile
-  bool one_sided = false;                                ///< seen from the side that it faces alone
-  int first = 0;                                         ///< vertex
-  int count = 0;                                         ///< vertices, three for each triangle
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();    ///< of a sphere around it, world frame
+  Eigen::Vector3f tint_rgb = Eigen::Vector3f::Ones();  ///< factors on its colours; of kFile, the colour
+  int texture = -1;                                    ///< index into MeshSurfaces::textures
+  bool has_corner_colours = false;
+  bool one_sided = false;                              ///< seen from the side that it faces alone
+  int first = 0;                                       ///< vertex
+  int count = 0;                                       ///< vertices, three for each triangle
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of a sphere around it, world frame
   double radius_m = 0.0;
 };
 
 struct MeshSurfaces {
   std::vector<SurfaceVertex> vertices;  ///< positions in the world frame
   std::vector<MeshRun> runs;            ///< in the order of World::meshes, at least one for each
+  std::vector<Texture> textures;        ///< of material kFile
 };
 
 /// Reads each mesh file once and puts its instances in their places.
-/// @throws std::runtime_error as read_mesh, or naming the file with which there are too many triangles
+/// @throws std::runtime_error as read_textured_mesh, or naming the file with which there are too many
+/// triangles or texels
 MeshSurfaces place_meshes(const worlds::World& world);
 
 /// Whether any of a run can be in the eye's picture.

@@ -3,18 +3,27 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "renderer/facet_shader.h"
-#include "renderer/material_shader.h"
 
 namespace stereobench::renderer {
 namespace {
 
-constexpr std::array<int, 3> kVertexWidths = {4, 2, 1};
+constexpr std::array<int, 4> kVertexWidths = {4, 2, 1, 3};
 static_assert(sizeof(SurfaceVertex) == kSurfaceVertexFloats * sizeof(float),
               "vertices are streamed as they are");
 
 std::span<const float> floats(const std::vector<SurfaceVertex>& vertices) {
   if (vertices.empty()) return {};
   return {vertices.front().position, vertices.size() * kSurfaceVertexFloats};
+}
+
+SurfacePaint paint_of(worlds::Material material) {
+  return static_cast<SurfacePaint>(material);
+}
+
+SurfacePaint paint_of(const MeshRun& run) {
+  if (run.material != worlds::Material::kFile) return paint_of(run.material);
+  if (run.texture >= 0) return SurfacePaint::kTexture;
+  return run.has_corner_colours ? SurfacePaint::kCorners : SurfacePaint::kPaint;
 }
 
 }  // namespace
@@ -25,27 +34,42 @@ SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const M
       mesh_runs_(meshes.runs),
       meshes_(gl, kVertexWidths, 0),
       polygons_(gl, kVertexWidths, 0) {
-  compile(world.floor);
-  for (const worlds::Wall& wall : world.walls) compile(wall.material);
-  for (const worlds::MeshInstance& mesh : world.meshes) compile(mesh.material);
+  compile(paint_of(world.floor));
+  for (const worlds::Wall& wall : world.walls) compile(paint_of(wall.material));
+  for (const MeshRun& run : meshes.runs) compile(paint_of(run));
   meshes_.upload(floats(meshes.vertices));
+  if (meshes.textures.empty()) return;
+  TexturePyramids pyramids = make_pyramids(meshes.textures);
+  texels_.emplace(gl, pyramids.texels);
+  textures_ = std::move(pyramids.places);
 }
 
-void SurfacePainter::compile(worlds::Material material) {
-  auto& slot = programs_.at(static_cast<std::size_t>(material));
+void SurfacePainter::compile(SurfacePaint paint) {
+  auto& slot = programs_.at(static_cast<std::size_t>(paint));
   if (slot) return;
-  Program program(*gl_, surface_vertex_shader(), surface_fragment_shader(material));
+  Program program(*gl_, surface_vertex_shader(), surface_fragment_shader(paint));
   const GLint matrix = program.uniform("u_clip_from_position");
-  const GLint colour = program.uniform("u_colour");
-  slot.emplace(MaterialProgram{std::move(program), matrix, colour});
+  const GLint tint = program.uniform("u_tint");
+  slot.emplace(PaintProgram{std::move(program), matrix, tint});
 }
 
-const SurfacePainter::MaterialProgram& SurfacePainter::use(worlds::Material material,
-                                                           const glm::mat4& clip_from_position) const {
-  const MaterialProgram& chosen = *programs_[static_cast<std::size_t>(material)];
+const Program& SurfacePainter::use(SurfacePaint paint, const Eigen::Vector3f& tint_rgb,
+                                   const glm::mat4& clip_from_position) const {
+  const PaintProgram& chosen = *programs_[static_cast<std::size_t>(paint)];
   chosen.program.use();
   gl_->UniformMatrix4fv(chosen.clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
-  return chosen;
+  gl_->Uniform3f(chosen.tint, tint_rgb.x(), tint_rgb.y(), tint_rgb.z());
+  return chosen.program;
+}
+
+void SurfacePainter::use(const MeshRun& run, const glm::mat4& clip_from_position) const {
+  const Program& program = use(paint_of(run), run.tint_rgb, clip_from_position);
+  if (run.texture < 0) return;
+  const PyramidPlace& place = textures_[static_cast<std::size_t>(run.texture)];
+  texels_->bind();
+  gl_->Uniform1iv(program.uniform("u_shape"), 4, place.shape.data());
+  gl_->Uniform1iv(program.uniform("u_first"), kMostLevels, place.first.data());
+  gl_->Uniform1iv(program.uniform("u_last_level"), 1, &place.last_level);
 }
 
 void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
@@ -90,12 +114,10 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
 
 void SurfacePainter::draw(const EyeView& view) {
   draw(
-      view,
-      [this, matrix = clip_from_world(view)](const MeshRun& run) {
-        const MaterialProgram& chosen = use(run.material, matrix);
-        gl_->Uniform3f(chosen.colour, run.colour_rgb.x(), run.colour_rgb.y(), run.colour_rgb.z());
-      },
-      [this](const SurfacePolygon& polygon) { use(polygon.material, glm::mat4(1.0F)); });
+      view, [this, matrix = clip_from_world(view)](const MeshRun& run) { use(run, matrix); },
+      [this](const SurfacePolygon& polygon) {
+        use(paint_of(polygon.material), polygon.tint_rgb, glm::mat4(1.0F));
+      });
 }
 
 void SurfacePainter::draw_facets(const EyeView& view) {

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "renderer/gl_objects.h"
+#include "renderer/material_shader.h"
 #include "renderer/mesh_surfaces.h"
+#include "renderer/texture_pyramid.h"
 
 namespace stereobench::renderer {
 
@@ -22,27 +24,31 @@ class SurfacePainter {
   void draw_facets(const EyeView& view);
 
  private:
-  struct MaterialProgram {
+  struct PaintProgram {
     Program program;
     GLint clip_from_position;
-    GLint colour;  ///< -1, which GL passes over, unless the material has one
+    GLint tint;
   };
   struct FacetProgram {
     Program program;
     GLint clip_from_position;
     GLint facet;
   };
-  void compile(worlds::Material material);
-  const MaterialProgram& use(worlds::Material material, const glm::mat4& clip_from_position) const;
+  void compile(SurfacePaint paint);
+  const Program& use(SurfacePaint paint, const Eigen::Vector3f& tint_rgb,
+                     const glm::mat4& clip_from_position) const;
+  void use(const MeshRun& run, const glm::mat4& clip_from_position) const;
   void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
   template <typename UseMesh, typename UsePolygon>
   void draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon);
 
   const Gl* gl_;
   worlds::World world_;
-  std::array<std::optional<MaterialProgram>, 6> programs_;  // by Material
-  std::optional<FacetProgram> facet_program_;               // once somebody asked
+  std::array<std::optional<PaintProgram>, 8> programs_;  // by SurfacePaint
+  std::optional<FacetProgram> facet_program_;            // once somebody asked
   std::vector<MeshRun> mesh_runs_;
+  std::optional<NumberList> texels_;  // where there are textures
+  std::vector<PyramidPlace> textures_;
   VertexArray meshes_;
   VertexArray polygons_;
 };

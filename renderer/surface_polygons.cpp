@@ -82,6 +82,7 @@ std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     SurfacePolygon seen = wall_polygon(view, world.walls[i], world.light);
     seen.facet = kFirstWallFacet + static_cast<int>(i);
+    seen.tint_rgb = world.walls[i].tint_rgb.cast<float>();
     if (!seen.corners.empty()) polygons.push_back(std::move(seen));
   }
   std::stable_sort(polygons.begin(), polygons.end(), [](const SurfacePolygon& a, const SurfacePolygon& b) {
@@ -89,6 +90,7 @@ std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::
   });
   SurfacePolygon floor = floor_polygon(view, world);
   floor.facet = kFloorFacet;
+  floor.tint_rgb = world.floor_tint_rgb.cast<float>();
   if (!floor.corners.empty()) polygons.push_back(std::move(floor));
   return polygons;
 }

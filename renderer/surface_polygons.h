@@ -15,10 +15,12 @@ namespace stereobench::renderer {
 /// A corner as the surface shader reads it.
 struct SurfaceVertex {
   float position[4];  ///< clip space for polygons that are already cut; world frame and 1 for meshes
-  float along_m[2];   ///< place on the material: along and up a wall, east and north on the floor
+  float along_m[2];   ///< place on the material: along and up a wall, east and north on the floor; in texels
+                      ///< on a texture
   float light;        ///< Lambert's law plus the ambient part, >= 0
+  float colour[3] = {1.0F, 1.0F, 1.0F};  ///< of corners that have their own
 };
-inline constexpr int kSurfaceVertexFloats = 7;
+inline constexpr int kSurfaceVertexFloats = 10;
 
 /// How far the floor goes on around the eye: seen from its height, nearer to the horizon than half a pixel.
 inline constexpr double kFloorReach_m = 10000.0;
@@ -26,6 +28,7 @@ inline constexpr double kFloorReach_m = 10000.0;
 /// A convex polygon in the picture.
 struct SurfacePolygon {
   worlds::Material material = worlds::Material::kPlain;
+  Eigen::Vector3f tint_rgb = Eigen::Vector3f::Ones();  ///< factors on its colours
   int facet = kNoFacet;
   std::vector<SurfaceVertex> corners;  ///< in order around it; none when the eye does not see it
   double nearest_m = 0.0;              ///< smallest Z of the corners

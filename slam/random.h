@@ -17,7 +17,8 @@ enum class Stream : std::uint32_t {
   kShotNoise,
   kReadNoise,
   kFrameLoss,
-  kGallery
+  kGallery,
+  kRandomise
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).

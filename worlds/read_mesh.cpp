@@ -1,5 +1,6 @@
 #include <array>
 #include <numbers>
+#include <span>
 
 #include "worlds/scenario_parts.h"
 
@@ -27,17 +28,37 @@ Eigen::Vector3d read_scale(const YamlValue& value) {
   return value.is_list() ? read_vector<3>(value, kFactor) : Eigen::Vector3d::Constant(value.number(kFactor));
 }
 
+/// A file that exists, or a shape of our own.
+void read_form(const YamlValue& value, const YamlMap& map, const std::filesystem::path& folder,
+               MeshInstance& mesh) {
+  const auto shape = map.find("shape");
+  const auto file = map.find("file");
+  if (shape && file) value.refuse("expected either file or shape");
+  if (shape) {
+    mesh.shape = static_cast<MeshShape>(1 + shape->choice(kShapeNames));
+    mesh.material = Material::kPaint;
+    return;
+  }
+  const std::filesystem::path path =
+      std::filesystem::absolute(folder / map.at("file").text()).lexically_normal();
+  if (!std::filesystem::is_regular_file(path)) file->fail("expected a mesh file that exists");
+  mesh.file = path.string();
+}
+
+/// Shapes have no file whose colours could be taken.
+Material read_material(const YamlValue& value, MeshShape shape) {
+  const std::size_t known = kMaterialNames.size() - (shape == MeshShape::kFile ? 0 : 1);
+  return static_cast<Material>(value.choice(std::span(kMaterialNames).first(known)));
+}
+
 }  // namespace
 
 MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& folder,
                        const std::vector<Ball>& balls) {
-  const YamlMap map(value, {"file", "unit_m", "up", "at_m", "under_ball", "heading_deg", "pitch_deg",
-                            "roll_deg", "scale", "material"});
+  const YamlMap map(value, {"file", "shape", "unit_m", "up", "at_m", "under_ball", "heading_deg", "pitch_deg",
+                            "roll_deg", "scale", "material", "tint_rgb"});
   MeshInstance mesh;
-  const std::filesystem::path file =
-      std::filesystem::absolute(folder / map.at("file").text()).lexically_normal();
-  if (!std::filesystem::is_regular_file(file)) map.at("file").fail("expected a mesh file that exists");
-  mesh.file = file.string();
+  read_form(value, map, folder, mesh);
   mesh.unit_m = map.number("unit_m", {1e-6, 1e3}, 1.0);
   if (const auto up = map.find("up")) mesh.up = static_cast<MeshUp>(up->choice(kUps));
   mesh.heading_rad = map.number("heading_deg", kTurn_deg, 0.0) * kDegree;
@@ -49,17 +70,19 @@ MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& fold
   if (at.has_value() == ball.has_value()) value.refuse("expected either at_m or under_ball");
   if (at) mesh.position_m = read_vector<3>(*at, kPlace_m);
   if (ball) stand_under(*ball, balls, mesh);
-  if (const auto material = map.find("material"))
-    mesh.material = static_cast<Material>(material->choice(kMaterialNames));
+  if (const auto material = map.find("material")) mesh.material = read_material(*material, mesh.shape);
+  if (const auto tint = map.find("tint_rgb")) mesh.tint_rgb = read_vector<3>(*tint, kTint);
   return mesh;
 }
 
 MeshLimits read_mesh_limits(const YamlValue& value) {
-  const YamlMap map(value, {"triangles", "file_mib", "seconds", "memory_mib"});
+  const YamlMap map(value, {"triangles", "file_mib", "seconds", "memory_mib", "texture_px", "texture_mib"});
   MeshLimits limits;
   if (const auto most = map.find("triangles")) limits.triangles = most->integer(1, 100000000);
   if (const auto most = map.find("file_mib")) limits.file_mib = most->integer(1, 65536);
   if (const auto most = map.find("memory_mib")) limits.memory_mib = most->integer(1, 1048576);
+  if (const auto most = map.find("texture_px")) limits.texture_px = most->integer(1, 32768);
+  if (const auto most = map.find("texture_mib")) limits.texture_mib = most->integer(1, 512);
   limits.seconds = map.number("seconds", {1e-3, 3600.0}, limits.seconds);
   return limits;
 }

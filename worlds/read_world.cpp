@@ -18,15 +18,22 @@ constexpr std::size_t kMostWalls = 10000;
 
 Material read_material(const YamlMap& map, std::string_view key, Material fallback) {
   const auto value = map.find(key);
-  return value ? static_cast<Material>(value->choice(std::span(kMaterialNames).first(5))) : fallback;
+  return value ? static_cast<Material>(value->choice(std::span(kMaterialNames).first(6))) : fallback;
+}
+
+/// Factors on a material's colours; none where the key is left out.
+Eigen::Vector3d read_tint(const YamlMap& map, std::string_view key) {
+  const auto value = map.find(key);
+  return value ? read_vector<3>(*value, kTint) : Eigen::Vector3d(Eigen::Vector3d::Ones());
 }
 
 Ball read_ball(const YamlValue& value, double usual_radius_m) {
-  const YamlMap map(value, {"colour", "at_m", "radius_m"});
+  const YamlMap map(value, {"colour", "at_m", "radius_m", "paint_rgb"});
   Ball ball;
   ball.radius_m = map.number("radius_m", {1e-3, 10.0}, usual_radius_m);
   ball.centre_m = read_vector<3>(map.at("at_m"), kPlace_m);
   ball.colour = map.at("colour").integer(0, static_cast<int>(vision::kPalette.size()) - 1);
+  if (const auto paint = map.find("paint_rgb")) ball.paint_rgb = read_vector<3>(*paint, kShare);
   if (ball.centre_m.z() < ball.radius_m) {
     map.at("at_m").fail(fmt::format("expected a height of at least the radius {:g}", ball.radius_m));
   }
@@ -44,7 +51,7 @@ std::vector<Ball> read_balls(const YamlMap& world) {
 
 /// One line of corners is a wall from each corner to the next.
 void append_walls(const YamlValue& value, std::vector<Wall>& walls) {
-  const YamlMap map(value, {"corners_m", "closed", "height_m", "material"});
+  const YamlMap map(value, {"corners_m", "closed", "height_m", "material", "tint_rgb"});
   std::vector<Eigen::Vector2d> corners_m;
   for (const YamlValue& corner : map.at("corners_m").list(2, kMostWalls)) {
     corners_m.push_back(read_vector<2>(corner, kPlace_m));
@@ -56,7 +63,7 @@ void append_walls(const YamlValue& value, std::vector<Wall>& walls) {
   if (closed && closed->flag()) corners_m.push_back(corners_m.front());
   for (std::size_t i = 0; i + 1 < corners_m.size(); ++i) {
     walls.push_back({corners_m[i], corners_m[i + 1], map.number("height_m", kSize_m, 2.5),
-                     read_material(map, "material", Material::kPlaster)});
+                     read_material(map, "material", Material::kPlaster), read_tint(map, "tint_rgb")});
   }
 }
 
@@ -95,6 +102,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   }
   if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
   world.floor = read_material(map, "floor", world.floor);
+  world.floor_tint_rgb = read_tint(map, "floor_tint_rgb");
   if (const auto light = map.find("light")) world.light = read_light(*light);
   if (const auto sky = map.find("sky_rgb")) world.sky_rgb = read_vector<3>(*sky, kShare);
   return world;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "slam/filter_names.h"
-#include "slam/random.h"
 #include "worlds/generator.h"
+#include "worlds/randomise.h"
 #include "worlds/scenario_checks.h"
 #include "worlds/scenario_parts.h"
 #include "worlds/seeds.h"
@@ -103,6 +103,10 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   const auto made = world.find("generator");
   std::optional<Generator> generator;
   if (made) generator = read_generator(*made, read_ball_radius_m(world));
+  if (const auto randomise = map.find("randomise")) {
+    if (scenario.sensor == SensorKind::kOracle) randomise->refuse("the oracle has no pictures to vary");
+    scenario.randomise = read_randomisation(*randomise, generator ? generator->rules.in_view : 2);
+  }
   scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr, folder);
   scenario.world = read_world(world, folder);
   if (generator)
@@ -138,6 +142,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "believed_measurement_noise",
                      "path",
                      "placement_jitter_m",
+                     "randomise",
                      "world"});
   Scenario scenario;
   scenario.name = read_name(map.at("name"));
@@ -151,17 +156,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
 }
 
 World world_for_seed(const Scenario& scenario, std::uint64_t seed) {
-  World world = scenario.world;
-  for (std::size_t i = 0; i < world.balls.size(); ++i) {
-    slam::RandomStream draws(seed, slam::Stream::kWorld, i);
-    world.balls[i].centre_m.x() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
-    world.balls[i].centre_m.y() += scenario.placement_jitter_m * (2.0 * draws.uniform() - 1.0);
-  }
-  for (MeshInstance& mesh : world.meshes) {
-    if (mesh.carried_ball == slam::kUnknown) continue;
-    mesh.position_m.head<2>() = world.balls[static_cast<std::size_t>(mesh.carried_ball)].centre_m.head<2>();
-  }
-  return world;
+  return seed_world(scenario, seed).world;
 }
 
 }  // namespace stereobench::worlds

@@ -23,10 +23,11 @@ namespace stereobench::worlds {
 ///         "--set key.path: ..." when an override is to blame
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The world of one seed: the scenario's, with each ball moved by a uniform draw of up to
-/// +-placement_jitter_m in x and in y. Each ball has a stream of its own, so adding one moves no other.
+/// The world of one seed (randomise.h): the scenario's, with each ball moved by a uniform draw of up to
+/// +-placement_jitter_m in x and in y, and with what `randomise:` draws. Each ball has a stream of its own,
+/// so adding one moves no other.
 ///
-/// @return a copy of scenario.world with its balls moved; exactly scenario.world when the jitter is 0
+/// @return exactly scenario.world when the jitter is 0 and nothing is left to chance
 World world_for_seed(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace stereobench::worlds

@@ -12,12 +12,22 @@
 
 namespace stereobench::worlds {
 
-inline constexpr std::array<std::string_view, 9> kWorldKeys = {
-    "generator", "ball_radius_m", "balls", "walls", "meshes", "mesh_limits", "floor", "light", "sky_rgb"};
+inline constexpr std::array<std::string_view, 10> kWorldKeys = {
+    "generator",   "ball_radius_m", "balls",          "walls", "meshes",
+    "mesh_limits", "floor",         "floor_tint_rgb", "light", "sky_rgb"};
 
 /// What materials are called, by Material; the last is for meshes alone.
-inline constexpr std::array<std::string_view, 6> kMaterialNames = {"plain",  "tiles", "plaster",
-                                                                   "bricks", "wood",  "file"};
+inline constexpr std::array<std::string_view, 7> kMaterialNames = {"plain", "tiles", "plaster", "bricks",
+                                                                   "wood",  "paint", "file"};
+/// What shapes are called, by MeshShape, but for that of a file.
+inline constexpr std::array<std::string_view, 2> kShapeNames = {"box", "ball"};
+
+/// The finite factors that a colour may have.
+inline constexpr Interval kTint = {0.0, 4.0};
+
+/// `randomise:` what each seed draws anew.
+/// @param balls_in_view that the world's generator promises, unless said otherwise
+Randomisation read_randomisation(const YamlValue& value, int balls_in_view);
 
 /// `world.ball_radius_m`, of balls that do not say theirs.
 double read_ball_radius_m(const YamlMap& world);

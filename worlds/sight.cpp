@@ -7,26 +7,10 @@
 
 #include "slam/elementary.h"
 #include "slam/measurement.h"
-#include "vision/rig.h"
+#include "worlds/sight_cone.h"
 
 namespace stereobench::worlds {
 namespace {
-
-/// An eye in the world.
-struct EyeAt {
-  vision::Intrinsics camera;
-  Eigen::Isometry3d camera_from_world;
-  Eigen::Vector3d centre_m;  ///< world frame
-};
-
-EyeAt eye_at(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& pose) {
-  const auto [s, c] = slam::sine_cosine(pose.heading_rad);
-  Eigen::Isometry3d world_from_robot = Eigen::Isometry3d::Identity();
-  world_from_robot.linear() << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-  world_from_robot.translation() << pose.x_m, pose.y_m, 0.0;
-  const Eigen::Isometry3d placed = world_from_robot * vision::robot_from_camera(rig, eye);
-  return {rig.camera, placed.inverse(), placed.translation()};
-}
 
 /// Whether a sphere's outline lies between two pixels along one axis of the picture: its extent there is that
 /// of a circle in the plane of that axis and the line of sight, whose tangents from the eye bound it.
@@ -51,15 +35,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                   const Eigen::Vector2d& d) {
-  const auto sides_differ = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r,
-                               const Eigen::Vector2d& s) {
-    return cross(q - p, r - p) * cross(q - p, s - p) <= 0.0;
-  };
-  return sides_differ(a, b, c, d) && sides_differ(c, d, a, b);
-}
-
 /// Whether a wall meets the floor plan of the cone from the eye to the ball. A wall that is lower than both
 /// the eye and the ball's underside hides nothing.
 bool hides(const Wall& wall, const EyeAt& eye, const Eigen::Vector3d& centre_m, double radius_m) {
@@ -73,25 +48,10 @@ bool hides(const Wall& wall, const EyeAt& eye, const Eigen::Vector3d& centre_m, 
   return false;
 }
 
-/// A ball that an eye has in its picture: the cone that it fills.
-struct Cone {
-  Eigen::Vector3d direction;  ///< unit length, camera frame
-  double half_angle_rad = 0.0;
-  double distance_m = 0.0;
-};
-
+/// The cone of a ball that is before the eye.
 std::optional<Cone> cone_of(const EyeAt& eye, const Ball& ball, double radius_m) {
-  const Eigen::Vector3d in_camera = eye.camera_from_world * ball.centre_m;
-  const double distance_m = in_camera.norm();
-  if (in_camera.z() <= radius_m || distance_m <= radius_m) return std::nullopt;
-  const double tangent_m = std::sqrt(distance_m * distance_m - radius_m * radius_m);
-  return Cone{in_camera / distance_m, slam::arc_tangent(radius_m, tangent_m), distance_m};
-}
-
-bool overlap(const Cone& a, const Cone& b) {
-  const double between_rad =
-      slam::arc_tangent(a.direction.cross(b.direction).norm(), a.direction.dot(b.direction));
-  return between_rad < a.half_angle_rad + b.half_angle_rad;
+  if ((eye.camera_from_world * ball.centre_m).z() <= radius_m) return std::nullopt;
+  return cone_around(eye, {ball.centre_m, radius_m});
 }
 
 bool is_large(const EyeAt& eye, const Cone& cone, const Ball& ball, double slack_m) {
@@ -102,6 +62,8 @@ bool is_large(const EyeAt& eye, const Cone& cone, const Ball& ball, double slack
 std::vector<bool> seen_whole(const EyeAt& eye, const World& world, double slack_m) {
   std::vector<std::optional<Cone>> cones;
   for (const Ball& ball : world.balls) cones.push_back(cone_of(eye, ball, ball.radius_m + slack_m));
+  std::vector<std::optional<Cone>> shapes;
+  for (const Sphere& sphere : spheres_around_shapes(world)) shapes.push_back(cone_around(eye, sphere));
   const auto is_seen = [&](std::size_t i) {
     const Ball& ball = world.balls[i];
     const double radius_m = ball.radius_m + slack_m;
@@ -110,9 +72,10 @@ std::vector<bool> seen_whole(const EyeAt& eye, const World& world, double slack_
     const auto in_front = [&](const std::optional<Cone>& other) {
       return other && other->distance_m < cones[i]->distance_m && overlap(*other, *cones[i]);
     };
-    return std::ranges::none_of(cones, in_front) && std::ranges::none_of(world.walls, [&](const Wall& wall) {
-             return hides(wall, eye, ball.centre_m, radius_m);
-           });
+    const auto before = [&](const std::optional<Cone>& shape) { return hides(shape, *cones[i]); };
+    return std::ranges::none_of(cones, in_front) && std::ranges::none_of(shapes, before) &&
+           std::ranges::none_of(world.walls,
+                                [&](const Wall& wall) { return hides(wall, eye, ball.centre_m, radius_m); });
   };
   std::vector<bool> seen;
   for (std::size_t i = 0; i < world.balls.size(); ++i) seen.push_back(is_seen(i));
@@ -127,6 +90,15 @@ bool in_sector(const OracleSensor& sensor, const slam::Pose& pose, const Ball& b
 }
 
 }  // namespace
+
+bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                   const Eigen::Vector2d& d) {
+  const auto sides_differ = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r,
+                               const Eigen::Vector2d& s) {
+    return cross(q - p, r - p) * cross(q - p, s - p) <= 0.0;
+  };
+  return sides_differ(a, b, c, d) && sides_differ(c, d, a, b);
+}
 
 std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
                                const slam::Pose& world_from_robot, double slack_m) {

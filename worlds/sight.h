@@ -12,13 +12,18 @@ inline constexpr double kLeastRadius_px = 5.0;  ///< smaller ones vision does no
 inline constexpr double kBorder_px = 2.0;       ///< between its outline and the picture's border
 
 /// The balls in view: by stereo, those that both eyes see whole, large enough, with no wall and no other ball
-/// in front of any of it; by the oracle, those in its sector, whatever stands between. Meshes hide nothing.
+/// in front of any of it, nor a sphere around a box or another shape; by the oracle, those in its sector,
+/// whatever stands between. Meshes of files hide nothing.
 ///
 /// @param world the scenario's, or that of a seed
 /// @param slack_m each ball may lie this far from where it should: only those count that are seen anyway
 /// @return indices into world.balls, ascending
 std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
                                const slam::Pose& world_from_robot, double slack_m = 0.0);
+
+/// Whether the lines from a to b and from c to d have a point in common.
+bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                   const Eigen::Vector2d& d);
 
 /// The distance on the floor from a point to a wall.
 double distance_m(const Eigen::Vector2d& point_m, const Wall& wall);

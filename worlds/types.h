@@ -15,6 +15,8 @@
 #include "slam/types.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
+#include "worlds/looks.h"
+#include "worlds/randomisation.h"
 
 namespace stereobench::worlds {
 
@@ -23,15 +25,9 @@ struct Ball {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   double radius_m = 0.05;
   int colour = 0;  ///< index into vision::kPalette
-};
-
-enum class Material {
-  kPlain,
-  kTiles,
-  kPlaster,
-  kBricks,
-  kWood,
-  kFile  ///< of meshes alone: the diffuse colours of their file
+  /// What it is really painted with, where that is not exactly the palette's colour: red, green and blue
+  /// under full light, in [0, 1].
+  std::optional<Eigen::Vector3d> paint_rgb = {};
 };
 
 /// A wall: an upright rectangle without thickness, standing on the floor, seen from both sides.
@@ -40,16 +36,17 @@ struct Wall {
   Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
   double height_m = 2.5;
   Material material = Material::kPlaster;
+  Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
 };
 
 /// Which axis of a mesh file points up.
 enum class MeshUp { kZ, kY };
 
-/// A mesh file put somewhere: a door, a column. Taken to metres and z up it is scaled, turned about x (roll),
+/// A mesh put somewhere: a door, a column. Taken to metres and z up it is scaled, turned about x (roll),
 /// then y (pitch), then z (heading), and moved. One that carries a ball stands under it, reaches up to it,
 /// and moves with it.
 struct MeshInstance {
-  std::string file;  ///< path of the mesh file, absolute after reading
+  std::string file;  ///< path of the mesh file, absolute after reading; of kFile
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   double heading_rad = 0.0;  ///< about z
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
@@ -59,6 +56,8 @@ struct MeshInstance {
   double pitch_rad = 0.0;             ///< about y
   double unit_m = 1.0;                ///< the length of the file's unit
   MeshUp up = MeshUp::kZ;             ///< y up: the file's z points south in the world before it is turned
+  MeshShape shape = MeshShape::kFile;
+  Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
 };
 
 /// What a mesh file may cost: it comes from anywhere.
@@ -67,6 +66,8 @@ struct MeshLimits {
   int file_mib = 64;
   double seconds = 4.0;   ///< to read a file
   int memory_mib = 1024;  ///< to read a file
+  int texture_px = 4096;  ///< the longer side of a texture
+  int texture_mib = 256;  ///< all textures of the world together, as they are drawn
 };
 
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.
@@ -82,6 +83,7 @@ struct World {
   std::vector<MeshInstance> meshes;
   MeshLimits mesh_limits;
   Material floor = Material::kTiles;
+  Eigen::Vector3d floor_tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
   Light light;
   Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]
 };
@@ -133,6 +135,7 @@ struct Scenario {
   std::string description;
   World world;
   double placement_jitter_m = 0.0;  ///< each seed moves each ball by up to this much in x and y
+  Randomisation randomise;          ///< what else each seed draws anew
   vision::StereoRig rig;            ///< as it is
   vision::StereoRig believed_rig;   ///< as vision takes it to be
   GroundTruth path;

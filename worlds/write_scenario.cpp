@@ -1,5 +1,6 @@
 #include "worlds/write_scenario.h"
 
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -25,11 +26,20 @@ YAML::Node list_of(const Vector& vector) {
   return list;
 }
 
+std::string name_of(Material material) {
+  return std::string(kMaterialNames[static_cast<std::size_t>(material)]);
+}
+
+bool is_tinted(const Eigen::Vector3d& tint_rgb) {
+  return tint_rgb != Eigen::Vector3d::Ones();
+}
+
 YAML::Node lines_of(const Ball& ball) {
   YAML::Node node;
   node["colour"] = ball.colour;
   node["at_m"] = list_of(ball.centre_m);
   node["radius_m"] = digits(ball.radius_m);
+  if (ball.paint_rgb) node["paint_rgb"] = list_of(*ball.paint_rgb);
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
@@ -39,7 +49,23 @@ YAML::Node lines_of(const Wall& wall) {
   node["corners_m"].push_back(list_of(wall.from_m));
   node["corners_m"].push_back(list_of(wall.to_m));
   node["height_m"] = digits(wall.height_m);
-  node["material"] = std::string(kMaterialNames[static_cast<std::size_t>(wall.material)]);
+  node["material"] = name_of(wall.material);
+  if (is_tinted(wall.tint_rgb)) node["tint_rgb"] = list_of(wall.tint_rgb);
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A shape that stands upright, as things that are strewn do.
+YAML::Node lines_of(const MeshInstance& mesh) {
+  YAML::Node node;
+  node["shape"] = std::string(kShapeNames[static_cast<std::size_t>(mesh.shape) - 1]);
+  node["at_m"] = list_of(mesh.position_m);
+  node["heading_deg"] = digits(mesh.heading_rad / kDegree);
+  node["scale"] = list_of(mesh.scale);
+  node["material"] = name_of(mesh.material);
+  node["tint_rgb"] = list_of(mesh.tint_rgb);
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
@@ -66,25 +92,58 @@ Layout layout_of(const YamlDocument& document) {
   return read_generator(map.at("generator"), read_ball_radius_m(map)).layout;
 }
 
+/// Says a generator's world line by line.
+void write_generated(const YamlDocument& document, const World& world, YAML::Node lines) {
+  YAML::Node path = document.root["path"];
+  if (path["kind"].as<std::string>() == "tour") write_tour(layout_of(document), path);
+  lines.remove("generator");
+  if (!world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
+  lines["balls"] = list_of_lines(world.balls);
+}
+
+/// Says what a seed has made of the world. @param meshes how many of its meshes have lines already
+void write_drawn(const Randomisation& randomise, const World& world, std::size_t meshes, YAML::Node lines) {
+  lines["balls"] = list_of_lines(world.balls);
+  if (randomise.walls && !world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
+  if (randomise.floor) {
+    lines["floor"] = name_of(world.floor);
+    lines["floor_tint_rgb"] = list_of(world.floor_tint_rgb);
+  }
+  if (randomise.light) {
+    lines["light"]["towards_light"] = list_of(world.light.towards_light);
+    lines["light"]["ambient"] = digits(world.light.ambient);
+    lines["light"]["diffuse"] = digits(world.light.diffuse);
+  }
+  for (std::size_t i = meshes; i < world.meshes.size(); ++i)
+    lines["meshes"].push_back(lines_of(world.meshes[i]));
+}
+
+/// What is written may lie in another folder than what was read.
+void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node root) {
+  for (const char* group : {"path", "believed_measurement_noise"}) {
+    YAML::Node named = root[group];
+    if (named && named["file"])
+      named["file"] = std::filesystem::absolute(folder / named["file"].as<std::string>()).string();
+  }
+}
+
 }  // namespace
 
-std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const World world = read_scenario(file, overrides).world;
+std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                        std::optional<std::uint64_t> seed) {
+  const Scenario scenario = read_scenario(file, overrides);
   YamlDocument document = load_yaml(file, overrides);
   YAML::Node lines = document.root["world"];
-  for (const char* group : {"path", "believed_measurement_noise"}) {
-    YAML::Node named = document.root[group];
-    if (named && named["file"])
-      named["file"] =
-          std::filesystem::absolute(file.parent_path() / named["file"].as<std::string>()).string();
-  }
-  for (std::size_t i = 0; i < world.meshes.size(); ++i) lines["meshes"][i]["file"] = world.meshes[i].file;
-  if (lines["generator"]) {
-    YAML::Node path = document.root["path"];
-    if (path["kind"].as<std::string>() == "tour") write_tour(layout_of(document), path);
-    lines.remove("generator");
-    if (!world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
-    lines["balls"] = list_of_lines(world.balls);
+  name_files_from_anywhere(file.parent_path(), document.root);
+  const std::vector<MeshInstance>& meshes = scenario.world.meshes;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if (meshes[i].shape == MeshShape::kFile) lines["meshes"][i]["file"] = meshes[i].file;
+  if (lines["generator"]) write_generated(document, scenario.world, lines);
+  if (seed) {
+    write_drawn(scenario.randomise, world_for_seed(scenario, *seed), meshes.size(), lines);
+    document.root.remove("randomise");
+    document.root["placement_jitter_m"] = 0;
+    document.root["seeds"] = *seed;
   }
   YAML::Emitter text;
   text << document.root;

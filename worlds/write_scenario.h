@@ -1,7 +1,9 @@
 /// Scenarios written out, so that what a generator made can be edited.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,10 @@ namespace stereobench::worlds {
 /// The lines of a scenario with its overrides put in place, mesh files by their absolute paths and, where
 /// there is a generator, its balls, walls and tour in its stead. Comments are lost. Read again it is the same
 /// world and the same drive, bit for bit.
+/// @param seed where there is one, nothing is left to chance: the world as that seed has it, line by line,
+///   without jitter and without `randomise:`; the only seed is that one
 /// @throws std::runtime_error as read_scenario
-std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                        std::optional<std::uint64_t> seed = std::nullopt);
 
 }  // namespace stereobench::worlds

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <optional>
@@ -9,6 +10,8 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/draws_file.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/rendered_truth.h"
 #include "harness/run/process_pool.h"
@@ -74,6 +77,8 @@ int render(const RenderArguments& arguments) {
                                       .on_progress = [&](double done) { progress.show(done); }},
                                      arguments.backend);
   if (truth) truth->finish();
+  const std::string draws = draws_jsonl(scenario, std::array{arguments.seed});
+  if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
   fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name, pairs,
              (out / "").string());

@@ -6,6 +6,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/dataset/draws_file.h"
 #include "harness/regression/gates.h"
 #include "harness/run/run_output.h"
 #include "harness/run/run_result.h"
@@ -28,6 +29,8 @@ int run(const ScenarioArguments& arguments) {
   const auto drives = drive_seeds(tasks, arguments.run.jobs, "run " + scenario.name);
   const RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
   write_run(out, result, drives, scenario.world.walls);
+  const std::string draws = draws_jsonl(scenario, scenario.seeds);
+  if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));
   const auto broken = broken_gates(run_json(result), gates);
@@ -46,7 +49,9 @@ void add_run_command(CLI::App& program, Action& action) {
   add_scenario_options(*command, *arguments);
   command->footer(
       "Each seed is rendered once and replayed for each filter. Writes run.json (metrics), steps.csv (every\n"
-      "step), map.png, error.png, frames/ (detections drawn on the pictures) and timing.json.\n"
+      "step), map.png, error.png, frames/ (detections drawn on the pictures), timing.json and, where a world "
+      "is\n"
+      "left to chance, draws.jsonl.\n"
       "Exits with 1 when a gate of the scenario is broken.\n\n"
       "Example: stereobench run assets/scenarios/ball_circle.yaml --seeds 0..9 --set "
       "camera.noise_sd_levels=4");

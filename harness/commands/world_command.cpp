@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/dataset/draws_file.h"
 #include "harness/report/plan_picture.h"
 #include "worlds/path.h"
 #include "worlds/scenario.h"
@@ -22,6 +24,7 @@ struct WorldArguments {
   std::optional<std::uint64_t> seed;
   std::filesystem::path out;
   std::filesystem::path written;
+  std::filesystem::path draws;
 };
 
 std::string share_of_steps(const ViewCoverage& coverage, int least) {
@@ -58,10 +61,14 @@ int show_world(const WorldArguments& arguments) {
     write_file_atomically(arguments.out, plan);
   }
   if (!arguments.written.empty())
-    write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides));
+    write_file_atomically(arguments.written,
+                          worlds::written_out(arguments.scenario, arguments.overrides, arguments.seed));
+  if (!arguments.draws.empty())
+    write_file_atomically(arguments.draws, draws_jsonl(scenario, std::array{*arguments.seed}));
   print_summary(scenario, world, coverage);
   if (!arguments.out.empty()) fmt::print("plan: {}\n", arguments.out.string());
   if (!arguments.written.empty()) fmt::print("scenario: {}\n", arguments.written.string());
+  if (!arguments.draws.empty()) fmt::print("draws: {}\n", arguments.draws.string());
   return kPassed;
 }
 
@@ -73,14 +80,24 @@ void add_world_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<WorldArguments>();
   command->add_option("scenario", arguments->scenario, "scenario file (YAML)")->required();
   add_set_option(*command, arguments->overrides);
-  command->add_option("--seed", arguments->seed, "the world of this seed (default: no ball moved)")
-      ->check(CLI::NonNegativeNumber);
+  CLI::Option* const seed =
+      command
+          ->add_option("--seed", arguments->seed,
+                       "the world of this seed (default: no ball moved, nothing left to chance drawn)")
+          ->check(CLI::NonNegativeNumber);
   command->add_option("--out,-o", arguments->out, "SVG file for the plan");
-  command->add_option("--write", arguments->written,
-                      "scenario file that says what a generator made line by line, to be edited");
+  command->add_option(
+      "--write", arguments->written,
+      "scenario file that says line by line what a generator made and, with --seed, what that "
+      "seed drew: to be edited, or rendered again bit for bit");
+  command
+      ->add_option("--draws", arguments->draws,
+                   "file for the log of what the seed drew: a line of JSON for each value")
+      ->needs(seed);
   command->footer(
       "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
-      "what is behind them, meshes do not. For an oracle it is what lies in its sector.\n\n"
+      "what is behind them, and so do boxes and other shapes; meshes of files do not. For an oracle it is "
+      "what lies in its sector.\n\n"
       "Example: stereobench world assets/scenarios/corridor.yaml -o out/corridor.svg");
   command->callback([arguments, &action] { action = [arguments] { return show_world(*arguments); }; });
 }

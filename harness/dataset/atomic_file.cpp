@@ -1,7 +1,9 @@
 #include "harness/dataset/atomic_file.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -71,7 +73,23 @@ void sync_folder(const fs::path& folder) {
   close(descriptor);
 }
 
+/// Whether a name is one that TemporaryFile gives, and its process is gone.
+bool is_leftover(const std::string& name) {
+  static const std::regex temporary(R"(.*\.([0-9]{1,9})-[0-9]+\.tmp)");
+  std::smatch parts;
+  if (!std::regex_match(name, parts, temporary)) return false;
+  return kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH;
+}
+
 }  // namespace
+
+void remove_leftovers(const fs::path& folder) {
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && is_leftover(entry.path().filename().string()))
+      leftovers.push_back(entry.path());
+  for (const fs::path& leftover : leftovers) fs::remove(leftover);
+}
 
 void prepare_output_folder(const fs::path& folder) {
   std::error_code error;

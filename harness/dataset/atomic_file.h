@@ -20,6 +20,10 @@ void prepare_output_folder(const std::filesystem::path& folder);
 /// @throws std::runtime_error naming the path and the cause (missing folder, no permission, full disk)
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Removes what processes that were killed left below a folder under temporary names. Those of processes that
+/// are still alive stay.
+void remove_leftovers(const std::filesystem::path& folder);
+
 /// Writes a picture as PNG, as one whole file (see write_file_atomically).
 /// @param path the file to write or to replace
 /// @param image 8-bit or 16-bit, 1, 3 (BGR) or 4 (BGRA) channels

@@ -64,6 +64,7 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, std::string ident
           fmt::format("{}: holds a data set of another scenario, seed, back end or version; choose another "
                       "folder or remove it",
                       (folder_ / marker).string()));
+  remove_leftovers(folder_);
   for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
     prepare_output_folder(folder_ / part);
   if (!std::filesystem::exists(folder_ / kFinished)) write_file_atomically(folder_ / kUnfinished, identity_);
@@ -109,9 +110,11 @@ std::string balls_csv(const worlds::World& world) {
   std::string csv = "ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m\n";
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const worlds::Ball& ball = world.balls[i];
-    const vision::PaletteColour rgb = vision::kPalette[static_cast<std::size_t>(ball.colour)];
-    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.r, rgb.g, rgb.b, ball.centre_m.x(),
-                       ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
+    const vision::PaletteColour colour = vision::kPalette[static_cast<std::size_t>(ball.colour)];
+    const Eigen::Vector3d rgb = ball.paint_rgb ? Eigen::Vector3d(255.0 * *ball.paint_rgb)
+                                               : Eigen::Vector3d(colour.r, colour.g, colour.b);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.x(), rgb.y(), rgb.z(),
+                       ball.centre_m.x(), ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
   }
   return csv;
 }

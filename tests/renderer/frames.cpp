@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "renderer/backend.h"
 #include "renderer/renderer.h"
@@ -39,6 +43,35 @@ Difference difference(const EyeFrame& a, const EyeFrame& b) {
   }
   return result;
 }
+
+/// A mesh with a texture, in files of this process alone: a large upright triangle across the room, sprinkled
+/// with texels of all sizes.
+class PictureOnAWall {
+ public:
+  explicit PictureOnAWall(std::uint64_t seed) {
+    std::string name = (std::filesystem::temp_directory_path() / "stereobench_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for a test");
+    folder_ = name;
+    cv::Mat grain(256, 192, CV_8UC3);
+    slam::RandomStream random(seed, slam::Stream::kWorld, 2);
+    for (cv::Vec3b& texel : cv::Mat_<cv::Vec3b>(grain))
+      for (int i = 0; i < 3; ++i) texel[i] = static_cast<std::uint8_t>(random.bits() >> 24U);
+    cv::imwrite((folder_ / "grain.png").string(), grain);
+    std::ofstream(folder_ / "wall.mtl") << "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n";
+    std::ofstream(folder_ / "wall.obj") << "mtllib wall.mtl\nusemtl grain\nv -4 -4 0\nv 4 -3 0\nv 0 4 "
+                                           "2.4\nvt 0 0\nvt 5 0\nvt 0 5\nf 1/1 2/2 3/3\n";
+  }
+  ~PictureOnAWall() { std::filesystem::remove_all(folder_); }
+  PictureOnAWall(const PictureOnAWall&) = delete;
+  PictureOnAWall& operator=(const PictureOnAWall&) = delete;
+
+  worlds::MeshInstance mesh() const {
+    return {.file = (folder_ / "wall.obj").string(), .material = worlds::Material::kFile};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
 
 StereoFrame blank_frame() {
   const vision::Intrinsics camera = small_rig().camera;
@@ -77,7 +110,10 @@ Difference difference(const StereoFrame& a, const StereoFrame& b) {
 }
 
 StereoFrame room_frame(std::uint64_t room, Backend backend) {
-  return Renderer(random_room(room), small_rig(), backend).render(random_pose(room));
+  worlds::World world = random_room(room);
+  const PictureOnAWall picture(room);
+  world.meshes.push_back(picture.mesh());
+  return Renderer(world, small_rig(), backend).render(random_pose(room));
 }
 
 std::vector<StereoFrame> frames_of_process(const std::string& environment, Backend backend, int rooms) {

@@ -22,7 +22,7 @@ struct Difference {
 };
 Difference difference(const StereoFrame& a, const StereoFrame& b);
 
-/// What small_rig sees of random_room(room) from random_pose(room).
+/// What small_rig sees of random_room(room), with a texture in it, from random_pose(room).
 StereoFrame room_frame(std::uint64_t room, Backend backend);
 
 /// The frames of rooms 0 to `rooms` - 1 as another process renders them.

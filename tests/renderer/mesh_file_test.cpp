@@ -93,8 +93,8 @@ TEST(MeshFile, GivesEachPartTheColourOfItsMaterial) {
   world.meshes = {{file, {0, 0, 0}, 0.0, {1, 1, 1}, worlds::Material::kFile}, {file}};
   const MeshSurfaces placed = place_meshes(world);
   ASSERT_EQ(placed.runs.size(), 3U) << "a material of ours has one run, whatever the file's colours";
-  EXPECT_TRUE(placed.runs[0].colour_rgb.isApprox(Eigen::Vector3f(0.5F, 0.25F, 0.125F)));
-  EXPECT_TRUE(placed.runs[1].colour_rgb.isApprox(Eigen::Vector3f(1.0F, 0.0F, 0.5F)));
+  EXPECT_TRUE(placed.runs[0].tint_rgb.isApprox(Eigen::Vector3f(0.5F, 0.25F, 0.125F)));
+  EXPECT_TRUE(placed.runs[1].tint_rgb.isApprox(Eigen::Vector3f(1.0F, 0.0F, 0.5F)));
   EXPECT_EQ(placed.runs[1].first, 3);
   EXPECT_EQ(placed.runs[2].count, 6);
 }

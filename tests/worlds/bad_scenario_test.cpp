@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Values, BadScenario, testing::ValuesIn(kValueFaults));
 
 constexpr Fault kWorldFaults[] = {
     {"floor: bricks", "floor: lava",
-     "20: world.floor: expected one of plain, tiles, plaster, bricks, wood (got lava)"},
+     "20: world.floor: expected one of plain, tiles, plaster, bricks, wood, paint (got lava)"},
     {"[0, 0, 1]", "[0, 0, 0]", "21: world.light.towards_light: expected a direction"},
     {"[0, 0.5, 1]", "[0, 0.5, 2]", "22: world.sky_rgb[2]: expected a number from 0 to 1 (got 2)"},
     {"[0, 0.5, 1]", "[0, 0.5]", "22: world.sky_rgb: expected a list of 3 (got a list of 2)"},
