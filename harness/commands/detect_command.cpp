@@ -91,7 +91,11 @@ class Looker {
     const fs::path& given = arguments.pictures[0];
     const fs::path beside = given / "calibration.yaml";
     const fs::path file = arguments.rig.empty() && fs::exists(beside) ? beside : arguments.rig;
-    if (!file.empty()) rig_ = read_calibration(file);
+    if (!file.empty()) {
+      const RigCalibration calibration = read_rig_calibration(file);
+      rig_ = calibration.rig;
+      setup_.eyes = calibration.eyes;
+    }
     if (arguments.ball_radius_m)
       setup_.ball_radius_m = *arguments.ball_radius_m;
     else if (fs::exists(given / "balls.csv"))
@@ -170,7 +174,8 @@ void add_detect_command(CLI::App& program, Action& action) {
                    "LEFT and RIGHT, one picture alone, or a folder: of pictures, or with left/ and right/")
       ->expected(0, 2);
   command->add_option("--rig", arguments->rig,
-                      "calibration.yaml as `render` writes it (default: the folder's own, if it has one)");
+                      "calibration.yaml as `render` and `calibrate-rig` write it (default: the folder's own, if it has "
+                      "one)");
   command
       ->add_option("--ball-radius-m", arguments->ball_radius_m,
                    "of all balls (default: as in the folder's balls.csv, or 0.05)")

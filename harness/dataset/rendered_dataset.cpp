@@ -45,12 +45,22 @@ cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
   return camera_matrix(rig.camera) * eye_from_left;
 }
 
-cv::Mat matrix_of(const Eigen::Isometry3d& transform) {
-  cv::Mat matrix(4, 4, CV_64F);
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      matrix.at<double>(row, column) = transform.matrix()(row, column);
+template <typename Matrix>
+cv::Mat matrix_of(const Matrix& values) {
+  cv::Mat matrix(static_cast<int>(values.rows()), static_cast<int>(values.cols()), CV_64F);
+  for (int row = 0; row < matrix.rows; ++row)
+    for (int column = 0; column < matrix.cols; ++column) matrix.at<double>(row, column) = values(row, column);
   return matrix;
+}
+
+cv::Mat coefficients(const vision::Distortion& lens) {
+  return cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
+}
+
+void write_eye(cv::FileStorage& file, const char* name, const vision::EyeCamera& eye) {
+  file << name << "{";
+  file << "K" << camera_matrix(eye.camera) << "D" << coefficients(eye.lens);
+  file << "rectified_from_eye" << matrix_of(eye.rectified_from_eye) << "}";
 }
 
 }  // namespace
@@ -91,17 +101,21 @@ void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig
   std::filesystem::remove(folder_ / kUnfinished);
 }
 
-std::string calibration_yaml(const vision::StereoRig& rig) {
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes) {
   cv::FileStorage file(".yaml",
                        cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
   file << "K" << camera_matrix(rig.camera);
-  const vision::Distortion& lens = rig.distortion;
-  file << "D" << cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
+  file << "D" << coefficients(rig.distortion);
   file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
   file << "baseline_m" << rig.baseline_m;
-  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft));
-  file << "robot_from_right_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight));
+  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft).matrix());
+  file << "robot_from_right_camera"
+       << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight).matrix());
+  if (eyes) {
+    write_eye(file, "left_eye", eyes->front());
+    write_eye(file, "right_eye", eyes->back());
+  }
   return file.releaseAndGetString();
 }
 

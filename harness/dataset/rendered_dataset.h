@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,9 @@ class RenderedDataset {
 
 /// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
 /// rectified rig), baseline, and robot_from_camera.
-std::string calibration_yaml(const vision::StereoRig& rig);
+/// @param eyes of a rig of two different cameras: each one's K, D and rectified_from_eye, beside `rig`, which
+///        is then what rectified pictures are of
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes = {});
 
 /// The balls as CSV: ball_id, colour, its RGB, centre and radius.
 std::string balls_csv(const worlds::World& world);

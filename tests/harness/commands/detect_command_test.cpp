@@ -215,7 +215,7 @@ TEST_F(Dataset, OddInputsAreOneLine) {
       {"MissingRig", {first_left(), "--rig", place + "none.yaml"}, "none.yaml: no such file"},
       {"EmptyRig", {first_left(), "--rig", place + "empty.yaml"}, "empty.yaml: expected a calibration"},
       {"TextForARig", {first_left(), "--rig", place + "text.yaml"}, "text.yaml: "},
-      {"FolderForARig", {first_left(), "--rig", place + "nothing"}, "expected a calibration"},
+      {"FolderForARig", {first_left(), "--rig", place + "nothing"}, "expected a file (got a folder)"},
       {"PartOfARig", {first_left(), "--rig", place + "part.yaml"}, "part.yaml: K: this key is missing"},
       {"NegativeRadius", {first_left(), "--ball-radius-m", "-1"}, "--ball-radius-m"},
       {"OutInAMissingFolder", {first_left(), "--out", place + "no/where.jsonl"}, "no/where.jsonl"},
