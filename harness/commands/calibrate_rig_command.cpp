@@ -10,8 +10,8 @@
 #include "harness/board/rig_picture.h"
 #include "harness/commands/commands.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/dataset/calibration_file.h"
 #include "harness/dataset/picture_reader.h"
-#include "harness/dataset/rendered_dataset.h"
 
 namespace stereobench::harness {
 namespace {

@@ -37,11 +37,18 @@ int pixels(const fs::path& file, const cv::FileNode& storage, const char* key) {
   return static_cast<int>(value);
 }
 
+/// Whether a node says that it is a matrix of a size, and is: OpenCV would make any size that is said.
+bool holds_matrix(const cv::FileNode& node, const cv::Size& size) {
+  if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt()) return false;
+  return static_cast<int>(node["rows"]) == size.height && static_cast<int>(node["cols"]) == size.width &&
+         node["data"].isSeq() && node["data"].size() == static_cast<std::size_t>(size.area());
+}
+
 /// A matrix of doubles; empty where the key is left out.
 cv::Mat matrix(const fs::path& file, const cv::FileNode& storage, const char* key, const cv::Size& size) {
   const cv::FileNode node = storage[key];
   if (node.empty()) return {};
-  const cv::Mat matrix = node.isMap() ? node.mat() : cv::Mat();
+  const cv::Mat matrix = holds_matrix(node, size) ? node.mat() : cv::Mat();
   if (matrix.size() != size || matrix.type() != CV_64F)
     refuse(file, fmt::format("{}: expected a matrix of {} x {} doubles", key, size.height, size.width));
   return matrix;
@@ -105,7 +112,60 @@ vision::StereoRig rig_in(const fs::path& file, const cv::FileNode& storage) {
   return rig;
 }
 
+cv::Mat camera_matrix(const vision::Intrinsics& c) {
+  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, c.focal_px, c.cy_px, 0, 0, 1);
+}
+
+/// From the left camera's frame to an eye's pixels, K [R | t].
+cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
+  const Eigen::Vector3d origin = vision::point_in_eye(rig, Eigen::Vector3d::Zero(), eye);
+  cv::Mat eye_from_left(3, 4, CV_64F);
+  for (int column = 0; column < 4; ++column) {
+    const Eigen::Vector3d axis =
+        column < 3 ? Eigen::Vector3d(vision::point_in_eye(rig, Eigen::Vector3d::Unit(column), eye) - origin)
+                   : origin;
+    for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
+  }
+  return camera_matrix(rig.camera) * eye_from_left;
+}
+
+template <typename Matrix>
+cv::Mat matrix_of(const Matrix& values) {
+  cv::Mat matrix(static_cast<int>(values.rows()), static_cast<int>(values.cols()), CV_64F);
+  for (int row = 0; row < matrix.rows; ++row)
+    for (int column = 0; column < matrix.cols; ++column) matrix.at<double>(row, column) = values(row, column);
+  return matrix;
+}
+
+cv::Mat coefficients(const vision::Distortion& lens) {
+  return cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
+}
+
+void write_eye(cv::FileStorage& file, const char* name, const vision::EyeCamera& eye) {
+  file << name << "{";
+  file << "K" << camera_matrix(eye.camera) << "D" << coefficients(eye.lens);
+  file << "rectified_from_eye" << matrix_of(eye.rectified_from_eye) << "}";
+}
+
 }  // namespace
+
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes) {
+  cv::FileStorage file(".yaml",
+                       cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
+  file << "K" << camera_matrix(rig.camera);
+  file << "D" << coefficients(rig.distortion);
+  file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
+  file << "baseline_m" << rig.baseline_m;
+  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft).matrix());
+  file << "robot_from_right_camera"
+       << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight).matrix());
+  if (eyes) {
+    write_eye(file, "left_eye", eyes->front());
+    write_eye(file, "right_eye", eyes->back());
+  }
+  return file.releaseAndGetString();
+}
 
 Eigen::Vector3d turn_angles(const Eigen::Matrix3d& rotation) {
   Eigen::Vector3d angles(slam::arc_tangent(-rotation(1, 2), rotation(2, 2)),

@@ -1,4 +1,4 @@
-/// A stereo rig's calibration as `stereobench render` writes it.
+/// A stereo rig's calibration as `stereobench render` and `calibrate-rig` write it.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +15,12 @@ struct RigCalibration {
   vision::StereoRig rig;  ///< where `eyes` are given, without faults: what rectified pictures are of
   std::optional<vision::EyePair> eyes;  ///< where each eye is a camera of its own
 };
+
+/// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
+/// rectified rig), baseline, and robot_from_camera.
+/// @param eyes of a rig of two different cameras: each one's K, D and rectified_from_eye, beside `rig`, which
+///        is then what rectified pictures are of
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes = {});
 
 /// Reads calibration.yaml: `image_width`, `image_height`, `K`, `baseline_m`; where they are left out, `D` is
 /// zero, and the cameras (`robot_from_left_camera`, `robot_from_right_camera`) look level, at height 0.

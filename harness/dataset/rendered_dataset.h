@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,12 +39,6 @@ class RenderedDataset {
   std::filesystem::path folder_;
   std::string identity_;
 };
-
-/// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
-/// rectified rig), baseline, and robot_from_camera.
-/// @param eyes of a rig of two different cameras: each one's K, D and rectified_from_eye, beside `rig`, which
-///        is then what rectified pictures are of
-std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes = {});
 
 /// The balls as CSV: ball_id, colour, its RGB, centre and radius.
 std::string balls_csv(const worlds::World& world);

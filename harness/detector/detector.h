@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vision/eye_pair.h"
+#include "vision/learned_palette.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
 #include "worlds/types.h"
@@ -36,7 +37,8 @@ struct DetectorSetup {
   double ball_radius_m = 0.05;
   double noise_sd_levels = 0.0;  ///< of a grey pixel, in levels of 255
   worlds::Encoding encoding = worlds::Encoding::kLinear;
-  double gamma = 2.2;  ///< of Encoding::kGamma
+  double gamma = 2.2;                          ///< of Encoding::kGamma
+  std::vector<vision::LearnedColour> palette;  ///< colours that were learned; empty: vision::kPalette
 };
 
 /// What detectors are told of a scenario.

@@ -96,8 +96,8 @@ class RenderedBoards : public testing::Test {
 std::unique_ptr<ScratchFolder> RenderedBoards::folder_;
 vision::StereoRig RenderedBoards::rig_;
 
-// The rig that rendered the pictures is found again, within what the fit says of itself. Mutations: corners
-// half a pixel off (by which the centre is); corners not refined; a window of half a square.
+// The rig that rendered the pictures is found again, within what the fit says of itself. Meant to catch:
+// corners half a pixel off (by which the centre is); corners not refined; a window of half a square.
 TEST_F(RenderedBoards, GiveBackTheRigThatTookThem) {
   for (const RigModel model : {RigModel::kOneCamera, RigModel::kTwoCameras}) {
     const BoardCalibration found = calibrate_rig(files(), {.board = kBoard, .model = model});
@@ -117,7 +117,7 @@ std::string dropped(const BoardCalibration& calibration, const std::string& view
   return "no such view";
 }
 
-// Mutations: an outlier that stays; eyes exchanged in the reason.
+// Meant to catch: an outlier that stays; eyes exchanged in the reason.
 TEST_F(RenderedBoards, ViewsThatDoNotSuitAreDroppedWithTheReason) {
   const TestFolder odd;
   cv::imwrite((odd.path() / "blank.png").string(), cv::Mat(768, 1024, CV_8UC3, cv::Scalar::all(90)));
@@ -182,7 +182,6 @@ TEST_F(RenderedBoards, OddCallsAreOneLine) {
   EXPECT_THAT(complaint({folder, "--square-m", "0.03", "--corners", "9by6"}),
               HasSubstr("--corners: expected"));
   EXPECT_THAT(complaint({folder, "--square-m", "0.03", "--corners", "2x6"}), HasSubstr("from 3x3 on"));
-  EXPECT_THAT(complaint({folder, "--square-m", "0.03", "--corners", "8x5"}), HasSubstr("at least 3 views"));
   EXPECT_THAT(complaint({folder, "--square-m", "0.03", "--lens", "k4"}), HasSubstr("--lens: expected"));
   EXPECT_THAT(complaint({folder, "--square-m", "0.03", "--left", "left/*"}), HasSubstr("both patterns"));
   EXPECT_THAT(complaint({folder + "/none", "--square-m", "0.03"}), HasSubstr("no such folder"));

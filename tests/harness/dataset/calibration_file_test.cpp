@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/dataset/rendered_dataset.h"
 #include "slam/random.h"
 #include "tests/harness/dataset/log_folder.h"
 
@@ -54,7 +53,7 @@ vision::EyePair two_eyes() {
   return eyes;
 }
 
-// Law: two different eyes are read as they were written. Mutation: the eyes exchanged.
+// Law: two different eyes are read as they were written. Meant to catch: the eyes exchanged.
 TEST(CalibrationFile, TwoEyesAreReadAsTheyWereWritten) {
   const TestFolder folder;
   const vision::EyePair eyes = two_eyes();
@@ -74,7 +73,7 @@ TEST(CalibrationFile, TwoEyesAreReadAsTheyWereWritten) {
               ThrowsMessage<std::runtime_error>(HasSubstr("expected one camera twice")));
 }
 
-// Mutation: a turn that is no rotation let through.
+// Meant to catch: a turn that is no rotation let through.
 TEST(CalibrationFile, RefusesEyesThatAreNone) {
   const TestFolder folder;
   const auto complaint_of = [&](const vision::EyePair& eyes, const std::string& from, const std::string& to) {
@@ -117,6 +116,7 @@ TEST(CalibrationFile, RefusesWhatItCannotComputeWith) {
   EXPECT_THAT(complaint_of("image_width: 640", "image_width: 0"), HasSubstr("positive sizes"));
   EXPECT_THAT(complaint_of("data: [ 0., 0.,", "data: [ -3., 0.,"), HasSubstr("D: expected a lens"));
   EXPECT_THAT(complaint_of("data: [ 500.", "data: [ .Nan"), testing::Not(HasSubstr("no complaint")));
+  EXPECT_THAT(complaint_of("rows: 3", "rows: 2000000000"), HasSubstr("K: expected a matrix of 3 x 3"));
   EXPECT_THAT(complaint_of("K: !!opencv-matrix", "K: 3 #"), HasSubstr("rig.yaml: "));
 }
 
