@@ -53,7 +53,7 @@ TEST(LearnedColour, RefusesWhatHasNone) {
 }
 
 // Law: a table gives what was learned back its own, nearly always, and neither grey nor black to anything.
-// Meant to catch: the gate left out; the darkest level left out.
+// Mutations: the gate left out; the darkest level left out.
 TEST(LearnedTable, KnowsItsOwnAndNothingElse) {
   const std::vector<Eigen::Vector3d> truths = {{20, 110, 240}, {220, 90, 30}, {30, 200, 40}, {40, 20, 225}};
   std::vector<LearnedColour> colours;
@@ -91,7 +91,7 @@ cv::Mat disc(const Eigen::Vector2d& centre, double radius, const cv::Scalar& bgr
 }
 
 // Law: a disc is found where it is, with its radius, to a small part of a pixel; with a highlight in it as
-// well. Meant to catch: half a pixel; edges taken where colours change most.
+// well. Mutation: half a step along the rays.
 TEST(RoundPatch, IsMeasuredToAFractionOfAPixel) {
   const ColourTable table = table_of(std::vector{learn_colour("blue", shaded({220, 90, 30}, 400, 1))});
   painter::Dice dice(4);

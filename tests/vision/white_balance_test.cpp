@@ -54,7 +54,7 @@ Tally look_with_gains_off_by(double share) {
   return tally;
 }
 
-// Meant to catch: colours told apart by a limit of 0.05 in chromaticity, in place of 0.11.
+// Mutation: colours told apart by a limit of 0.03 in chromaticity, in place of 0.11.
 TEST(WhiteBalance, MayBeOffByFivePercent) {
   const Tally tally = look_with_gains_off_by(0.05);
   EXPECT_GE(tally.balls, 200);

@@ -26,7 +26,7 @@ FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
 class RigFits : public testing::TestWithParam<RigModel> {};
 
 // Law: without noise the rig is found again. Points come from vision::image_point, the fit has equations of
-// its own. Meant to catch: the right eye's rotation the other way round; p1 and p2 exchanged.
+// its own. Meant to catch: p1 and p2 exchanged.
 TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
   const vision::StereoRig rig = test::faulty_rig();
   const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 1), 0.0, 1);
@@ -51,8 +51,8 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
 }
 
 // Law: errors are as large as the fit says. The mean square of n deviations of unit size is 1 within a few
-// times sqrt(2 / n); those of one fit hang together, so that n counts fits, not parameters.
-// Meant to catch: degrees of freedom forgotten; the sd of a corner for that of a distance.
+// times sqrt(2 / n); those of one fit hang together, and its fifteen or more count for four.
+// Meant to catch: variances that are twice as large, or half.
 TEST_P(RigFits, KnowHowFarTheyAreOff) {
   constexpr int kSeeds = 24;
   const vision::StereoRig rig = test::faulty_rig();
@@ -68,7 +68,7 @@ TEST_P(RigFits, KnowHowFarTheyAreOff) {
       EXPECT_LT(std::abs(deviation), 4.5);
     }
   }
-  EXPECT_NEAR(squares / count, 1.0, 3.0 * std::sqrt(2.0 / kSeeds));
+  EXPECT_NEAR(squares / count, 1.0, 3.0 * std::sqrt(2.0 / (4.0 * kSeeds)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RigFits, testing::Values(RigModel::kTwoCameras, RigModel::kOneCamera),
@@ -104,7 +104,7 @@ TEST(RigFit, RefusesViewsThatSayTooLittle) {
               ThrowsMessage<std::runtime_error>(HasSubstr("the views do not determine")));
 }
 
-// Meant to catch: the baseline's sign not looked at.
+// Mutation: the baseline's sign not looked at.
 TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
   const vision::StereoRig rig = test::faulty_rig();
   auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 6, 1), 0.1, 1);
@@ -117,7 +117,7 @@ TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
 }
 
 // Law: once rectified, both eyes see a point on one row, and its disparity is f B / Z.
-// Meant to catch: half the turn for both eyes; the baseline's direction left out.
+// Mutation: the right eye's turn the other way round in the fit.
 TEST(RectifiedRig, PutsPointsOnOneRow) {
   const vision::StereoRig rig = test::faulty_rig();
   const auto places = test::board_places(kBoard, 6, 5);
