@@ -29,6 +29,8 @@ int run_program(int argc, char** argv) {
   add_world_command(program, action);
   add_detect_command(program, action);
   add_calibrate_command(program, action);
+  add_calibrate_rig_command(program, action);
+  add_learn_palette_command(program, action);
   add_doctor_command(program, action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty())

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "vision/colour_table.h"
-
 namespace stereobench::vision {
 namespace {
 
@@ -91,8 +89,7 @@ void join_touching(const std::vector<Run>& above, const std::vector<Run>& below,
 
 }  // namespace
 
-std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px) {
-  const ColourTable& table = palette_table();
+std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px, const ColourTable& table) {
   BlobForest forest;
   std::vector<Run> above;
   std::vector<Run> runs;

@@ -5,11 +5,13 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/colour_table.h"
+
 namespace stereobench::vision {
 
 /// A patch of pixels of one palette colour that touch by sides or corners.
 struct Blob {
-  int colour = 0;      ///< index into kPalette
+  int colour = 0;      ///< index into the palette
   long area_px = 0;    ///< number of pixels, > 0
   double sum_x = 0.0;  ///< first moments: sums of the pixels' columns and rows
   double sum_y = 0.0;
@@ -23,7 +25,9 @@ struct Blob {
 /// the runs of the row above that they touch.
 /// @param image CV_8UC3, BGR; row padding is fine
 /// @param min_area_px smaller patches are left out
+/// @param table which pixels have which colour
 /// @return in the order in which their first pixels come, row by row
-std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px);
+std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px,
+                             const ColourTable& table = palette_table());
 
 }  // namespace stereobench::vision

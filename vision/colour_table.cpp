@@ -55,10 +55,13 @@ double cell_value(std::size_t index) {
 
 }  // namespace
 
-ColourTable::ColourTable() {
+ColourTable::ColourTable()
+    : ColourTable([](const Eigen::Vector3d& bgr) { return nearest_colour(bgr[2], bgr[1], bgr[0]); }) {}
+
+ColourTable::ColourTable(const std::function<std::uint8_t(const Eigen::Vector3d&)>& colour_of) {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    cells_[cell] =
-        nearest_colour(cell_value(cell & 63U), cell_value((cell >> 6) & 63U), cell_value(cell >> 12));
+    cells_[cell] = colour_of(
+        Eigen::Vector3d(cell_value(cell >> 12), cell_value((cell >> 6) & 63U), cell_value(cell & 63U)));
   }
 }
 

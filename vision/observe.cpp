@@ -10,6 +10,7 @@
 #include "vision/outline_fit.h"
 #include "vision/range_bearing.h"
 #include "vision/rig.h"
+#include "vision/round_patch.h"
 #include "vision/sphere.h"
 #include "vision/stereo_match.h"
 
@@ -82,6 +83,8 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
   check_settings(settings);
   check_image(image, camera, "the");
   const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
+  if (settings.learned != nullptr)
+    return without_duplicates(find_round_patches(image, *settings.learned, settings.min_radius_px));
   const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
   std::vector<MeasuredOutline> outlines;
   for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {

@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "vision/colour_table.h"
 #include "vision/outline_fit.h"
 #include "vision/rectify.h"
 #include "vision/types.h"
@@ -17,6 +18,8 @@ struct ObserverSettings {
   double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
   double min_radius_px = 5.0;    ///< smaller outlines are not measured
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
+  /// Colours that were learned (learned_palette.h), in place of kPalette's; must outlive the settings.
+  const ColourTable* learned = nullptr;
 };
 
 /// Of an outline's area, what may be hidden, or outside of the picture, of a ball that passes for whole.

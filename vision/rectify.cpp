@@ -16,31 +16,41 @@ namespace {
 
 constexpr std::array<Eye, 2> kEyes = {Eye::kLeft, Eye::kRight};
 
-bool has_faults(const StereoRig& rig) {
-  return !(rig.distortion == Distortion{}) || !rig.right_turn_rad.isZero(0.0);
+std::size_t index_of(Eye eye) {
+  return static_cast<std::size_t>(eye);
 }
 
-Eigen::AlignedBox2d checked_view(const StereoRig& rig) {
+bool is_straight(const EyeCamera& eye, const Intrinsics& camera) {
+  return eye.lens == Distortion{} && eye.rectified_from_eye.isIdentity(0.0) &&
+         eye.camera.focal_px == camera.focal_px && eye.camera.cx_px == camera.cx_px &&
+         eye.camera.cy_px == camera.cy_px;
+}
+
+void check(const StereoRig& rig, const EyePair& eyes) {
+  const Intrinsics& camera = rig.camera;
   if (!is_usable(rig)) throw std::invalid_argument("Rectification: the rig cannot be computed with");
-  const auto seen = directions_seen(rig.distortion, rig.camera);
-  if (!seen) throw std::invalid_argument("Rectification: the lens folds its picture");
-  return *seen;
+  for (const EyeCamera& eye : eyes) {
+    if (!is_usable(eye)) throw std::invalid_argument("Rectification: the lens folds its picture, or no eye");
+    if (eye.camera.width_px != camera.width_px || eye.camera.height_px != camera.height_px)
+      throw std::invalid_argument("Rectification: the eyes' pictures must have the rig's size");
+  }
 }
 
-/// What either eye sees, as directions of the left one.
-Eigen::AlignedBox2d seen_by_both(const StereoRig& rig, const Eigen::AlignedBox2d& seen) {
-  Eigen::AlignedBox2d all = seen;
-  const Eigen::Matrix3d left_from_right =
-      robot_from_camera(rig).linear().transpose() * robot_from_camera(rig, Eye::kRight).linear();
-  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
-                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
-    const Eigen::Vector3d direction = left_from_right * seen.corner(corner).homogeneous();
-    if (direction.z() > 0.0) all.extend(direction.hnormalized());
+/// What either eye sees, as directions of the rectified frame.
+Eigen::AlignedBox2d seen_by_both(const EyePair& eyes, const std::array<Eigen::AlignedBox2d, 2>& seen) {
+  Eigen::AlignedBox2d all;
+  for (const Eye eye : kEyes) {
+    for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                              Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+      const Eigen::Vector3d direction =
+          eyes[index_of(eye)].rectified_from_eye * seen[index_of(eye)].corner(corner).homogeneous();
+      if (direction.z() > 0.0) all.extend(direction.hnormalized());
+    }
   }
   return all;
 }
 
-/// The same rig with the right eye put straight, lenses that do not distort, and pictures that hold a view.
+/// The same rig with its eyes put straight, lenses that do not distort, and pictures that hold a view.
 StereoRig rectified(StereoRig rig, const Eigen::AlignedBox2d& view) {
   Intrinsics& camera = rig.camera;
   const Eigen::Array2d size(camera.width_px, camera.height_px);
@@ -59,9 +69,14 @@ StereoRig rectified(StereoRig rig, const Eigen::AlignedBox2d& view) {
 
 }  // namespace
 
-Rectification::Rectification(const StereoRig& rig) : taken_(rig), rectified_(rig), seen_(checked_view(rig)) {
-  if (!has_faults(rig)) return;
-  rectified_ = rectified(rig, seen_by_both(rig, seen_));
+Rectification::Rectification(const StereoRig& rig) : Rectification(rig, eyes_of(rig)) {}
+
+Rectification::Rectification(const StereoRig& rig, const EyePair& eyes) : eyes_(eyes), rectified_(rig) {
+  check(rig, eyes);
+  for (const Eye eye : kEyes)
+    seen_[index_of(eye)] = *directions_seen(eyes[index_of(eye)].lens, eyes[index_of(eye)].camera);
+  if (is_straight(eyes[0], rig.camera) && is_straight(eyes[1], rig.camera)) return;
+  rectified_ = rectified(rig, seen_by_both(eyes, seen_));
   for (const Eye eye : kEyes) {
     cv::Mat places(rectified_.camera.height_px, rectified_.camera.width_px, CV_32FC2);
     for (int row = 0; row < places.rows; ++row) {
@@ -70,7 +85,7 @@ Rectification::Rectification(const StereoRig& rig) : taken_(rig), rectified_(rig
         places.at<cv::Vec2f>(row, column) = {at.x(), at.y()};
       }
     }
-    Maps& maps = maps_[static_cast<std::size_t>(eye)];
+    Maps& maps = maps_[index_of(eye)];
     cv::convertMaps(places, cv::noArray(), maps.places, maps.fractions, CV_16SC2);
   }
 }
@@ -81,26 +96,29 @@ StereoPair Rectification::apply(const StereoPair& pair) const {
 
 Eigen::Vector2d Rectification::taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const {
   constexpr double kNowhere_px = -1e4;
-  const Eigen::Vector3d direction = direction_in_eye(taken_, pixel_ray(rectified_.camera, rectified_px), eye);
-  const bool seen =
-      direction.z() > 0.0 && seen_.contains(direction.hnormalized());  // beyond, lenses may fold
-  return seen ? image_point(taken_, direction) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
+  const EyeCamera& camera = eyes_[index_of(eye)];
+  const Eigen::Vector3d ray = pixel_ray(rectified_.camera, rectified_px);
+  const Eigen::Vector3d direction = camera.rectified_from_eye.transpose() * ray;
+  const bool seen = direction.z() > 0.0 &&
+                    seen_[index_of(eye)].contains(direction.hnormalized());  // beyond, lenses may fold
+  return seen ? image_point(camera, ray) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
 }
 
 bool Rectification::shows(const Eigen::Vector2d& centre_px, double radius_px, Eye eye) const {
   constexpr int kPoints = 32;
   for (int i = 0; i < kPoints; ++i) {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / kPoints);
-    if (!is_inside(taken_.camera, taken_px(centre_px + radius_px * Eigen::Vector2d(c, s), eye))) return false;
+    if (!is_inside(eyes_[index_of(eye)].camera, taken_px(centre_px + radius_px * Eigen::Vector2d(c, s), eye)))
+      return false;
   }
   return true;
 }
 
 cv::Mat Rectification::rectified_picture(const cv::Mat& taken, Eye eye) const {
-  const Intrinsics& camera = taken_.camera;
+  const Intrinsics& camera = eyes_[index_of(eye)].camera;
   if (taken.type() != CV_8UC3 || taken.cols != camera.width_px || taken.rows != camera.height_px)
     throw std::invalid_argument("Rectification: pictures must be 8-bit BGR of the rig's size");
-  const Maps& maps = maps_[static_cast<std::size_t>(eye)];
+  const Maps& maps = maps_[index_of(eye)];
   if (maps.places.empty()) return taken;
   cv::Mat picture;
   cv::remap(taken, picture, maps.places, maps.fractions, cv::INTER_CUBIC, cv::BORDER_CONSTANT);

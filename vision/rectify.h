@@ -6,21 +6,26 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "vision/eye_pair.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
 
-/// Undoes what is believed of a rig: the lenses' distortion, and the right eye's turn.
+/// Undoes what is believed of a rig: the lenses' distortion, and the eyes' turns.
 ///
-/// The left eye looks where it looked. A turn about the eye's own centre moves pixels in a way that does not
-/// depend on what they see, so that each eye is one remapping, by cubic interpolation, onto a picture that is
-/// large enough for all that either eye has seen (within twice the size); it is black elsewhere. A rig that
-/// has no such faults costs nothing.
+/// A turn about the eye's own centre moves pixels in a way that does not depend on what they see, so that
+/// each eye is one remapping, by cubic interpolation, onto a picture that is large enough for all that either
+/// eye has seen (within twice the size); it is black elsewhere. A rig that has no such faults costs nothing.
 class Rectification {
  public:
   /// @param rig as it is believed to be
   /// @throws std::invalid_argument when it cannot be computed with
   explicit Rectification(const StereoRig& rig);
+
+  /// Of a rig of two different cameras.
+  /// @param rig where the eyes are, without faults, and the camera that rectified pictures are to be of
+  /// @throws std::invalid_argument when it cannot be computed with, or when sizes differ
+  Rectification(const StereoRig& rig, const EyePair& eyes);
 
   /// The rig that the rectified pictures are of.
   const StereoRig& rig() const { return rectified_; }
@@ -42,9 +47,9 @@ class Rectification {
  private:
   cv::Mat rectified_picture(const cv::Mat& taken, Eye eye) const;
 
-  StereoRig taken_;
+  EyePair eyes_;
   StereoRig rectified_;
-  Eigen::AlignedBox2d seen_;  ///< directions of each eye
+  std::array<Eigen::AlignedBox2d, 2> seen_;  ///< directions in each eye's own frame
   struct Maps {
     cv::Mat places, fractions;  ///< OpenCV's fixed-point maps; empty where nothing moves
   };

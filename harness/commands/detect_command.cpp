@@ -12,6 +12,7 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/dataset_truth.h"
+#include "harness/dataset/palette_file.h"
 #include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/detector.h"
@@ -25,9 +26,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kDrawnWidth_px = 1600;
+
 struct DetectArguments {
   std::vector<fs::path> pictures;  ///< LEFT, LEFT RIGHT, or a folder
   fs::path rig;
+  fs::path palette;  ///< of learned colours; empty: our own
   std::optional<double> ball_radius_m;
   double noise_sd_levels = 2.0;
   std::string encoding = "linear";
@@ -91,7 +95,11 @@ class Looker {
     const fs::path& given = arguments.pictures[0];
     const fs::path beside = given / "calibration.yaml";
     const fs::path file = arguments.rig.empty() && fs::exists(beside) ? beside : arguments.rig;
-    if (!file.empty()) rig_ = read_calibration(file);
+    if (!file.empty()) {
+      const RigCalibration calibration = read_rig_calibration(file);
+      rig_ = calibration.rig;
+      setup_.eyes = calibration.eyes;
+    }
     if (arguments.ball_radius_m)
       setup_.ball_radius_m = *arguments.ball_radius_m;
     else if (fs::exists(given / "balls.csv"))
@@ -99,6 +107,7 @@ class Looker {
     setup_.noise_sd_levels = arguments.noise_sd_levels;
     setup_.encoding = arguments.encoding == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
     if (rig_) setup_.rig = *rig_;
+    if (!arguments.palette.empty()) learn(read_palette(arguments.palette));
   }
 
   /// @return the task's line; its picture is drawn where that is asked for
@@ -107,26 +116,48 @@ class Looker {
   }
 
  private:
+  void learn(const PaletteFile& palette) {
+    setup_.palette = palette.colours;
+    setup_.encoding = palette.encoding;
+    table_ = vision::table_of(palette.colours);
+    for (const vision::LearnedColour& colour : palette.colours) names_.push_back(colour.name);
+  }
+
   std::string look_at_pair(const Task& task) const {
     if (!rig_) throw std::runtime_error("--rig: two eyes need the calibration of their rig");
     const vision::StereoPair pair = {read_picture(task.left), read_picture(task.right)};
     check_size(task.left, pair.left, rig_->camera);
     check_size(task.right, pair.right, rig_->camera);
-    const auto balls = our_detector(setup_)({task.frame, 0, pair, *rig_});
+    const Detector detector = our_detector(setup_);
+    const auto balls = detector({task.frame, 0, pair, *rig_});
+    if (balls.empty()) check_not_swapped(task, pair, detector);
     if (!arguments_.draw.empty()) write_drawing(task, draw_detection_picture(pair, balls));
     const std::array<std::string, 2> names = {task.left.filename().string(), task.right.filename().string()};
-    return detections_line(task.frame, balls, names);
+    return detections_line(task.frame, balls, names, names_);
+  }
+
+  /// No ball that both eyes see is no error, unless the other way round there are some.
+  void check_not_swapped(const Task& task, const vision::StereoPair& pair, const Detector& detector) const {
+    constexpr std::size_t kEnough = 2;  // one may match by chance
+    const vision::StereoPair swapped = {pair.right, pair.left};
+    const std::size_t balls = detector({task.frame, 0, swapped, *rig_}).size();
+    if (balls >= kEnough)
+      throw std::runtime_error(
+          fmt::format("{}: left and right are swapped: both eyes see no ball, and {} the other way round",
+                      task.left.string(), balls));
   }
 
   std::string look_at_one(const Task& task) const {
     const cv::Mat picture = read_picture(task.left);
     if (rig_) check_size(task.left, picture, rig_->camera);
     const cv::Mat light = renderer::decode(picture, {.encoding = setup_.encoding});
-    const auto outlines = vision::find_outlines(
-        light, rig_ ? rig_->camera : camera_for(picture),
-        {.ball_radius_m = setup_.ball_radius_m, .noise_sd_levels = setup_.noise_sd_levels});
-    if (!arguments_.draw.empty()) write_drawing(task, draw_outline_picture(picture, outlines));
-    return outlines_line(task.frame, outlines, task.left.filename().string());
+    const auto outlines = vision::find_outlines(light, rig_ ? rig_->camera : camera_for(picture),
+                                                {.ball_radius_m = setup_.ball_radius_m,
+                                                 .noise_sd_levels = setup_.noise_sd_levels,
+                                                 .learned = table_ ? &*table_ : nullptr});
+    if (!arguments_.draw.empty())
+      write_drawing(task, draw_outline_picture(picture, outlines, kDrawnWidth_px, names_));
+    return outlines_line(task.frame, outlines, task.left.filename().string(), names_);
   }
 
   void write_drawing(const Task& task, const std::string& png) const {
@@ -135,6 +166,8 @@ class Looker {
 
   const DetectArguments& arguments_;
   std::optional<vision::StereoRig> rig_;
+  std::optional<vision::ColourTable> table_;  ///< of learned colours
+  std::vector<std::string> names_;            ///< theirs
   DetectorSetup setup_;
 };
 
@@ -169,8 +202,9 @@ void add_detect_command(CLI::App& program, Action& action) {
       ->add_option("pictures", arguments->pictures,
                    "LEFT and RIGHT, one picture alone, or a folder: of pictures, or with left/ and right/")
       ->expected(0, 2);
-  command->add_option("--rig", arguments->rig,
-                      "calibration.yaml as `render` writes it (default: the folder's own, if it has one)");
+  command->add_option(
+      "--rig", arguments->rig,
+      "calibration.yaml as `render` and `calibrate-rig` write it (default: the folder's own, if it has one)");
   command
       ->add_option("--ball-radius-m", arguments->ball_radius_m,
                    "of all balls (default: as in the folder's balls.csv, or 0.05)")
@@ -178,9 +212,13 @@ void add_detect_command(CLI::App& program, Action& action) {
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();
-  command->add_option("--encoding", arguments->encoding, "how levels stand for light")
-      ->check(CLI::IsMember({"linear", "srgb"}))
-      ->capture_default_str();
+  CLI::Option* encoding = command->add_option("--encoding", arguments->encoding, "how levels stand for light")
+                              ->check(CLI::IsMember({"linear", "srgb"}))
+                              ->capture_default_str();
+  command
+      ->add_option("--palette", arguments->palette,
+                   "colours to look for, as `learn-palette` writes them (default: those of our own balls)")
+      ->excludes(encoding);
   command->add_option("--out,-o", arguments->out, "file for the lines (default: stdout)");
   command->add_option("--draw", arguments->draw, "folder for pictures with the detections drawn on them");
   command->add_flag("--serve", arguments->serve,

@@ -1,14 +1,13 @@
 #include "harness/dataset/calibration_file.h"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "harness/dataset/text_file.h"
 #include "slam/elementary.h"
 #include "vision/distortion.h"
 #include "vision/rig.h"
@@ -24,17 +23,32 @@ constexpr double kRounding = 1e-12;  // of a rotation that went through a file
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-double number(const fs::path& file, const cv::FileStorage& storage, const char* key) {
+double number(const fs::path& file, const cv::FileNode& storage, const char* key) {
   const cv::FileNode node = storage[key];
   if (!node.isReal() && !node.isInt()) refuse(file, fmt::format("{}: expected a number", key));
   return node.real();
 }
 
+int pixels(const fs::path& file, const cv::FileNode& storage, const char* key) {
+  constexpr double kMost = 65536.0;
+  const double value = number(file, storage, key);
+  if (!(value >= 1.0 && value <= kMost))
+    refuse(file, fmt::format("{}: expected positive sizes, at most {}", key, kMost));
+  return static_cast<int>(value);
+}
+
+/// Whether a node says that it is a matrix of a size, and is: OpenCV would make any size that is said.
+bool holds_matrix(const cv::FileNode& node, const cv::Size& size) {
+  if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt()) return false;
+  return static_cast<int>(node["rows"]) == size.height && static_cast<int>(node["cols"]) == size.width &&
+         node["data"].isSeq() && node["data"].size() == static_cast<std::size_t>(size.area());
+}
+
 /// A matrix of doubles; empty where the key is left out.
-cv::Mat matrix(const fs::path& file, const cv::FileStorage& storage, const char* key, const cv::Size& size) {
+cv::Mat matrix(const fs::path& file, const cv::FileNode& storage, const char* key, const cv::Size& size) {
   const cv::FileNode node = storage[key];
   if (node.empty()) return {};
-  const cv::Mat matrix = node.isMap() ? node.mat() : cv::Mat();
+  const cv::Mat matrix = holds_matrix(node, size) ? node.mat() : cv::Mat();
   if (matrix.size() != size || matrix.type() != CV_64F)
     refuse(file, fmt::format("{}: expected a matrix of {} x {} doubles", key, size.height, size.width));
   return matrix;
@@ -47,8 +61,113 @@ Eigen::Matrix3d rotation_of(const cv::Mat& transform) {
   return rotation;
 }
 
-/// The angles of R = Rx Ry Rz.
-Eigen::Vector3d angles_of(const Eigen::Matrix3d& rotation) {
+/// The camera of a K, with pictures of a size that is yet to be said.
+vision::Intrinsics camera_in(const fs::path& file, const cv::FileNode& storage) {
+  const cv::Mat k = matrix(file, storage, "K", {3, 3});
+  if (k.empty()) refuse(file, "K: this key is missing");
+  if (!(std::abs(k.at<double>(0, 0) - k.at<double>(1, 1)) <= 1e-9 * std::abs(k.at<double>(0, 0))))
+    refuse(file, "K: expected the same focal length across and down");
+  return {0, 0, k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2)};
+}
+
+vision::Distortion lens_in(const fs::path& file, const cv::FileNode& storage) {
+  const cv::Mat d = matrix(file, storage, "D", {5, 1});
+  if (d.empty()) return {};
+  return {.k1 = d.at<double>(0),
+          .k2 = d.at<double>(1),
+          .p1 = d.at<double>(2),
+          .p2 = d.at<double>(3),
+          .k3 = d.at<double>(4)};
+}
+
+vision::EyeCamera eye_in(const fs::path& file, const cv::FileNode& storage, const vision::Intrinsics& size) {
+  if (!storage.isMap())
+    refuse(file, "left_eye, right_eye: expected both, each with K, D, rectified_from_eye");
+  vision::EyeCamera eye{.camera = camera_in(file, storage), .lens = lens_in(file, storage)};
+  eye.camera.width_px = size.width_px;
+  eye.camera.height_px = size.height_px;
+  const cv::Mat turn = matrix(file, storage, "rectified_from_eye", {3, 3});
+  if (!turn.empty()) eye.rectified_from_eye = rotation_of(turn);
+  if (!vision::is_usable(eye))
+    refuse(file, "left_eye, right_eye: expected cameras that can be computed with");
+  return eye;
+}
+
+vision::StereoRig rig_in(const fs::path& file, const cv::FileNode& storage) {
+  vision::StereoRig rig;
+  rig.camera = camera_in(file, storage);
+  rig.camera.width_px = pixels(file, storage, "image_width");
+  rig.camera.height_px = pixels(file, storage, "image_height");
+  rig.baseline_m = number(file, storage, "baseline_m");
+  rig.height_m = 0.0;
+  rig.distortion = lens_in(file, storage);
+  if (!vision::directions_seen(rig.distortion, rig.camera))
+    refuse(file, "D: expected a lens that does not fold its picture");
+  const cv::Mat left = matrix(file, storage, "robot_from_left_camera", {4, 4});
+  const cv::Mat right = matrix(file, storage, "robot_from_right_camera", {4, 4});
+  if (left.empty()) return rig;
+  rig.height_m = left.at<double>(2, 3);
+  rig.pitch_down_rad = slam::arc_tangent(-left.at<double>(2, 2), left.at<double>(0, 2));
+  if (!right.empty()) rig.right_turn_rad = turn_angles(rotation_of(left).transpose() * rotation_of(right));
+  return rig;
+}
+
+cv::Mat camera_matrix(const vision::Intrinsics& c) {
+  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, c.focal_px, c.cy_px, 0, 0, 1);
+}
+
+/// From the left camera's frame to an eye's pixels, K [R | t].
+cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
+  const Eigen::Vector3d origin = vision::point_in_eye(rig, Eigen::Vector3d::Zero(), eye);
+  cv::Mat eye_from_left(3, 4, CV_64F);
+  for (int column = 0; column < 4; ++column) {
+    const Eigen::Vector3d axis =
+        column < 3 ? Eigen::Vector3d(vision::point_in_eye(rig, Eigen::Vector3d::Unit(column), eye) - origin)
+                   : origin;
+    for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
+  }
+  return camera_matrix(rig.camera) * eye_from_left;
+}
+
+template <typename Matrix>
+cv::Mat matrix_of(const Matrix& values) {
+  cv::Mat matrix(static_cast<int>(values.rows()), static_cast<int>(values.cols()), CV_64F);
+  for (int row = 0; row < matrix.rows; ++row)
+    for (int column = 0; column < matrix.cols; ++column) matrix.at<double>(row, column) = values(row, column);
+  return matrix;
+}
+
+cv::Mat coefficients(const vision::Distortion& lens) {
+  return cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
+}
+
+void write_eye(cv::FileStorage& file, const char* name, const vision::EyeCamera& eye) {
+  file << name << "{";
+  file << "K" << camera_matrix(eye.camera) << "D" << coefficients(eye.lens);
+  file << "rectified_from_eye" << matrix_of(eye.rectified_from_eye) << "}";
+}
+
+}  // namespace
+
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes) {
+  cv::FileStorage file(".yaml",
+                       cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
+  file << "K" << camera_matrix(rig.camera);
+  file << "D" << coefficients(rig.distortion);
+  file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
+  file << "baseline_m" << rig.baseline_m;
+  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft).matrix());
+  file << "robot_from_right_camera"
+       << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight).matrix());
+  if (eyes) {
+    write_eye(file, "left_eye", eyes->front());
+    write_eye(file, "right_eye", eyes->back());
+  }
+  return file.releaseAndGetString();
+}
+
+Eigen::Vector3d turn_angles(const Eigen::Matrix3d& rotation) {
   Eigen::Vector3d angles(slam::arc_tangent(-rotation(1, 2), rotation(2, 2)),
                          slam::arc_tangent(rotation(0, 2), rotation.block<2, 1>(1, 2).norm()),
                          slam::arc_tangent(-rotation(0, 1), rotation(0, 0)));
@@ -57,51 +176,33 @@ Eigen::Vector3d angles_of(const Eigen::Matrix3d& rotation) {
   return angles;
 }
 
-vision::StereoRig rig_in(const fs::path& file, const cv::FileStorage& storage) {
-  const cv::Mat k = matrix(file, storage, "K", {3, 3});
-  if (k.empty()) refuse(file, "K: this key is missing");
-  if (std::abs(k.at<double>(0, 0) - k.at<double>(1, 1)) > 1e-9 * std::abs(k.at<double>(0, 0)))
-    refuse(file, "K: expected the same focal length across and down");
-  vision::StereoRig rig;
-  rig.camera = {static_cast<int>(number(file, storage, "image_width")),
-                static_cast<int>(number(file, storage, "image_height")), k.at<double>(0, 0),
-                k.at<double>(0, 2), k.at<double>(1, 2)};
-  rig.baseline_m = number(file, storage, "baseline_m");
-  rig.height_m = 0.0;
-  const cv::Mat d = matrix(file, storage, "D", {5, 1});
-  if (!d.empty()) {
-    rig.distortion = {.k1 = d.at<double>(0),
-                      .k2 = d.at<double>(1),
-                      .p1 = d.at<double>(2),
-                      .p2 = d.at<double>(3),
-                      .k3 = d.at<double>(4)};
+RigCalibration parse_calibration(const std::string& text, const fs::path& name) {
+  if (text.empty()) refuse(name, "expected a calibration (the file is empty)");
+  try {
+    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    const cv::FileNode root = storage.root();
+    RigCalibration calibration{.rig = rig_in(name, root)};
+    if (!vision::is_usable(calibration.rig))
+      refuse(name, "expected finite numbers, positive sizes and baseline");
+    if (root["left_eye"].empty() && root["right_eye"].empty()) return calibration;
+    calibration.eyes = {eye_in(name, root["left_eye"], calibration.rig.camera),
+                        eye_in(name, root["right_eye"], calibration.rig.camera)};
+    return calibration;
+  } catch (const std::runtime_error&) {
+    throw;
+  } catch (const std::exception&) {  // OpenCV's parser throws its own and the standard library's
+    refuse(name, "expected a calibration as an OpenCV YAML file");
   }
-  if (!vision::directions_seen(rig.distortion, rig.camera))
-    refuse(file, "D: expected a lens that does not fold its picture");
-  const cv::Mat left = matrix(file, storage, "robot_from_left_camera", {4, 4});
-  const cv::Mat right = matrix(file, storage, "robot_from_right_camera", {4, 4});
-  if (left.empty()) return rig;
-  rig.height_m = left.at<double>(2, 3);
-  rig.pitch_down_rad = slam::arc_tangent(-left.at<double>(2, 2), left.at<double>(0, 2));
-  if (!right.empty()) rig.right_turn_rad = angles_of(rotation_of(left).transpose() * rotation_of(right));
-  return rig;
 }
 
-}  // namespace
+RigCalibration read_rig_calibration(const fs::path& file) {
+  return parse_calibration(read_text(file), file);
+}
 
 vision::StereoRig read_calibration(const fs::path& file) {
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  if (!fs::exists(file)) refuse(file, "no such file");
-  if (content.str().empty()) refuse(file, "expected a calibration (the file is empty, or a folder)");
-  try {
-    const cv::FileStorage storage(content.str(), cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    const vision::StereoRig rig = rig_in(file, storage);
-    if (!vision::is_usable(rig)) refuse(file, "expected finite numbers, positive sizes and baseline");
-    return rig;
-  } catch (const cv::Exception& error) {
-    refuse(file, "expected a calibration as an OpenCV YAML file");
-  }
+  const RigCalibration calibration = read_rig_calibration(file);
+  if (calibration.eyes) refuse(file, "expected one camera twice (it has left_eye and right_eye)");
+  return calibration.rig;
 }
 
 }  // namespace stereobench::harness

@@ -65,16 +65,29 @@ cv::Mat decode(const fs::path& file) {
   return picture;
 }
 
-}  // namespace
-
-cv::Mat read_picture(const fs::path& file) {
+/// 8 bits a channel, without transparency.
+cv::Mat read_levels(const fs::path& file) {
   if (!fs::exists(file)) refuse(file, "no such file");
   if (fs::is_directory(file)) refuse(file, "expected a picture (got a folder)");
   cv::Mat picture = decode(file);
   if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1.0 / 257.0);
   if (picture.depth() != CV_8U) refuse(file, "expected 8 or 16 bits a channel");
   if (picture.channels() == 4) cv::cvtColor(picture, picture, cv::COLOR_BGRA2BGR);
+  return picture;
+}
+
+}  // namespace
+
+cv::Mat read_picture(const fs::path& file) {
+  cv::Mat picture = read_levels(file);
   if (picture.channels() != 3) refuse(file, "has no colour, by which balls are found");
+  return picture;
+}
+
+cv::Mat read_grey_picture(const fs::path& file) {
+  cv::Mat picture = read_levels(file);
+  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2GRAY);
+  if (picture.channels() != 1) refuse(file, "expected a picture with 1, 3 or 4 channels");
   return picture;
 }
 

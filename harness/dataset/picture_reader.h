@@ -12,6 +12,11 @@ namespace stereobench::harness {
 /// @throws std::runtime_error, one line, for a file that is missing, no picture, cut short, or without colour
 cv::Mat read_picture(const std::filesystem::path& file);
 
+/// The same as grey levels, for what is found by shape; pictures without colour are welcome.
+/// @return CV_8UC1
+/// @throws std::runtime_error, one line, for a file that is missing, no picture, or cut short
+cv::Mat read_grey_picture(const std::filesystem::path& file);
+
 /// Whether a file's name says that it is a picture.
 bool is_picture_name(const std::filesystem::path& file);
 

@@ -5,15 +5,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
 #include "harness/dataset/atomic_file.h"
+#include "harness/dataset/calibration_file.h"
 #include "harness/dataset/measurement_log_writer.h"
 #include "harness/dataset/picture_file.h"
 #include "vision/palette.h"
-#include "vision/rig.h"
 
 namespace stereobench::harness {
 namespace {
@@ -26,31 +25,6 @@ std::string read_whole(const std::filesystem::path& path) {
   std::ostringstream content;
   content << std::ifstream(path, std::ios::binary).rdbuf();
   return content.str();
-}
-
-cv::Mat camera_matrix(const vision::Intrinsics& c) {
-  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, c.focal_px, c.cy_px, 0, 0, 1);
-}
-
-/// From the left camera's frame to an eye's pixels, K [R | t].
-cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
-  const Eigen::Vector3d origin = vision::point_in_eye(rig, Eigen::Vector3d::Zero(), eye);
-  cv::Mat eye_from_left(3, 4, CV_64F);
-  for (int column = 0; column < 4; ++column) {
-    const Eigen::Vector3d axis =
-        column < 3 ? Eigen::Vector3d(vision::point_in_eye(rig, Eigen::Vector3d::Unit(column), eye) - origin)
-                   : origin;
-    for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
-  }
-  return camera_matrix(rig.camera) * eye_from_left;
-}
-
-cv::Mat matrix_of(const Eigen::Isometry3d& transform) {
-  cv::Mat matrix(4, 4, CV_64F);
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      matrix.at<double>(row, column) = transform.matrix()(row, column);
-  return matrix;
 }
 
 }  // namespace
@@ -90,20 +64,6 @@ void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig
   write_log(folder_, log);
   write_file_atomically(folder_ / kFinished, identity_);
   std::filesystem::remove(folder_ / kUnfinished);
-}
-
-std::string calibration_yaml(const vision::StereoRig& rig) {
-  cv::FileStorage file(".yaml",
-                       cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-  file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
-  file << "K" << camera_matrix(rig.camera);
-  const vision::Distortion& lens = rig.distortion;
-  file << "D" << cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
-  file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
-  file << "baseline_m" << rig.baseline_m;
-  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft));
-  file << "robot_from_right_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight));
-  return file.releaseAndGetString();
 }
 
 std::string balls_csv(const worlds::World& world) {

@@ -40,10 +40,6 @@ class RenderedDataset {
   std::string identity_;
 };
 
-/// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
-/// rectified rig), baseline, and robot_from_camera.
-std::string calibration_yaml(const vision::StereoRig& rig);
-
 /// The balls as CSV: ball_id, colour, its RGB, centre and radius.
 std::string balls_csv(const worlds::World& world);
 

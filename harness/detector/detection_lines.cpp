@@ -117,8 +117,8 @@ void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallOb
 }
 
 BallObservation read_ball(const JsonValue& value, const BallGeometry& geometry) {
-  value.allow({"colour", "left_px", "right_px", "left_radius_px", "right_radius_px", "range_m", "bearing_rad",
-               "covariance", "centre_sd_px", "truncated", "occluded"});
+  value.allow({"colour", "name", "left_px", "right_px", "left_radius_px", "right_radius_px", "range_m",
+               "bearing_rad", "covariance", "centre_sd_px", "truncated", "occluded"});
   BallObservation ball;
   const JsonValue colour = value.at("colour");
   if (!colour.is_null())
@@ -150,6 +150,11 @@ Json pixel_json(const Eigen::Vector2d& pixel) {
 
 Json colour_json(int colour) {
   return colour == slam::kUnknown ? Json(nullptr) : Json(colour);
+}
+
+void add_name(Json& ball, int colour, std::span<const std::string> names) {
+  const auto index = static_cast<std::size_t>(colour);
+  if (colour != slam::kUnknown && index < names.size()) ball["name"] = names[index];
 }
 
 Json ball_json(const BallObservation& ball) {
@@ -193,21 +198,25 @@ std::vector<BallObservation> read_detections(const std::string& line, std::size_
 }
 
 std::string detections_line(std::size_t frame, std::span<const BallObservation> balls,
-                            std::span<const std::string> pictures) {
+                            std::span<const std::string> pictures, std::span<const std::string> names) {
   Json json = frame_json(frame, pictures);
   json["balls"] = Json::array();
-  for (const BallObservation& ball : balls) json["balls"].push_back(ball_json(ball));
+  for (const BallObservation& ball : balls) {
+    json["balls"].push_back(ball_json(ball));
+    add_name(json["balls"].back(), ball.colour, names);
+  }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string outlines_line(std::size_t frame, std::span<const vision::MeasuredOutline> outlines,
-                          const std::string& picture) {
+                          const std::string& picture, std::span<const std::string> names) {
   Json json = frame_json(frame, std::span(&picture, 1));
   json["balls"] = Json::array();
   for (const vision::MeasuredOutline& outline : outlines) {
     Json ball = {{"colour", colour_json(outline.colour)},
                  {"left_px", pixel_json(outline.centre_px)},
                  {"left_radius_px", outline.radius_px}};
+    add_name(ball, outline.colour, names);
     if (outline.outside_fraction > vision::kMostHidden) ball["truncated"] = true;
     if (outline.hidden_fraction > vision::kMostHidden) ball["occluded"] = true;
     json["balls"].push_back(std::move(ball));

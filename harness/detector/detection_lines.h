@@ -4,7 +4,7 @@
 ///     {"frame": 12, "balls": [{"colour": 3, "left_px": [511.5, 380.2], "right_px": [402.9, 380.2]}]}
 ///
 /// A ball has
-/// - `colour`: an index into the palette, or null;
+/// - `colour`: an index into the palette, or null; `name`: what a learned colour is called;
 /// - `left_px` and `right_px`: [column, row] of its outline's centre in each eye, (0, 0) the centre of the
 ///   top-left pixel; `left_radius_px` and `right_radius_px` where they are known;
 /// - or, or beside them, `range_m` and `bearing_rad`: horizontal, left-positive, from the robot's origin;
@@ -43,11 +43,13 @@ std::vector<vision::BallObservation> read_detections(const std::string& line, st
 
 /// The line of a frame, without its end. Numbers are read back exactly.
 /// @param pictures the files it is about, left and right, where that is of use to a reader
+/// @param names of colours that were learned, for `name` beside `colour`
 std::string detections_line(std::size_t frame, std::span<const vision::BallObservation> balls,
-                            std::span<const std::string> pictures = {});
+                            std::span<const std::string> pictures = {},
+                            std::span<const std::string> names = {});
 
 /// The line of a single picture: centres, radii and colours.
 std::string outlines_line(std::size_t frame, std::span<const vision::MeasuredOutline> outlines,
-                          const std::string& picture);
+                          const std::string& picture, std::span<const std::string> names = {});
 
 }  // namespace stereobench::harness

@@ -24,10 +24,16 @@ Detector our_detector(const DetectorSetup& setup) {
   settings.ball_radius_m = setup.ball_radius_m;
   settings.noise_sd_levels = setup.noise_sd_levels;
   const worlds::CameraSensor camera{.encoding = setup.encoding, .gamma = setup.gamma};
-  return [settings, camera, rectification = vision::Rectification(setup.rig)](const DetectorInput& input) {
+  const vision::EyePair eyes = setup.eyes ? *setup.eyes : vision::eyes_of(setup.rig);
+  std::optional<vision::ColourTable> learned;
+  if (!setup.palette.empty()) learned = vision::table_of(setup.palette);
+  return [settings, camera, learned,
+          rectification = vision::Rectification(setup.rig, eyes)](const DetectorInput& input) {
     const vision::StereoPair light = {renderer::decode(input.pair.left, camera),
                                       renderer::decode(input.pair.right, camera)};
-    return vision::observe(light, rectification, settings);
+    vision::ObserverSettings with_colours = settings;
+    with_colours.learned = learned ? &*learned : nullptr;
+    return vision::observe(light, rectification, with_colours);
   };
 }
 

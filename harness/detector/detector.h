@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "vision/eye_pair.h"
+#include "vision/learned_palette.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
 #include "worlds/types.h"
@@ -29,11 +32,13 @@ using Detector = std::function<std::vector<vision::BallObservation>(const Detect
 
 /// What a detector may know before it is shown anything.
 struct DetectorSetup {
-  vision::StereoRig rig;  ///< as it is believed to be
+  vision::StereoRig rig;                ///< as it is believed to be
+  std::optional<vision::EyePair> eyes;  ///< of a rig of two different cameras; ours alone knows of them
   double ball_radius_m = 0.05;
   double noise_sd_levels = 0.0;  ///< of a grey pixel, in levels of 255
   worlds::Encoding encoding = worlds::Encoding::kLinear;
-  double gamma = 2.2;  ///< of Encoding::kGamma
+  double gamma = 2.2;                          ///< of Encoding::kGamma
+  std::vector<vision::LearnedColour> palette;  ///< colours that were learned; empty: vision::kPalette
 };
 
 /// What detectors are told of a scenario.

@@ -131,12 +131,15 @@ std::vector<Ring> rings_of(std::span<const vision::BallObservation> observations
   return rings;
 }
 
-std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines) {
+std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines,
+                           std::span<const std::string> names) {
   std::vector<Ring> rings;
   for (const vision::MeasuredOutline& outline : outlines) {
     const bool cut = outline.outside_fraction > vision::kMostHidden;
     const bool hidden = outline.hidden_fraction > vision::kMostHidden;
-    const std::string label = fmt::format("{}: {:.1f} px", outline.colour, outline.radius_px);
+    const auto colour = static_cast<std::size_t>(outline.colour);
+    const std::string name = colour < names.size() ? names[colour] : fmt::format("{}", outline.colour);
+    const std::string label = fmt::format("{}: {:.1f} px", name, outline.radius_px);
     rings.push_back({outline.centre_px, outline.radius_px, !cut && !hidden,
                      label + (cut ? " cut" : "") + (hidden ? " hidden" : "")});
   }
@@ -186,13 +189,13 @@ std::string draw_detection_picture(const vision::StereoPair& pair,
 }
 
 std::string draw_outline_picture(const cv::Mat& picture, std::span<const vision::MeasuredOutline> outlines,
-                                 int max_width_px) {
+                                 int max_width_px, std::span<const std::string> names) {
   check({picture, picture}, max_width_px);
   const double scale = std::min(1.0, static_cast<double>(max_width_px) / picture.cols);
   const cv::Mat backdrop = behind_drawing(picture.clone(), scale);
   Canvas canvas(backdrop);
   const Box box = {0.0, 0.0, static_cast<double>(backdrop.cols), static_cast<double>(backdrop.rows)};
-  draw_eye(canvas, box, static_cast<double>(backdrop.cols) / picture.cols, rings_of(outlines));
+  draw_eye(canvas, box, static_cast<double>(backdrop.cols) / picture.cols, rings_of(outlines, names));
   return canvas.png();
 }
 

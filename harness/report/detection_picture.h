@@ -21,7 +21,8 @@ std::string draw_detection_picture(const vision::StereoPair& pair,
 
 /// The same for a single picture: outlines with their colour and radius.
 /// @throws std::invalid_argument when it is no CV_8UC3 picture
+/// @param names of colours, in place of their numbers
 std::string draw_outline_picture(const cv::Mat& picture, std::span<const vision::MeasuredOutline> outlines,
-                                 int max_width_px = 1600);
+                                 int max_width_px = 1600, std::span<const std::string> names = {});
 
 }  // namespace stereobench::harness

@@ -80,6 +80,56 @@ TEST(Rectification, MovesLightAsItMovesPoints) {
   }
 }
 
+/// Two different cameras that look a little apart.
+EyePair different_eyes() {
+  EyePair eyes;
+  eyes[0] = {{320, 240, 250.0, 161.0, 118.0}, {.k1 = -0.2, .k2 = 0.03}};
+  eyes[1] = {{320, 240, 262.0, 155.0, 123.0}, {.k1 = -0.15, .p1 = 0.002}};
+  eyes[0].rectified_from_eye = Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY()).matrix();
+  eyes[1].rectified_from_eye = Eigen::AngleAxisd(-0.04, Eigen::Vector3d::UnitX()).matrix();
+  return eyes;
+}
+
+// Law: two different cameras are put straight by their own lenses. A point that both see is on one row.
+// Meant to catch: one eye's lens for both.
+TEST(Rectification, PutsTwoDifferentCamerasStraight) {
+  StereoRig rig;
+  rig.camera = {320, 240, 256.0, 158.0, 120.5};
+  const EyePair eyes = different_eyes();
+  const Rectification rectification(rig, eyes);
+  EXPECT_FALSE(rectification.is_nothing());
+  EXPECT_EQ(rectification.rig().camera.focal_px, 256.0);
+  slam::RandomStream random(2, slam::Stream::kWorld);
+  int seen = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d point(0.8 * random.normal(), 0.6 * random.normal(), 1.0 + 4.0 * random.uniform());
+    for (const Eye eye : {Eye::kLeft, Eye::kRight}) {
+      const EyeCamera& camera = eyes[static_cast<std::size_t>(eye)];
+      const Eigen::Vector3d in_frame = point_in_eye(rig, point, eye);
+      const Eigen::Vector3d in_eye = camera.rectified_from_eye.transpose() * in_frame;
+      const StereoRig alone{.camera = camera.camera, .distortion = camera.lens};
+      const Eigen::Vector2d taken = image_point(alone, in_eye);
+      if (!is_inside(alone.camera, taken) || in_eye.head<2>().norm() > in_eye.z()) continue;
+      ++seen;
+      const Eigen::Vector2d rectified = project(rectification.rig().camera, in_frame);
+      EXPECT_LT((rectification.taken_px(rectified, eye) - taken).norm(), 1e-9);
+      EXPECT_TRUE(is_inside(rectification.rig().camera, rectified));
+    }
+  }
+  EXPECT_GT(seen, 200);
+}
+
+TEST(Rectification, RefusesEyesThatItCannotUse) {
+  StereoRig rig;
+  rig.camera = {320, 240, 256.0, 158.0, 120.5};
+  EyePair mirrored = different_eyes();
+  mirrored[0].rectified_from_eye = -Eigen::Matrix3d::Identity();
+  EXPECT_THROW(Rectification(rig, mirrored), std::invalid_argument);
+  EyePair larger = different_eyes();
+  larger[1].camera.width_px = 640;
+  EXPECT_THROW(Rectification(rig, larger), std::invalid_argument);
+}
+
 TEST(Rectification, CostsNothingWhereNothingIsWrong) {
   StereoRig rig = faulty_rig();
   rig.right_turn_rad.setZero();

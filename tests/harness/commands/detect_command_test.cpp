@@ -194,6 +194,9 @@ TEST_F(Dataset, OddInputsAreOneLine) {
   cv::imwrite((odd.path() / "tiny.png").string(), cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(7)));
   odd.write("empty.yaml", "");
   odd.write("text.yaml", "hello");
+  std::string nan = bytes_of(data() + "/calibration.yaml");
+  nan.replace(nan.find("baseline_m: "), 12, "baseline_m: .Nan #");
+  odd.write("nan.yaml", nan);
   odd.write("part.yaml", "%YAML:1.0\n---\nimage_width: 4\nimage_height: 4\n");
   std::filesystem::create_directory(odd.path() / "nothing");
   const std::string rig = data() + "/calibration.yaml";
@@ -215,8 +218,11 @@ TEST_F(Dataset, OddInputsAreOneLine) {
       {"MissingRig", {first_left(), "--rig", place + "none.yaml"}, "none.yaml: no such file"},
       {"EmptyRig", {first_left(), "--rig", place + "empty.yaml"}, "empty.yaml: expected a calibration"},
       {"TextForARig", {first_left(), "--rig", place + "text.yaml"}, "text.yaml: "},
-      {"FolderForARig", {first_left(), "--rig", place + "nothing"}, "expected a calibration"},
+      {"FolderForARig", {first_left(), "--rig", place + "nothing"}, "expected a file (got a folder)"},
       {"PartOfARig", {first_left(), "--rig", place + "part.yaml"}, "part.yaml: K: this key is missing"},
+      {"NotANumberInARig", {first_left(), "--rig", place + "nan.yaml"}, "nan.yaml: expected finite numbers"},
+      {"MissingPalette", {first_left(), "--palette", place + "none.json"}, "none.json: no such file"},
+      {"TextForAPalette", {first_left(), "--palette", place + "text.yaml"}, "text.yaml: expected a line"},
       {"NegativeRadius", {first_left(), "--ball-radius-m", "-1"}, "--ball-radius-m"},
       {"OutInAMissingFolder", {first_left(), "--out", place + "no/where.jsonl"}, "no/where.jsonl"},
   };
@@ -228,6 +234,39 @@ TEST_F(Dataset, OddInputsAreOneLine) {
     EXPECT_THAT(outcome.err, HasSubstr(call.message)) << call.kind;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1)
         << call.kind << ": " << outcome.err;
+  }
+}
+
+// Meant to catch: not looked for.
+TEST_F(Dataset, SwappedPicturesAreSaidToBe) {
+  const std::string right =
+      data() + "/right/" + nlohmann::json::parse(lines().at(0))["right"].get<std::string>();
+  ASSERT_GE(nlohmann::json::parse(lines().at(0))["balls"].size(), 2U);
+  const Outcome outcome = run_stereobench(
+      {"detect", right, first_left(), "--rig", data() + "/calibration.yaml", "--ball-radius-m", "0.06"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_THAT(outcome.err, HasSubstr("left and right are swapped"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+}
+
+// A ball that fills half the picture is measured; one that is cut in half as well is found as cut, or not.
+TEST_F(Dataset, ABallMayFillHalfThePicture) {
+  const ScratchFolder scratch;
+  for (const int centre : {512, 0}) {
+    cv::Mat picture(768, 1024, CV_8UC3, cv::Scalar(140, 140, 140));
+    cv::circle(picture, {centre, 384}, 354, {0, 0, 229}, cv::FILLED, cv::LINE_AA);
+    const std::string file = (scratch.path() / "large.png").string();
+    cv::imwrite(file, picture);
+    const Outcome one = run_stereobench({"detect", file});
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    const auto balls = nlohmann::json::parse(one.out)["balls"];
+    EXPECT_TRUE(balls.size() == 1 || (centre == 0 && balls.empty())) << balls;
+    for (const auto& ball : balls) {
+      EXPECT_EQ(ball.contains("truncated"), centre == 0);
+      EXPECT_NEAR(ball["left_px"][0].get<double>(), centre, 1.0);
+      EXPECT_NEAR(ball["left_radius_px"].get<double>(), 354.0, 1.0);
+    }
+    EXPECT_EQ(run_stereobench({"detect", file, file, "--rig", data() + "/calibration.yaml"}).exit_code, 0);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
+#include "harness/dataset/calibration_file.h"
 #include "slam/random.h"
 #include "tests/harness/dataset/log_folder.h"
 #include "vision/palette.h"

@@ -1,0 +1,36 @@
+/// What is fed with bytes that anybody may have made up. Each ends in a result that holds what it promises,
+/// or in an error of one line; anything else ends the program.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stereobench::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// One way in.
+struct Entry {
+  const char* name;
+  void (*check)(Bytes bytes);
+  std::vector<std::string> (*seeds)();  ///< good inputs to begin with
+};
+
+/// A pair of pictures that bytes tell how to draw, observed by both eyes.
+void check_scene(Bytes bytes);
+/// The bytes of a picture's file, read and looked at.
+void check_picture(Bytes bytes);
+/// The text of a calibration.
+void check_calibration(Bytes bytes);
+/// A line of detections.
+void check_detections(Bytes bytes);
+/// The text of a palette.
+void check_palette(Bytes bytes);
+
+/// All of them.
+std::span<const Entry> entries();
+
+}  // namespace stereobench::fuzz
