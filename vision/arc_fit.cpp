@@ -13,7 +13,7 @@ namespace {
 // outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). Texture in the background is an
 // error that an arc's pixels share.
 constexpr double kQuantisation = 0.005;  // c
-constexpr double kNoiseFactor = 1.35;     // k
+constexpr double kNoiseFactor = 1.35;    // k
 constexpr double kTextureFactor = 0.7;
 
 constexpr int kReweightings = 4;

@@ -60,7 +60,8 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
   if (!start) return std::nullopt;
   const Eigen::LDLT<Eigen::Matrix3d> left_noise(left.covariance_px2);
   const Eigen::LDLT<Eigen::Matrix3d> right_noise(right.covariance_px2);
-  const double size_information = 1.0 / std::pow(kSizeSd * ball_radius_m, 2);
+  const double size_sd_m = kSizeSd * ball_radius_m;
+  const double size_information = 1.0 / (size_sd_m * size_sd_m);
   const Eigen::Vector4d to_right(-rig.baseline_m, 0.0, 0.0, 0.0);
 
   Ball ball(start->x(), start->y(), start->z(), ball_radius_m);

@@ -25,6 +25,7 @@ constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ba
 constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 1000.0;
+constexpr double kRoughness_px = 0.75;  // of a patch's edge, in noise
 constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for it, a part may be hidden
 
 Eigen::Vector3d palette_bgr(int colour) {
@@ -106,16 +107,27 @@ double support(const Fit& fit) {
   return sum / static_cast<double>(fit.arcs.size()) * fit.outline.radius_px();
 }
 
+// Whether a patch lies within an outline, as far as its box tells: patches end before the rim does.
+bool holds(const OutlineModel& outline, const Blob& blob) {
+  const double reach = outline.semi_major_px() + kRoughness_px;
+  const Eigen::Vector2d& centre = outline.centre_px();
+  return blob.min_x - 0.5 >= centre.x() - reach && blob.max_x + 0.5 <= centre.x() + reach &&
+         blob.min_y - 0.5 >= centre.y() - reach && blob.max_y + 0.5 <= centre.y() + reach;
+}
+
 // From the patch as a whole, and unless all around speaks for what comes of that, from its boundary.
 std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSettings& settings,
                              const UnmixSettings& unmix) {
   std::optional<Fit> whole = converge(image, first_guess(blob, settings.camera), settings, unmix);
-  if (whole && support(*whole) >= kWhole * whole->outline.radius_px()) return whole;
+  const bool held = whole && holds(whole->outline, blob);
+  if (held && support(*whole) >= kWhole * whole->outline.radius_px()) return whole;
   const std::optional<Circle> circle = guess_from_boundary(image, blob);
   if (!circle) return whole;
   std::optional<Fit> part =
       converge(image, {settings.camera, circle->centre_px, circle->radius_px}, settings, unmix);
-  const bool better = part && (!whole || support(*part) > support(*whole));
+  if (!part || !whole) return part ? part : whole;
+  const bool part_held = holds(part->outline, blob);
+  const bool better = part_held != held ? part_held : support(*part) > support(*whole);
   return better ? part : whole;
 }
 

@@ -275,8 +275,7 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   outline.colour = blob.colour;
   outline.centre_px = circle.centre;
   outline.radius_px = circle.radius;
-  outline.covariance_px2 = fit->covariance.topLeftCorner<2, 2>();
-  outline.radius_sd_px = std::sqrt(fit->covariance(2, 2));
+  outline.covariance_px2 = fit->covariance;
   outline.outside_fraction = outside_share(image, circle);
   outline.hidden_fraction = hidden_share(image, circle, blob.colour, table);
   outline.seen_px = blob.area_px;

@@ -45,7 +45,8 @@ Eigen::Vector2d fit_range_variance(std::span<const CalibrationSample> samples) {
   std::vector<double> squares, growth;
   for (const CalibrationSample& sample : samples) {
     squares.push_back(sample.error.x() * sample.error.x());
-    growth.push_back(std::pow(sample.truth.x(), 4));
+    const double range2 = sample.truth.x() * sample.truth.x();
+    growth.push_back(range2 * range2);
   }
   if (squares.empty()) return Eigen::Vector2d::Zero();
   std::vector<double> relative;

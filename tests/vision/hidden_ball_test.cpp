@@ -112,8 +112,8 @@ class HiddenBalls : public testing::TestWithParam<Hider> {};
 
 // NIS / 2 of n balls scatters by 1 / sqrt(n). Arcs beside a cut are left out, which wastes some: the claims
 // are on the safe side. Errors below a millimetre are below any rig's calibration, whatever is claimed.
-// Mutations: no second try from the patch's boundary; the right eye on the wrong side; arcs that contradict each
-// other by a fifth of a pixel all believed.
+// Mutations: no second try from the patch's boundary; the right eye on the wrong side; arcs that contradict
+// each other by a fifth of a pixel all believed.
 TEST_P(HiddenBalls, AreMeasuredByWhatIsLeftOfThem) {
   const StereoRig rig = small_rig();
   ObserverSettings settings;

@@ -141,7 +141,7 @@ TEST(RoundPatch, IsTriangulatedAsAnyOutline) {
   const auto balls = observe(painter::paint(scene, rig), rig, {.learned = &table});
   ASSERT_EQ(balls.size(), 1U);
   EXPECT_EQ(balls[0].colour, 0);
-  EXPECT_TRUE(balls[0].whole());
+  EXPECT_TRUE(balls[0].trusted());
   EXPECT_LT((balls[0].ball_in_camera - scene.balls[0].in_camera).norm(), 0.02);
 }
 

@@ -39,7 +39,7 @@ Tally look_with_gains_off_by(double share) {
     const auto seen =
         observe({with_gains(pair.left, gains), with_gains(pair.right, gains)}, rig, {.noise_sd_levels = 2.0});
     const auto is_of = [](const BallObservation& observation, const painter::PaintedBall& ball) {
-      return observation.whole() && observation.colour == ball.colour &&
+      return observation.trusted() && observation.colour == ball.colour &&
              (observation.ball_in_camera - ball.in_camera).norm() < 0.1 * ball.in_camera.z();
     };
     for (const painter::PaintedBall& ball : scene.balls) {
@@ -48,8 +48,8 @@ Tally look_with_gains_off_by(double share) {
     }
     for (const BallObservation& observation : seen)
       tally.strange +=
-          observation.whole() && std::none_of(scene.balls.begin(), scene.balls.end(),
-                                              [&](const auto& b) { return is_of(observation, b); });
+          observation.trusted() && std::none_of(scene.balls.begin(), scene.balls.end(),
+                                                [&](const auto& b) { return is_of(observation, b); });
   }
   return tally;
 }

@@ -289,7 +289,8 @@ constexpr BadOverride kBadOverrides[] = {
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
     {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
     {"believed_measurement_noise.kind=laser",
-     "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got laser)"},
+     "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got "
+     "laser)"},
     {"believed_measurement_noise={kind: per_observation, range_sd_m: 1}",
      "--set believed_measurement_noise.range_sd_m: unknown key"},
     {"believed_measurement_noise={kind: constant, disparity_sd_px: 1}",

@@ -1,6 +1,8 @@
 // Galleries: what eyes are calibrated in.
 #include "worlds/gallery.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -47,8 +49,11 @@ TEST(Gallery, ShowsEachBallToBothEyesInSomeLook) {
       EXPECT_GE(looks, 1) << seed;
       EXPECT_GE(ball.centre_m.z(), ball.radius_m);
       EXPECT_EQ(ball.radius_m, 0.06);
-      for (const Ball& other : made.world.balls)
-        if (&other != &ball) EXPECT_GT((other.centre_m - ball.centre_m).norm(), 2.0 * ball.radius_m);
+      for (const Ball& other : made.world.balls) {
+        if (&other != &ball) {
+          EXPECT_GT((other.centre_m - ball.centre_m).norm(), 2.0 * ball.radius_m);
+        }
+      }
     }
   }
 }
