@@ -83,10 +83,11 @@ void add_balls(const Scenario& scenario, const GalleryDepths& depths, const slam
   }
 }
 
-Material any_material(Draws& draws) {
+Material any_material(bool plain, Draws& draws) {
   constexpr std::array<Material, 5> kAny = {Material::kPlain, Material::kTiles, Material::kPlaster,
                                             Material::kBricks, Material::kWood};
-  return kAny[static_cast<std::size_t>(draws.below(static_cast<int>(kAny.size())))];
+  const Material drawn = kAny[static_cast<std::size_t>(draws.below(static_cast<int>(kAny.size())))];
+  return plain ? Material::kPlain : drawn;
 }
 
 Light any_light(Draws& draws) {
@@ -97,14 +98,14 @@ Light any_light(Draws& draws) {
   return light;
 }
 
-std::vector<Wall> walls_around(double distance_m, Draws& draws) {
+std::vector<Wall> walls_around(double distance_m, bool plain, Draws& draws) {
   std::vector<Wall> walls;
   const auto corner = [&](int i) -> Eigen::Vector2d {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / kWalls);
     return distance_m * Eigen::Vector2d(c, s);
   };
   for (int i = 0; i < kWalls; ++i)
-    walls.push_back({corner(i), corner((i + 1) % kWalls), kWallHeight_m, any_material(draws)});
+    walls.push_back({corner(i), corner((i + 1) % kWalls), kWallHeight_m, any_material(plain, draws)});
   return walls;
 }
 
@@ -118,7 +119,7 @@ GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius
   return {std::max(nearest, 2.0 * ball_radius_m), camera.focal_px * ball_radius_m / smallest_radius_px};
 }
 
-Scenario gallery(const Scenario& scenario, const GalleryDepths& depths, std::uint64_t seed) {
+Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed) {
   Draws draws(seed);
   Scenario made = scenario;
   made.seeds = {seed};
@@ -129,15 +130,15 @@ Scenario gallery(const Scenario& scenario, const GalleryDepths& depths, std::uin
   made.world = {};
   made.world.sky_rgb = scenario.world.sky_rgb;
   made.world.light = any_light(draws);
-  made.world.floor = any_material(draws);
-  made.world.walls = walls_around(kWallDistance * depths.farthest_m, draws);
+  made.world.floor = any_material(settings.plain, draws);
+  made.world.walls = walls_around(kWallDistance * settings.depths.farthest_m, settings.plain, draws);
   made.path.clear();
   const double radius_m = scenario.world.balls.empty() ? Ball{}.radius_m : scenario.world.balls[0].radius_m;
   const int looks = looks_around(scenario.rig.camera);
   for (int look = 0; look < looks; ++look) {
     const double heading = slam::wrap_angle(2.0 * std::numbers::pi * look / looks);
     made.path.push_back({.stamp_ns = look * std::int64_t{1'000'000'000}, .pose = {0.0, 0.0, heading}});
-    add_balls(scenario, depths, made.path.back().pose, radius_m, draws, made.world.balls);
+    add_balls(scenario, settings.depths, made.path.back().pose, radius_m, draws, made.world.balls);
   }
   return made;
 }

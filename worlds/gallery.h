@@ -18,6 +18,12 @@ struct GalleryDepths {
 GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
                                 double smallest_radius_px);
 
+/// What a gallery looks like.
+struct GallerySettings {
+  GalleryDepths depths;
+  bool plain = false;  ///< walls and floor without texture: what is measured then is the noise alone
+};
+
 /// A scenario with the eyes of another: its rig, what is believed of it, its camera, its detector and its
 /// size of balls. All else is drawn: where balls are (evenly over the logarithm of their depth and over the
 /// pictures), their colours, the sun and the ambient light, the materials of the floor and of walls behind
@@ -25,6 +31,6 @@ GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius
 /// direction, as many as its field of view has room for; it does not move, so that the shutter is left out.
 /// @param scenario with a stereo sensor
 /// @param seed of the draws
-Scenario gallery(const Scenario& scenario, const GalleryDepths& depths, std::uint64_t seed);
+Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed);
 
 }  // namespace stereobench::worlds

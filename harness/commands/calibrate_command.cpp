@@ -23,6 +23,7 @@ constexpr const char* kUsualSeeds = "0..39";
 struct CalibrateArguments {
   ScenarioArguments scenario;
   std::string law = "per_observation";
+  bool plain = false;
 };
 
 worlds::Scenario read_stereo_scenario(const CalibrateArguments& arguments) {
@@ -33,11 +34,12 @@ worlds::Scenario read_stereo_scenario(const CalibrateArguments& arguments) {
   return scenario;
 }
 
-std::vector<CalibrationTake> take_all(const worlds::Scenario& scenario, const worlds::GalleryDepths& depths,
+std::vector<CalibrationTake> take_all(const worlds::Scenario& scenario,
+                                      const worlds::GallerySettings& settings,
                                       const std::vector<std::uint64_t>& seeds, const ScenarioArguments& how) {
   Progress progress("calibrate " + scenario.name, static_cast<double>(seeds.size()));
   const auto take = [&](std::size_t index, const std::function<void(double)>&) {
-    return to_bytes(take_samples(worlds::gallery(scenario, depths, seeds[index]), how.backend));
+    return to_bytes(take_samples(worlds::gallery(scenario, settings, seeds[index]), how.backend));
   };
   std::vector<CalibrationTake> takes;
   for (const std::string& bytes :
@@ -57,7 +59,7 @@ int run_calibration(const CalibrateArguments& arguments) {
       scenario.world.balls.empty() ? worlds::Ball{}.radius_m : scenario.world.balls[0].radius_m;
   const worlds::GalleryDepths depths =
       worlds::measurable_depths(scenario.rig, radius_m, vision::ObserverSettings{}.min_radius_px);
-  const auto takes = take_all(scenario, depths, seeds, arguments.scenario);
+  const auto takes = take_all(scenario, {depths, arguments.plain}, seeds, arguments.scenario);
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;
   result.detector = scenario.detector.command.empty() ? "stereobench" : scenario.detector.command;
@@ -87,6 +89,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
                    "what noise.yaml says: stated covariances to scale, or the stereo law")
       ->check(CLI::IsMember({"per_observation", "stereo"}))
       ->capture_default_str();
+  command->add_flag("--plain", arguments->plain, "before walls and floors without texture");
   command->footer(
       "Takes the eyes of a scenario (rig, camera, detector, size of balls) through galleries: balls of all\n"
       "colours at all depths, under any light, before any wall. The noise is fitted to the galleries of "

@@ -32,7 +32,7 @@ TEST(Gallery, ShowsEachBallToBothEyesInSomeLook) {
   const Scenario scenario = eyes();
   const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scenario made = gallery(scenario, depths, seed);
+    const Scenario made = gallery(scenario, {depths}, seed);
     ASSERT_EQ(made.path.size(), 6U);
     ASSERT_GT(made.world.balls.size(), 40U);
     for (const Ball& ball : made.world.balls) {
@@ -66,7 +66,7 @@ TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
   std::array<int, 4> quarters{};
   int balls = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Scenario made = gallery(scenario, depths, seed);
+    const Scenario made = gallery(scenario, {depths}, seed);
     for (const Ball& ball : made.world.balls) {
       const double depth = ball.centre_m.head<2>().norm();
       const double share =
@@ -82,13 +82,17 @@ TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
 TEST(Gallery, IsTheSameForTheSameSeedAndAnotherForAnother) {
   const Scenario scenario = eyes();
   const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
-  const World a = gallery(scenario, depths, 3).world;
-  const World b = gallery(scenario, depths, 3).world;
-  const World c = gallery(scenario, depths, 4).world;
+  const World a = gallery(scenario, {depths}, 3).world;
+  const World b = gallery(scenario, {depths}, 3).world;
+  const World c = gallery(scenario, {depths}, 4).world;
   ASSERT_EQ(a.balls.size(), b.balls.size());
   for (std::size_t i = 0; i < a.balls.size(); ++i) EXPECT_EQ(a.balls[i].centre_m, b.balls[i].centre_m);
   EXPECT_NE(a.balls[0].centre_m, c.balls[0].centre_m);
   EXPECT_NE(a.light.towards_light, c.light.towards_light);
+  const World plain = gallery(scenario, {depths, true}, 3).world;
+  EXPECT_EQ(plain.floor, Material::kPlain);
+  EXPECT_EQ(plain.light.towards_light, a.light.towards_light);
+  EXPECT_EQ(plain.balls.back().centre_m, a.balls.back().centre_m);
 }
 
 }  // namespace
