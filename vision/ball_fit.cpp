@@ -90,7 +90,10 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
   fit.ball_in_camera = ball.head<3>();
   fit.covariance_m2 = 0.5 * (covariance.topLeftCorner<3, 3>() + covariance.topLeftCorner<3, 3>().transpose());
   fit.row_misfit_px = std::abs(left_residual.y() - right_residual.y());
-  fit.radius_misfit_px = std::max(std::abs(left_residual.z()), std::abs(right_residual.z()));
+  const double size_misfit_px =
+      std::abs(ball.w() / ball_radius_m - 1.0) * std::max(left.radius_px, right.radius_px);
+  fit.radius_misfit_px =
+      std::max({std::abs(left_residual.z()), std::abs(right_residual.z()), size_misfit_px});
   return fit;
 }
 

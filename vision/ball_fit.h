@@ -15,7 +15,7 @@ struct BallFit {
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< left camera, metres
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();   ///< of it
   double row_misfit_px = 0.0;                                ///< between the eyes, absolute
-  double radius_misfit_px = 0.0;                             ///< of the worse eye, absolute
+  double radius_misfit_px = 0.0;  ///< to balls of the known size, of the worse eye, absolute
 };
 
 /// The ball of about known size whose outlines suit what both eyes measured best.

@@ -180,6 +180,20 @@ TEST(Observe, MeasuresBallsThatTheBorderCuts) {
   EXPECT_LT(least_visible, 0.5);
 }
 
+// Things of a ball's colour are no landmarks unless they are of a ball's size: disparity tells how large they
+// are. Mutation: a size that is fitted and held against nothing.
+TEST(Observe, DoesNotTrustBallsOfAnotherSize) {
+  const StereoRig rig = small_rig();
+  for (const double scale : {0.5, 0.8, 0.9, 1.0, 1.1, 1.2, 2.0}) {
+    for (int i = 0; i < 3; ++i) {
+      const Scene scene{{{{0.05 - 0.1 * i, 0.02, 1.0 + i}, 4 * i, 0.05 * scale}}, {}, Backdrop::kPlain};
+      const auto balls = observed(scene, rig);
+      const bool trusted = balls.size() == 1 && balls[0].trusted();
+      EXPECT_EQ(trusted, scale == 1.0) << scale << ' ' << i;
+    }
+  }
+}
+
 TEST(Observe, TellsBallsOfOneColourApart) {
   const StereoRig rig = small_rig();
   const Scene scene{
