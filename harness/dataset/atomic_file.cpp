@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <regex>
 #include <stdexcept>
 #include <string>
@@ -73,12 +74,22 @@ void sync_folder(const fs::path& folder) {
   close(descriptor);
 }
 
+/// Whether a process is gone, or dead and not yet buried by its parent.
+bool has_ended(int process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  std::ifstream status(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(status, line);
+  const std::size_t name_end = line.rfind(") ");
+  return name_end != std::string::npos && line.find_first_of("ZX", name_end + 2) == name_end + 2;
+}
+
 /// Whether a name is one that TemporaryFile gives, and its process is gone.
 bool is_leftover(const std::string& name) {
   static const std::regex temporary(R"(.*\.([0-9]{1,9})-[0-9]+\.tmp)");
   std::smatch parts;
   if (!std::regex_match(name, parts, temporary)) return false;
-  return kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH;
+  return has_ended(std::stoi(parts[1]));
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig
   write_file_atomically(folder_ / "true_calibration.yaml", calibration_yaml(rig));
   write_file_atomically(folder_ / "balls.csv", balls_csv(world));
   write_log(folder_, log);
+  remove_leftovers(folder_);  // of one that was just dying when this one began
   write_file_atomically(folder_ / kFinished, identity_);
   std::filesystem::remove(folder_ / kUnfinished);
 }
