@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/LU>
 
-#include "vision/colour_table.h"
+#include "vision/patch_boundary.h"
 
 namespace stereobench::vision {
 namespace {
@@ -19,47 +18,6 @@ constexpr double kOnCircle = 0.02;      // of the radius: outlines are ellipses
 constexpr double kLeastOn = 1.0 / 3.0;  // of the boundary
 constexpr double kLargestRadius = 1.1;  // of the patch's longer side; a straight cut is no outline
 constexpr std::array<std::size_t, 5> kSteps = {3, 5, 7, 10, 14};  // between the points of a triple
-
-// The first and last pixel that has the patch's colour, of a row or a column.
-struct Extent {
-  int first = 0;
-  int last = -1;
-
-  void add(int place) {
-    if (last < first) first = place;
-    first = std::min(first, place);
-    last = std::max(last, place);
-  }
-};
-
-// Middles of the outer sides of the outermost pixels in each row and column, those on the border left out.
-std::vector<Eigen::Vector2d> boundary(const cv::Mat& image, const Blob& blob) {
-  const ColourTable& table = palette_table();
-  std::vector<Extent> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
-  std::vector<Extent> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
-  for (int y = blob.min_y; y <= blob.max_y; ++y) {
-    const auto* bgr = image.ptr<std::uint8_t>(y) + 3 * blob.min_x;
-    for (int x = blob.min_x; x <= blob.max_x; ++x, bgr += 3) {
-      if (table.classify(bgr[0], bgr[1], bgr[2]) != blob.colour) continue;
-      rows[static_cast<std::size_t>(y - blob.min_y)].add(x);
-      columns[static_cast<std::size_t>(x - blob.min_x)].add(y);
-    }
-  }
-  std::vector<Eigen::Vector2d> points;
-  for (int y = blob.min_y; y <= blob.max_y; ++y) {
-    const Extent& row = rows[static_cast<std::size_t>(y - blob.min_y)];
-    if (row.last < row.first) continue;
-    if (row.first > 0) points.emplace_back(row.first - 0.5, y);
-    if (row.last < image.cols - 1) points.emplace_back(row.last + 0.5, y);
-  }
-  for (int x = blob.min_x; x <= blob.max_x; ++x) {
-    const Extent& column = columns[static_cast<std::size_t>(x - blob.min_x)];
-    if (column.last < column.first) continue;
-    if (column.first > 0) points.emplace_back(x, column.first - 0.5);
-    if (column.last < image.rows - 1) points.emplace_back(x, column.last + 0.5);
-  }
-  return points;
-}
 
 // Once around the patch: angles about its middle grow, as far as their octants and slopes tell.
 double turn_order(const Eigen::Vector2d& from_middle) {
@@ -103,7 +61,7 @@ std::size_t support(const Circle& circle, const std::vector<Eigen::Vector2d>& po
 }  // namespace
 
 std::optional<Circle> guess_from_boundary(const cv::Mat& image, const Blob& blob) {
-  const std::vector<Eigen::Vector2d> points = a_few_in_order(boundary(image, blob));
+  const std::vector<Eigen::Vector2d> points = a_few_in_order(patch_boundary(image, blob, palette_table()));
   const double largest = kLargestRadius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
   std::optional<Circle> best;
   std::size_t most = static_cast<std::size_t>(kLeastOn * static_cast<double>(points.size()));

@@ -3,18 +3,12 @@
 
 #include <optional>
 
-#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "vision/blobs.h"
+#include "vision/patch_boundary.h"
 
 namespace stereobench::vision {
-
-/// A circle in an image.
-struct Circle {
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  double radius_px = 0.0;
-};
 
 /// The circle that most of a patch's boundary lies on.
 ///

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <tuple>
-#include <utility>
 
 #include <Eigen/Cholesky>
 #include <opencv2/imgproc.hpp>
 
 #include "slam/elementary.h"
 #include "vision/blobs.h"
+#include "vision/patch_boundary.h"
 
 namespace stereobench::vision {
 namespace {
@@ -32,11 +31,6 @@ constexpr std::size_t kFewestEdges = 8;
 constexpr double kMinArc = 0.2;
 constexpr double kReach = 0.8;  // of the radius: what shows its colour so far out is not hidden
 constexpr int kSteps = 12;
-
-struct Circle {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double radius = 0.0;
-};
 
 /// Where a ray from the centre leaves the patch.
 struct EdgePoint {
@@ -105,9 +99,9 @@ std::optional<double> covered(const std::vector<Eigen::Vector3d>& samples, int c
 /// Looks for the edge along rays, from `band_px` inside of a circle to as far outside.
 Edges look(const cv::Mat& image, const Circle& circle, double band_px, int colour, const ColourTable& table) {
   Edges edges;
-  const int rays = static_cast<int>(std::clamp(2.0 * std::numbers::pi * circle.radius, 24.0, 256.0));
+  const int rays = static_cast<int>(std::clamp(2.0 * std::numbers::pi * circle.radius_px, 24.0, 256.0));
   const auto count = static_cast<std::size_t>(2.0 * band_px / kStep_px);
-  const double begin = circle.radius - 0.5 * kStep_px * static_cast<double>(count - 1);
+  const double begin = circle.radius_px - 0.5 * kStep_px * static_cast<double>(count - 1);
   std::vector<Eigen::Vector3d> samples;
   for (int ray = 0; ray < rays; ++ray) {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * ray / rays);
@@ -115,14 +109,14 @@ Edges look(const cv::Mat& image, const Circle& circle, double band_px, int colou
     samples.clear();
     for (std::size_t i = 0; i < count; ++i) {
       const auto sample =
-          colour_at(image, circle.centre + (begin + kStep_px * static_cast<double>(i)) * direction);
+          colour_at(image, circle.centre_px + (begin + kStep_px * static_cast<double>(i)) * direction);
       if (sample) samples.push_back(*sample);
     }
     const bool is_inside = samples.size() == count;
     ++(is_inside ? edges.rays : edges.outside);
     const auto along = is_inside ? covered(samples, colour, table) : std::nullopt;
     if (along)
-      edges.points.push_back({direction, circle.centre + (begin + kStep_px * (*along - 0.5)) * direction});
+      edges.points.push_back({direction, circle.centre_px + (begin + kStep_px * (*along - 0.5)) * direction});
   }
   return edges;
 }
@@ -146,7 +140,7 @@ std::optional<CircleFit> fit_circle(std::vector<EdgePoint>& points, Circle circl
   for (int step = 0; step < kSteps; ++step) {
     std::vector<double> errors, sizes;
     for (const EdgePoint& point : points) {
-      errors.push_back((point.at - fit.circle.centre).norm() - fit.circle.radius);
+      errors.push_back((point.at - fit.circle.centre_px).norm() - fit.circle.radius_px);
       sizes.push_back(std::abs(errors.back()));
     }
     fit.spread_px = std::max(kLeastSpread_px, 1.4826 * median_of(sizes));
@@ -156,7 +150,7 @@ std::optional<CircleFit> fit_circle(std::vector<EdgePoint>& points, Circle circl
       const double relative = errors[i] / (kTukey * fit.spread_px);
       points[i].weight =
           std::abs(relative) < 1.0 ? (1.0 - relative * relative) * (1.0 - relative * relative) : 0.0;
-      const Eigen::Vector2d outwards = (points[i].at - fit.circle.centre).normalized();
+      const Eigen::Vector2d outwards = (points[i].at - fit.circle.centre_px).normalized();
       const Eigen::Vector3d slope(outwards.x(), outwards.y(), 1.0);
       information += points[i].weight * slope * slope.transpose();
       sum += points[i].weight * errors[i] * slope;
@@ -164,53 +158,27 @@ std::optional<CircleFit> fit_circle(std::vector<EdgePoint>& points, Circle circl
     const Eigen::LLT<Eigen::Matrix3d> solver(information);
     if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-4)) return std::nullopt;
     const Eigen::Vector3d change = solver.solve(sum);
-    fit.circle.centre += change.head<2>();
-    fit.circle.radius += change.z();
+    fit.circle.centre_px += change.head<2>();
+    fit.circle.radius_px += change.z();
     fit.covariance = fit.spread_px * fit.spread_px * solver.solve(Eigen::Matrix3d::Identity());
-    if (!fit.covariance.allFinite() || !(fit.circle.radius > 0.0)) return std::nullopt;
+    if (!fit.covariance.allFinite() || !(fit.circle.radius_px > 0.0)) return std::nullopt;
   }
   return fit;
 }
 
-/// The first and last pixels of the patch's colour in each row and column of its box, but for those at the
-/// picture's border, where it is cut.
-std::vector<EdgePoint> outline_pixels(const cv::Mat& image, const Blob& blob, const ColourTable& table) {
-  std::vector<EdgePoint> points;
-  const auto is_patch = [&](int x, int y) {
-    const cv::Vec3b& bgr = image.at<cv::Vec3b>(y, x);
-    return table.classify(bgr[0], bgr[1], bgr[2]) == blob.colour;
-  };
-  const auto add = [&](int x, int y) {
-    if (x > 0 && y > 0 && x < image.cols - 1 && y < image.rows - 1)
-      points.push_back({Eigen::Vector2d::Zero(), Eigen::Vector2d(x, y)});
-  };
-  const auto add_ends = [&](int begin, int end, const auto& at) {
-    int first = begin;
-    int last = end;
-    while (first <= last && !std::apply(is_patch, at(first))) ++first;
-    while (last > first && !std::apply(is_patch, at(last))) --last;
-    if (first > last) return;
-    std::apply(add, at(first));
-    std::apply(add, at(last));
-  };
-  for (int y = blob.min_y; y <= blob.max_y; ++y)
-    add_ends(blob.min_x, blob.max_x, [y](int x) { return std::pair(x, y); });
-  for (int x = blob.min_x; x <= blob.max_x; ++x)
-    add_ends(blob.min_y, blob.max_y, [x](int y) { return std::pair(x, y); });
-  return points;
-}
-
-/// The circle through a patch's outermost pixels; that of its box where they make none.
+/// The circle through a patch's boundary; that of its box where it makes none.
 Circle first_guess(const cv::Mat& image, const Blob& blob, const ColourTable& table) {
   const double width = blob.max_x - blob.min_x + 1;
   const double height = blob.max_y - blob.min_y + 1;
   const Circle box = {{0.5 * (blob.min_x + blob.max_x), 0.5 * (blob.min_y + blob.max_y)},
                       0.5 * std::max(width, height)};
-  std::vector<EdgePoint> points = outline_pixels(image, blob, table);
+  std::vector<EdgePoint> points;
+  for (const Eigen::Vector2d& at : patch_boundary(image, blob, table))
+    points.push_back({Eigen::Vector2d::Zero(), at});
   const auto fit = points.size() >= 6 ? fit_circle(points, box) : std::nullopt;
-  const bool is_near = fit && fit->circle.radius < 2.0 * box.radius &&
-                       fit->circle.radius > 0.5 * box.radius &&
-                       (fit->circle.centre - box.centre).norm() < 2.0 * box.radius;
+  const bool is_near = fit && fit->circle.radius_px < 2.0 * box.radius_px &&
+                       fit->circle.radius_px > 0.5 * box.radius_px &&
+                       (fit->circle.centre_px - box.centre_px).norm() < 2.0 * box.radius_px;
   return is_near ? fit->circle : box;
 }
 
@@ -223,14 +191,14 @@ double hidden_share(const cv::Mat& image, const Circle& circle, int colour, cons
   for (int spoke = 0; spoke < kSpokes; ++spoke) {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kSpokes);
     const Eigen::Vector2d direction(c, s);
-    if (!colour_at(image, circle.centre + circle.radius * direction)) continue;
-    double reach = circle.radius;
+    if (!colour_at(image, circle.centre_px + circle.radius_px * direction)) continue;
+    double reach = circle.radius_px;
     while (reach > 0.0) {
-      const auto sample = colour_at(image, circle.centre + reach * direction);
+      const auto sample = colour_at(image, circle.centre_px + reach * direction);
       if (sample && class_of(table, *sample) == colour) break;
       reach -= kStep_px;
     }
-    const double share = std::max(0.0, reach) / circle.radius;
+    const double share = std::max(0.0, reach) / circle.radius_px;
     ++rays;
     if (share < kReach) hidden += 1.0 - share * share;
   }
@@ -243,10 +211,10 @@ double outside_share(const cv::Mat& image, const Circle& circle) {
   constexpr int kSpokes = 48;
   int outside = 0;
   for (int ring = 0; ring < kRings; ++ring) {
-    const double radius = circle.radius * std::sqrt((ring + 0.5) / kRings);  // rings of equal area
+    const double radius = circle.radius_px * std::sqrt((ring + 0.5) / kRings);  // rings of equal area
     for (int spoke = 0; spoke < kSpokes; ++spoke) {
       const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kSpokes);
-      const Eigen::Vector2d at = circle.centre + radius * Eigen::Vector2d(c, s);
+      const Eigen::Vector2d at = circle.centre_px + radius * Eigen::Vector2d(c, s);
       const bool is_inside =
           at.x() >= -0.5 && at.y() >= -0.5 && at.x() <= image.cols - 0.5 && at.y() <= image.rows - 0.5;
       outside += is_inside ? 0 : 1;
@@ -261,11 +229,12 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   Edges edges;
   for (int i = 0; i < kLooks; ++i) {
     const double share = kFirstBand + (kLastBand - kFirstBand) * i / (kLooks - 1);
-    const double band_px = std::min(std::max(share * circle.radius, kLeastBand_px), 0.9 * circle.radius);
+    const double band_px =
+        std::min(std::max(share * circle.radius_px, kLeastBand_px), 0.9 * circle.radius_px);
     edges = look(image, circle, band_px, blob.colour, table);
     if (edges.points.size() < kFewestEdges) return std::nullopt;
     fit = fit_circle(edges.points, circle);
-    if (!fit || fit->circle.radius > image.cols + image.rows) return std::nullopt;
+    if (!fit || fit->circle.radius_px > image.cols + image.rows) return std::nullopt;
     circle = fit->circle;
   }
   double seen = 0.0;
@@ -273,8 +242,8 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   if (seen < kMinArc * (edges.rays + edges.outside)) return std::nullopt;
   MeasuredOutline outline;
   outline.colour = blob.colour;
-  outline.centre_px = circle.centre;
-  outline.radius_px = circle.radius;
+  outline.centre_px = circle.centre_px;
+  outline.radius_px = circle.radius_px;
   outline.covariance_px2 = fit->covariance;
   outline.outside_fraction = outside_share(image, circle);
   outline.hidden_fraction = hidden_share(image, circle, blob.colour, table);

@@ -133,7 +133,7 @@ Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std:
   made.world.floor = any_material(settings.plain, draws);
   made.world.walls = walls_around(kWallDistance * settings.depths.farthest_m, settings.plain, draws);
   made.path.clear();
-  const double radius_m = scenario.world.balls.empty() ? Ball{}.radius_m : scenario.world.balls[0].radius_m;
+  const double radius_m = scenario.world.ball_radius_m();
   const int looks = looks_around(scenario.rig.camera);
   for (int look = 0; look < looks; ++look) {
     const double heading = slam::wrap_angle(2.0 * std::numbers::pi * look / looks);

@@ -86,6 +86,9 @@ struct World {
   Eigen::Vector3d floor_tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
   Light light;
   Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]
+
+  /// How large its balls are, as detectors are told: like the first one, or the usual size.
+  double ball_radius_m() const { return balls.empty() ? Ball{}.radius_m : balls.front().radius_m; }
 };
 
 /// One instant of the robot's drive: where it is, and the true controls that brought it here.

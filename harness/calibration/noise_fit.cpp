@@ -8,16 +8,19 @@
 
 #include <Eigen/LU>
 
+#include "harness/scoring/chi_square.h"
 #include "slam/elementary.h"
 #include "slam/gaussian.h"
+#include "slam/noise_law.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr double kGateProbability = 0.9999;
-constexpr double kMedianOfSquares = 0.4549;  // of a standard normal's square
-constexpr double kGate1 = 15.14;             // chi-square of one degree of freedom at 0.9999
 constexpr int kReweightings = 50;
+
+/// What of a standard normal's squares lies half below, and what filters would still believe.
+const double kMedianOfSquares = chi_square_quantile(0.5, 1);
+const double kFarthestSquare = chi_square_quantile(slam::FilterConfig{}.gate_probability, 1);
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -28,7 +31,7 @@ double median(std::vector<double> values) {
 
 /// The mean of squares that are chi-square's of one degree of freedom times a number, to that number.
 double robust_scale2(const std::vector<double>& squares) {
-  const double limit = kGate1 * median(squares) / kMedianOfSquares;
+  const double limit = kFarthestSquare * median(squares) / kMedianOfSquares;
   double sum = 0.0;
   long count = 0;
   for (const double square : squares) {
@@ -59,7 +62,7 @@ Eigen::Vector2d fit_range_variance(std::span<const CalibrationSample> samples) {
     for (std::size_t i = 0; i < squares.size(); ++i) {
       const Eigen::Vector2d by_law(1.0, growth[i]);
       const double variance = std::max(law.dot(by_law), least);
-      if (squares[i] > kGate1 * variance) continue;
+      if (squares[i] > kFarthestSquare * variance) continue;
       normal += by_law * by_law.transpose() / (variance * variance);
       right += by_law * squares[i] / (variance * variance);
     }
@@ -81,7 +84,7 @@ double correlation(const Eigen::Matrix2d& covariance) {
 }
 
 CalibrationBin summarise(std::span<const CalibrationSample* const> samples, const FittedNoise& noise) {
-  const double gate = slam::chi_square_2_quantile(kGateProbability);
+  const double gate = slam::chi_square_2_quantile(slam::FilterConfig{}.gate_probability);
   CalibrationBin bin;
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d pulls = Eigen::Matrix2d::Zero();
@@ -140,13 +143,14 @@ FittedNoise fit_noise(std::span<const CalibrationSample> samples) {
 }
 
 Eigen::Matrix2d covariance_of(const CalibrationSample& sample, const FittedNoise& noise, NoiseKind kind) {
-  if (kind == NoiseKind::kStated) return sample.stated;
-  if (kind == NoiseKind::kScaled)
-    return noise.stated_sd_scale.asDiagonal() * sample.stated * noise.stated_sd_scale.asDiagonal();
-  const double growing = noise.stereo.range_sd_per_m2 * sample.truth.x() * sample.truth.x();
-  const Eigen::Vector2d variance(noise.stereo.range_sd_m * noise.stereo.range_sd_m + growing * growing,
-                                 noise.stereo.bearing_sd_rad * noise.stereo.bearing_sd_rad);
-  return variance.asDiagonal();
+  slam::FilterConfig config;
+  config.range_floor_m = 0.0;
+  config.bearing_floor_rad = 0.0;
+  if (kind == NoiseKind::kScaled) config.stated_sd_scale = noise.stated_sd_scale;
+  if (kind == NoiseKind::kStereo) config.noise_law = noise.stereo;
+  slam::RangeBearing seen;
+  seen.covariance = sample.stated;
+  return slam::noise_at(slam::observe(seen, config), sample.truth);
 }
 
 std::vector<CalibrationBin> bin_samples(std::span<const CalibrationSample> samples, const FittedNoise& noise,

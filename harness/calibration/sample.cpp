@@ -15,7 +15,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kWholeFraction = 0.95;
 constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding
 
 /// The bound on range and bearing that those on both outlines' centres make; zero where there is none.
@@ -41,7 +40,7 @@ CalibrationSample compare(const BallOutline& ball, const slam::RangeBearing& see
   sample.truth = {place.norm(), slam::arc_tangent(place.y(), place.x())};
   sample.error = {seen.range_m - sample.truth.x(), slam::wrap_angle(seen.bearing_rad - sample.truth.y())};
   sample.stated = seen.covariance;
-  sample.whole = ball.inside_both && std::min(ball.left_fraction, ball.right_fraction) >= kWholeFraction;
+  sample.whole = is_whole(ball);
   return sample;
 }
 

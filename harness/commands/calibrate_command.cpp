@@ -55,10 +55,8 @@ int run_calibration(const CalibrateArguments& arguments) {
     throw std::runtime_error("--seeds: expected at least two, one of them to be held out");
   const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
   prepare_output_folder(out);
-  const double radius_m =
-      scenario.world.balls.empty() ? worlds::Ball{}.radius_m : scenario.world.balls[0].radius_m;
-  const worlds::GalleryDepths depths =
-      worlds::measurable_depths(scenario.rig, radius_m, vision::ObserverSettings{}.min_radius_px);
+  const worlds::GalleryDepths depths = worlds::measurable_depths(scenario.rig, scenario.world.ball_radius_m(),
+                                                                 vision::ObserverSettings{}.min_radius_px);
   const auto takes = take_all(scenario, {depths, arguments.plain}, seeds, arguments.scenario);
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;

@@ -12,7 +12,7 @@
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/measurement_log_writer.h"
 #include "harness/dataset/picture_file.h"
-#include "vision/palette.h"
+#include "worlds/paint.h"
 
 namespace stereobench::harness {
 namespace {
@@ -71,9 +71,7 @@ std::string balls_csv(const worlds::World& world) {
   std::string csv = "ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m\n";
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const worlds::Ball& ball = world.balls[i];
-    const vision::PaletteColour colour = vision::kPalette[static_cast<std::size_t>(ball.colour)];
-    const Eigen::Vector3d rgb = ball.paint_rgb ? Eigen::Vector3d(255.0 * *ball.paint_rgb)
-                                               : Eigen::Vector3d(colour.r, colour.g, colour.b);
+    const Eigen::Vector3d rgb = 255.0 * worlds::paint_of(ball);
     csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.x(), rgb.y(), rgb.z(),
                        ball.centre_m.x(), ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
   }

@@ -11,12 +11,11 @@ constexpr double kTypicalLevel = 128.0;  ///< at which detectors are told how la
 }  // namespace
 
 DetectorSetup detector_setup(const worlds::Scenario& scenario) {
-  DetectorSetup setup{.rig = scenario.believed_rig,
-                      .noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel),
-                      .encoding = scenario.camera.encoding,
-                      .gamma = scenario.camera.gamma};
-  if (!scenario.world.balls.empty()) setup.ball_radius_m = scenario.world.balls.front().radius_m;
-  return setup;
+  return {.rig = scenario.believed_rig,
+          .ball_radius_m = scenario.world.ball_radius_m(),
+          .noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel),
+          .encoding = scenario.camera.encoding,
+          .gamma = scenario.camera.gamma};
 }
 
 Detector our_detector(const DetectorSetup& setup) {

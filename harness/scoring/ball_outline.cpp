@@ -1,5 +1,6 @@
 #include "harness/scoring/ball_outline.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "renderer/ball_truth.h"
@@ -10,6 +11,8 @@
 namespace stereobench::harness {
 
 namespace {
+
+constexpr double kWholeFraction = 0.95;  // that is seen of a ball that is called whole
 
 using vision::Eye;
 using vision::OutlineEllipse;
@@ -59,6 +62,10 @@ bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
   const double along = (c * offset.x() + s * offset.y()) / ellipse.semi_major_px;
   const double across = (c * offset.y() - s * offset.x()) / ellipse.semi_minor_px;
   return along * along + across * across <= 1.0;
+}
+
+bool is_whole(const BallOutline& ball) {
+  return ball.inside_both && std::min(ball.left_fraction, ball.right_fraction) >= kWholeFraction;
 }
 
 std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {

@@ -30,6 +30,9 @@ struct BallOutline {
   bool inside_both = false;  ///< the whole outline lies within both images
 };
 
+/// Whether both eyes see a ball all but whole: inside of their images, at least 95 % of it not hidden.
+bool is_whole(const BallOutline& ball);
+
 /// The outlines of the balls in a pair.
 /// @return one for each ball that is wholly ahead of both eyes, also outside the images, in order of the
 /// balls

@@ -16,12 +16,10 @@ namespace stereobench::harness {
 namespace {
 
 constexpr double kSmallestRadius_px = 5.0;
-constexpr double kVisibleFraction = 0.95;
 
 /// A ball has to be found when it is whole, not tiny and hardly hidden.
 bool must_be_found(const BallOutline& ball) {
-  return ball.inside_both && std::min(ball.left.radius_px(), ball.right.radius_px()) >= kSmallestRadius_px &&
-         std::min(ball.left_fraction, ball.right_fraction) >= kVisibleFraction;
+  return is_whole(ball) && std::min(ball.left.radius_px(), ball.right.radius_px()) >= kSmallestRadius_px;
 }
 
 /// Whether an observation claims no other colour than the ball has.

@@ -27,12 +27,7 @@ constexpr double kNoise_levels = 2.0;
 enum class Hider { kEdge, kBall, kBorder };
 
 StereoRig small_rig() {
-  StereoRig rig;
-  rig.camera.width_px = 512;
-  rig.camera.height_px = 384;
-  rig.camera.cx_px = 255.5;
-  rig.camera.cy_px = 191.5;
-  return rig;
+  return painter::rig_with_pictures_of(512, 384);
 }
 
 // Where the line of sight of the middle of the eyes to a point passes a depth.

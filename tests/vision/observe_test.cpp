@@ -20,12 +20,7 @@ using painter::Scene;
 
 // A narrow camera: as sharp as the real one, with fewer pixels to paint.
 StereoRig small_rig() {
-  StereoRig rig;
-  rig.camera.width_px = 560;
-  rig.camera.height_px = 420;
-  rig.camera.cx_px = 279.5;
-  rig.camera.cy_px = 209.5;
-  return rig;
+  return painter::rig_with_pictures_of(560, 420);
 }
 
 std::vector<BallObservation> observed(const Scene& scene, const StereoRig& rig) {

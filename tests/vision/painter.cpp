@@ -258,6 +258,15 @@ double Dice::normal() {
   return std::sqrt(-2.0 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
 }
 
+StereoRig rig_with_pictures_of(int width_px, int height_px) {
+  StereoRig rig;
+  rig.camera.width_px = width_px;
+  rig.camera.height_px = height_px;
+  rig.camera.cx_px = 0.5 * (width_px - 1);
+  rig.camera.cy_px = 0.5 * (height_px - 1);
+  return rig;
+}
+
 StereoPair paint(const Scene& scene, const StereoRig& rig) {
   Dice dice(scene.seed);
   EyePainter left(scene, rig, 0.0);

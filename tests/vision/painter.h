@@ -37,6 +37,9 @@ struct Scene {
   std::uint64_t seed = 0;
 };
 
+/// The usual rig with smaller pictures.
+StereoRig rig_with_pictures_of(int width_px, int height_px);
+
 StereoPair paint(const Scene& scene, const StereoRig& rig);
 
 /// How much of a ball's outline an eye sees, in [0, 1], the smaller of both eyes; what is beyond the border

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/random_circle.h"
 #include "tests/worlds/scenario_text.h"
 #include "worlds/paint.h"
 #include "worlds/scenario.h"
@@ -16,20 +17,8 @@
 namespace stereobench::worlds {
 namespace {
 
-const std::string kCircle = std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/ball_circle.yaml";
 const std::vector<std::string> kGroups = {"ball_colours", "walls",   "floor",
                                           "light",        "clutter", "distractors"};
-const std::string kAll =
-    "randomise={ball_colours: {}, walls: {}, floor: {}, light: {}, clutter: {}, distractors: {}}";
-
-Scenario scenario_with(const std::string& randomise) {
-  return read_scenario(kCircle, {randomise, "path.laps=1"});
-}
-
-const Scenario& everything() {
-  static const Scenario scenario = scenario_with(kAll);
-  return scenario;
-}
 
 /// Where a thing stands is what is left of several attempts.
 bool is_of_a_place(const std::string& key) {

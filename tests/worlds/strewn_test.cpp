@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/random_circle.h"
 #include "tests/worlds/views.h"
 #include "worlds/paint.h"
 #include "worlds/randomise.h"
@@ -16,19 +17,6 @@
 
 namespace stereobench::worlds {
 namespace {
-
-const std::string kCircle = std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/ball_circle.yaml";
-const std::string kAll =
-    "randomise={ball_colours: {}, walls: {}, floor: {}, light: {}, clutter: {}, distractors: {}}";
-
-Scenario scenario_with(const std::string& randomise) {
-  return read_scenario(kCircle, {randomise, "path.laps=1"});
-}
-
-const Scenario& everything() {
-  static const Scenario scenario = scenario_with(kAll);
-  return scenario;
-}
 
 /// Whether a sightline from an eye to a point meets a box, by its slabs.
 bool meets(const MeshInstance& box, const Eigen::Vector3d& eye, const Eigen::Vector3d& point) {
