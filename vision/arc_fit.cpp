@@ -8,12 +8,14 @@
 namespace stereobench::vision {
 namespace {
 
-// The noise law, its constants measured on painted balls so that NIS/2 is 1
-// (tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over a whole
-// outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). Texture in the background is an
-// error that an arc's pixels share.
-constexpr double kQuantisation = 0.005;  // c
-constexpr double kNoiseFactor = 1.35;    // k
+// The noise law, its constants measured on rendered and painted balls so that NIS/2 is 1 (`stereobench
+// calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
+// a whole outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). The smaller a ball, the
+// fewer pixels tell its shading, and k grows. Texture in the background is an error that an arc's pixels
+// share.
+constexpr double kQuantisation = 0.004;        // c
+constexpr double kNoiseFactor = 1.1;           // k of a large ball
+constexpr double kNoiseFactorPerRadius = 3.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 
 constexpr int kReweightings = 4;
@@ -38,6 +40,7 @@ std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>
   std::vector<ArcOffset> arcs(rim.sectors);
   std::vector<double> information(rim.sectors, 0.0);
   const double reach_px = std::max(ramp_half_width_px, 1.5);
+  const double noise_factor = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
     if (!colour.usable || std::abs(pixel.distance_px) > reach_px) continue;
@@ -45,18 +48,20 @@ std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>
     const Coverage covered =
         ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : edge_coverage(point);
     if (covered.per_px <= 0.0) continue;
-    const double alpha = colour.unmix.dot(pixel.bgr - colour.background);
+    const double whole = colour.unmix.dot(pixel.shade + colour.beyond_shade - colour.background);
+    const double shown = colour.unmix.dot(pixel.bgr - colour.background);
+    const double slope = covered.per_px * whole;
     ArcOffset& arc = arcs[pixel.sector];
-    arc.offset_px += covered.per_px * (alpha - covered.fraction);
-    arc.normal += covered.per_px * covered.per_px * point.normal;
-    information[pixel.sector] += covered.per_px * covered.per_px;
+    arc.offset_px += slope * (shown - covered.fraction * whole);
+    arc.normal += slope * slope * point.normal;
+    information[pixel.sector] += slope * slope;
   }
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     if (!(information[i] > 0.25)) continue;
     arcs[i].offset_px /= information[i];
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
-        (kNoiseFactor * colours[i].noise_variance + kQuantisation * kQuantisation) / information[i] +
+        (noise_factor * colours[i].noise_variance + kQuantisation * kQuantisation) / information[i] +
         kTextureFactor * colours[i].texture_variance;
     arcs[i].weight = 1.0;
   }

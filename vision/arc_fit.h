@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "vision/arc_colours.h"
 #include "vision/outline_model.h"
 #include "vision/rim.h"
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "vision/arc_colours.h"
 #include "vision/arc_fit.h"
 #include "vision/boundary_guess.h"
 #include "vision/palette.h"
 #include "vision/rim.h"
+#include "vision/shading.h"
 
 namespace stereobench::vision {
 namespace {
@@ -19,9 +21,11 @@ constexpr double kRing_px = 2.0;          // width of the ring that the colours 
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kLookAgainAbove_px = 0.2;
 constexpr int kSharpSteps = 12;
+constexpr int kShadedSteps = 2;
 constexpr double kConverged_px = 1e-3;
 constexpr double kTolerance_px = 0.02;  // between arcs of one sharp outline, whatever the noise says
 constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ball's
+constexpr double kRimSd_px = 0.005;     // of all arcs together: what a camera and a lamp make of a rim
 constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 1000.0;
@@ -73,9 +77,10 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
 }
 
 // Looks again at the image, around where the outline is by now.
-void look(Fit& fit, const cv::Mat& image, UnmixSettings unmix, double ramp_px) {
+void look(Fit& fit, const cv::Mat& image, UnmixSettings unmix, double ramp_px,
+          const std::optional<Shading>& shading = std::nullopt) {
   unmix.gap_px = std::max(kGap_px, ramp_px);
-  fit.rim = collect_rim(image, fit.outline, unmix.gap_px + kRing_px);
+  fit.rim = collect_rim(image, fit.outline, unmix.gap_px + kRing_px, shading);
   fit.colours = arc_colours(fit.rim, unmix);
 }
 
@@ -95,6 +100,10 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     change = improve(fit, settings, 0.0);
     if (!change) return std::nullopt;
   }
+  const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
+  look(fit, image, unmix, 0.0, fit_shading(image, settings.camera, fit.outline, shades, kGap_px));
+  for (int i = 0; i < kShadedSteps; ++i)
+    if (!improve(fit, settings, 0.0)) return std::nullopt;
   return fit;
 }
 
@@ -138,8 +147,9 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
   if (covered <= 0.0) return 0.0;
   if (!colours.usable) return shades.contain(pixel.bgr) ? 0.0 : covered;
   if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
-  const double alpha = colours.unmix.dot(pixel.bgr - colours.background);
-  return std::clamp(covered - alpha, 0.0, covered);
+  const double whole = colours.unmix.dot(pixel.shade + colours.beyond_shade - colours.background);
+  const double shown = colours.unmix.dot(pixel.bgr - colours.background) / whole;
+  return std::clamp(covered - shown, 0.0, covered);
 }
 
 // Area of the outline, px, in which the image does not show the ball.
@@ -197,6 +207,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   result.centre_px = fit->outline.centre_px();
   result.radius_px = radius;
   result.covariance_px2 = fit->covariance_px2;
+  result.covariance_px2(2, 2) += kRimSd_px * kRimSd_px;
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, *fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit->outline) / (kPi * radius * radius);

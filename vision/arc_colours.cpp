@@ -1,0 +1,238 @@
+#include "vision/arc_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Cholesky>
+
+namespace stereobench::vision {
+namespace {
+
+constexpr double kRingWidth_px = 2.0;
+constexpr std::size_t kBackgroundArcs = 2;  // to either side, that may show the same background
+constexpr std::size_t kShadeArcs = 3;       // to either side, that tell how good the shading is
+constexpr double kUnknownShade = 0.12;      // sd of the ball's brightness at the rim, relative
+constexpr double kLeastShade = 0.01;        // the same where the shading suits all that is seen
+constexpr double kShadeAtRim = 2.0;         // times as uncertain as beside it
+constexpr double kTextureSigmas = 2.0;
+constexpr std::size_t kTextureArcs = 1;    // to either side
+constexpr double kTextureElsewhere = 0.2;  // of what the whole ring shows
+constexpr double kMeanSquareShare = 0.4;   // of either colour in a rim pixel
+constexpr double kMinContrast_levels = 14.0;
+constexpr double kMaxAlphaSd = 0.5;  // a pixel that knows its share no better says nothing
+
+// Sums over pixels that show the background alone.
+struct BackgroundSums {
+  double count = 0.0;
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& bgr) {
+    count += 1.0;
+    colour += bgr;
+    squares.noalias() += bgr * bgr.transpose();
+  }
+  void add(const BackgroundSums& other) {
+    count += other.count;
+    colour += other.colour;
+    squares += other.squares;
+  }
+  Eigen::Vector3d mean() const { return colour / count; }
+  Eigen::Matrix3d scatter() const { return squares - colour * colour.transpose() / count; }
+};
+
+// Sums over pixels that show the ball alone, or over those that the outline crosses.
+struct BallSums {
+  double count = 0.0;
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shade = Eigen::Vector3d::Zero();
+
+  void add(const RimPixel& pixel) {
+    count += 1.0;
+    colour += pixel.bgr;
+    shade += pixel.shade;
+  }
+  void add(const BallSums& other) {
+    count += other.count;
+    colour += other.colour;
+    shade += other.shade;
+  }
+  Eigen::Vector3d mean() const { return colour / count; }
+  Eigen::Vector3d beyond_shade() const { return (colour - shade) / count; }
+};
+
+struct ArcSamples {
+  BallSums inside;
+  BallSums crossed;
+  BackgroundSums outside;
+  bool shows_ball = false;
+};
+
+using Arcs = std::vector<ArcSamples>;
+
+Arcs sample_arcs(const Rim& rim, const UnmixSettings& settings, double noise_variance) {
+  Arcs arcs(rim.sectors);
+  for (const RimPixel& pixel : rim.pixels) {
+    ArcSamples& arc = arcs[pixel.sector];
+    const double beyond_gap = std::abs(pixel.distance_px) - settings.gap_px;
+    if (beyond_gap < 0.0) arc.crossed.add(pixel);
+    if (beyond_gap < 0.0 || beyond_gap > kRingWidth_px) continue;
+    if (pixel.distance_px < 0.0) {
+      arc.inside.add(pixel);
+    } else {
+      arc.outside.add(pixel.bgr);
+    }
+  }
+  const Arcs own = arcs;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    BallSums& inside = arcs[i].inside;
+    if (inside.count < 3.0) {  // small balls have few pixels inside: the arcs on both sides help out
+      inside.add(own[(i + 1) % own.size()].inside);
+      inside.add(own[(i + own.size() - 1) % own.size()].inside);
+    }
+    if (inside.count < 2.0) continue;
+    const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / inside.count));
+    arcs[i].shows_ball = shades.contain(inside.mean());
+  }
+  return arcs;
+}
+
+// Visits an arc and as many as `reach` to either side of it, each once.
+template <typename Visit>
+void visit_around(const Arcs& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
+  const std::size_t count = std::min(2 * reach + 1, arcs.size());
+  for (std::size_t step = 0; step < count; ++step)
+    visit(arcs[(arc + arcs.size() - reach % arcs.size() + step) % arcs.size()]);
+}
+
+// How much of a difference is believed whose square is `squares` times its noise's, of so many degrees of
+// freedom (the positive part of James and Stein's estimate).
+double believed_part(double squares, double freedom) {
+  return squares > freedom ? 1.0 - freedom / squares : 0.0;
+}
+
+// The background beside an arc: its own, drawn towards that of the arcs around.
+Eigen::Vector3d background_beside(const Arcs& arcs, std::size_t arc, double noise_variance) {
+  BackgroundSums around;
+  visit_around(arcs, arc, kBackgroundArcs, [&](const ArcSamples& other) { around.add(other.outside); });
+  double squares = 0.0;
+  double freedom = -5.0;  // three for their mean, two by James and Stein
+  visit_around(arcs, arc, kBackgroundArcs, [&](const ArcSamples& other) {
+    if (other.outside.count < 2.0) return;
+    squares += other.outside.count * (other.outside.mean() - around.mean()).squaredNorm() / noise_variance;
+    freedom += 3.0;
+  });
+  const Eigen::Vector3d own = arcs[arc].outside.mean();
+  if (!(freedom > 0.0)) return own;
+  return around.mean() + believed_part(squares, freedom) * (own - around.mean());
+}
+
+// How the background's colours scatter beyond what noise explains: its own trace would be off by
+// noise_variance sqrt(6 / freedom).
+Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double noise_variance) {
+  if (!(freedom > 0.0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d beyond = scatter / freedom - noise_variance * Eigen::Matrix3d::Identity();
+  const double by_chance = kTextureSigmas * noise_variance * std::sqrt(6.0 / freedom);
+  return beyond.trace() > by_chance ? beyond : Eigen::Matrix3d::Zero();
+}
+
+// Beside all arcs, each about its own mean. An edge in the background may lie under the rim and be seen
+// nowhere.
+Eigen::Matrix3d texture_everywhere(const Arcs& arcs, double noise_variance) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  double freedom = 0.0;
+  for (const ArcSamples& arc : arcs) {
+    if (arc.outside.count < 2.0) continue;
+    scatter += arc.outside.scatter();
+    freedom += arc.outside.count - 1.0;
+  }
+  return texture(scatter, freedom, noise_variance);
+}
+
+// Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
+Eigen::Matrix3d texture_around(const Arcs& arcs, std::size_t arc, double noise_variance) {
+  BackgroundSums around;
+  visit_around(arcs, arc, kTextureArcs, [&](const ArcSamples& other) { around.add(other.outside); });
+  return texture(around.scatter(), around.count - 1.0, noise_variance);
+}
+
+// How well the ball's colours at the rim of an arc are known.
+struct ShadeTrust {
+  double beyond_shade = 1.0;  // part of what is shown beyond the shading that is not noise
+  double relative_sd = kUnknownShade;
+};
+
+ShadeTrust trust_around(const Arcs& arcs, std::size_t arc, double noise_variance) {
+  double squares = 0.0;
+  double freedom = -2.0;
+  double of_brightness = 0.0;
+  double brightness = 0.0;
+  visit_around(arcs, arc, kShadeArcs, [&](const ArcSamples& other) {
+    if (!other.shows_ball) return;
+    const Eigen::Vector3d mean = other.inside.mean();
+    const Eigen::Vector3d beyond = other.inside.beyond_shade();
+    const double along = beyond.dot(mean);
+    squares += other.inside.count * beyond.squaredNorm() / noise_variance;
+    freedom += 3.0;
+    of_brightness += other.inside.count * along * along / mean.squaredNorm() - noise_variance;
+    brightness += other.inside.count * mean.squaredNorm();
+  });
+  if (!(freedom > 0.0)) return {};
+  const double beside = std::max(0.0, of_brightness / brightness);
+  const double at_rim = std::sqrt(kShadeAtRim * kShadeAtRim * beside + kLeastShade * kLeastShade);
+  return {believed_part(squares, freedom), std::min(kUnknownShade, at_rim)};
+}
+
+// What disturbs the colours of an arc's pixels.
+struct Disturbance {
+  double noise_variance = 0.0;  // of each channel
+  Eigen::Matrix3d texture = Eigen::Matrix3d::Zero();
+  double shade_sd = 0.0;  // of the ball's brightness, relative
+};
+
+// Generalised least squares of I - background = alpha (ball - background). The image's noise disturbs all
+// channels alike, the shade at the rim lies along the ball's own colour, and texture mostly along grey: alpha
+// is read in the direction that suffers least from the three of them.
+void unmix(ArcColours& arc, const Eigen::Vector3d& ball, const Disturbance& disturbance) {
+  const Eigen::Vector3d contrast = ball - arc.background;
+  if (!(contrast.norm() > kMinContrast_levels)) return;
+  const Eigen::Vector3d shade = disturbance.shade_sd * ball;
+  const Eigen::Matrix3d covariance = disturbance.noise_variance * Eigen::Matrix3d::Identity() +
+                                     kMeanSquareShare * (shade * shade.transpose() + disturbance.texture);
+  const Eigen::LDLT<Eigen::Matrix3d> solver(covariance);
+  const Eigen::Vector3d weighted = solver.solve(contrast);
+  const double strength = contrast.dot(weighted);
+  if (!solver.isPositive() || !(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return;
+  arc.unmix = weighted / strength;
+  arc.noise_variance = disturbance.noise_variance * arc.unmix.squaredNorm();
+  arc.texture_variance = std::max(0.0, arc.unmix.dot(disturbance.texture * arc.unmix));
+  arc.usable = true;
+}
+
+}  // namespace
+
+std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
+  const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
+  const Arcs samples = sample_arcs(rim, settings, noise_variance);
+  const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(samples, noise_variance);
+  std::vector<ArcColours> arcs(rim.sectors);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const ArcSamples& sample = samples[i];
+    if (!sample.shows_ball || sample.outside.count < 2.0 || sample.crossed.count < 1.0) continue;
+    const ShadeTrust trust = rim.has_shades ? trust_around(samples, i, noise_variance) : ShadeTrust{};
+    arcs[i].background = background_beside(samples, i, noise_variance);
+    arcs[i].beyond_shade = trust.beyond_shade * sample.inside.beyond_shade();
+    const Eigen::Vector3d ball = sample.crossed.shade / sample.crossed.count + arcs[i].beyond_shade;
+    unmix(arcs[i], ball,
+          {noise_variance, elsewhere + texture_around(samples, i, noise_variance), trust.relative_sd});
+  }
+  for (std::size_t i = 0; i < arcs.size(); ++i) {  // what hides one arc may begin in the next
+    if (samples[i].shows_ball || samples[i].inside.count < 2.0 || samples[i].outside.count < 2.0) continue;
+    arcs[(i + 1) % arcs.size()].usable = false;
+    arcs[(i + arcs.size() - 1) % arcs.size()].usable = false;
+  }
+  return arcs;
+}
+
+}  // namespace stereobench::vision

@@ -1,0 +1,41 @@
+/// The two colours that mix in the rim of a ball, arc by arc.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "vision/rim.h"
+
+namespace stereobench::vision {
+
+/// What the pixels of one arc are mixed of: covered . ball + (1 - covered) . background. The ball's colour at
+/// a pixel is the shading's (RimPixel::shade) plus what the arc shows beyond it.
+struct ArcColours {
+  Eigen::Vector3d background = Eigen::Vector3d::Zero();  ///< BGR, just outside
+  Eigen::Vector3d beyond_shade = Eigen::Vector3d::Zero();
+  /// How much of the ball a change of colour is worth, per level; zero where the arc shows nothing. What it
+  /// yields of the ball's colour less the background's is about 1.
+  Eigen::Vector3d unmix = Eigen::Vector3d::Zero();
+  double noise_variance = 0.0;    ///< of a pixel's share of the ball, from image noise
+  double texture_variance = 0.0;  ///< the same, since texture is not the same at the rim as beside it
+  bool usable = false;            ///< the ball's colour inside, another one outside, enough contrast
+};
+
+/// What arc colours are judged by.
+struct UnmixSettings {
+  Eigen::Vector3d ball_bgr = Eigen::Vector3d::Zero();  ///< palette colour, any brightness
+  double noise_sd_levels = 0.0;
+  double gap_px = 0.9;  ///< colours are sampled this far from the outline and two pixels further
+};
+
+/// Samples both colours of each arc and prepares how they are told apart.
+///
+/// The ball's colour at the rim is the shading's; what is shown beside the rim says how well that can be
+/// trusted. Without shading it is known from further inside only to some 12 %, since Lambert's shading
+/// changes fastest there. The background is drawn towards that of the arcs around, as far as noise explains
+/// the difference, and extrapolated to the rim where it changes steadily. Differences along which shade or
+/// the background's texture varies count for little.
+std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
+
+}  // namespace stereobench::vision
