@@ -56,9 +56,9 @@ cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px) 
   return facets;
 }
 
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows) {
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows, PicturePool& pool) {
   const cv::Size size_px(columns.size(), asked_rows.size());
-  EyeFrame frame{cv::Mat(size_px, CV_8UC3), cv::Mat(size_px, CV_8UC1), cv::Mat(size_px, CV_32FC1)};
+  EyeFrame frame{pool.take(size_px, CV_8UC3), pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
   cv::Mat pixels(std::min(kBandRows, size_px.height), size_px.width, CV_8UC4);
   for (int row = 0; row < size_px.height; row += kBandRows) {
     const cv::Range rows(row, std::min(row + kBandRows, size_px.height));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/gl.h"
+#include "renderer/picture_pool.h"
 #include "renderer/types.h"
 
 namespace stereobench::renderer {
@@ -20,7 +21,8 @@ cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px);
 
 /// Reads some rows of one eye's part of the framebuffer that is bound.
 /// @param columns of the eye's part
+/// @param pool that the pictures' memory is of
 /// @return a picture of these rows alone
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows, PicturePool& pool);
 
 }  // namespace stereobench::renderer

@@ -98,6 +98,7 @@ struct Renderer::Parts {
   SurfacePainter surfaces;
   BallPainter balls;
   EdgeSmoother edges;
+  PicturePool pictures;
 
   /// @param meshes read before there is a context, as reading them forks
   Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
@@ -176,7 +177,7 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
     parts_->balls.draw(view);
   }
   const auto picture = [&](const EyeView& view) {
-    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn);
+    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn, parts_->pictures);
     parts_->edges.smooth(part_of(view, drawn), frame);
     return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : part_of(frame, drawn.start, rows);
   };
