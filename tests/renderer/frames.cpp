@@ -103,6 +103,16 @@ Difference difference(const StereoFrame& a, const StereoFrame& b) {
   return {left.ids + right.ids, left.colours + right.colours, left.depths + right.depths};
 }
 
+std::uint64_t hash_of(const StereoFrame& frame) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const EyeFrame* eye : {&frame.left, &frame.right})
+    for (const cv::Mat& picture : {eye->colour, eye->ball_id, eye->depth_m})
+      for (int row = 0; row < picture.rows; ++row)
+        for (std::size_t i = 0; i < picture.elemSize() * static_cast<std::size_t>(picture.cols); ++i)
+          hash = (hash ^ picture.ptr(row)[i]) * 1099511628211U;
+  return hash;
+}
+
 StereoFrame room_frame(std::uint64_t room, Backend backend) {
   worlds::World world = random_room(room);
   const PictureOnAWall picture(room);
