@@ -49,10 +49,10 @@ void depth_to_metres(cv::Mat& depth, float near_m) {
   for (int row = 0; row < depth.rows; ++row) row_to_metres(depth.ptr<float>(row), depth.cols, near_m);
 }
 
-cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px) {
+cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows) {
   static_assert(std::endian::native == std::endian::little, "the lowest byte is written first");
-  cv::Mat facets(size_px, CV_32SC1);
-  gl.ReadPixels(first_column_px, 0, size_px.width, size_px.height, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
+  cv::Mat facets(rows.size(), columns.size(), CV_32SC1);
+  gl.ReadPixels(columns.start, rows.start, facets.cols, facets.rows, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
   return facets;
 }
 
