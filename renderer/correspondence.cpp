@@ -1,9 +1,11 @@
 #include "renderer/correspondence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "vision/distortion.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -17,17 +19,6 @@ struct Point {
   Eigen::Vector3d in_world;
   Eigen::Vector2d place_px;  ///< in the picture it is looked for in
 };
-
-std::array<int, 4> facets_around(const cv::Mat& facets, const Eigen::Vector2d& place_px) {
-  const auto near = [](double coordinate, int size) {
-    const int low = static_cast<int>(std::floor(coordinate));
-    return std::array{std::clamp(low, 0, size - 1), std::clamp(low + 1, 0, size - 1)};
-  };
-  const auto [left, right] = near(place_px.x(), facets.cols);
-  const auto [above, below] = near(place_px.y(), facets.rows);
-  return {facets.at<int>(above, left), facets.at<int>(above, right), facets.at<int>(below, left),
-          facets.at<int>(below, right)};
-}
 
 /// Whether a line from the other eye, which reaches the point at 1, meets a facet before it. A ball's own far
 /// side is told by where it faces: at the rim its two sides are too near to each other.
@@ -51,7 +42,10 @@ bool is_hidden(const SceneGeometry& scene, const cv::Mat& facets, const Eigen::V
 class Follower {
  public:
   Follower(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to)
-      : scene_(scene), from_(from), to_(to), lines_(from.view), other_eye_m_(to.view.centre_in_world()) {}
+      : scene_(scene), from_(from), to_(to), lines_(from.view), other_eye_m_(to.view.centre_in_world()) {
+    if (!(to.view.lens == vision::Distortion{}))
+      field_ = vision::directions_seen(to.view.lens, to.view.camera);
+  }
 
   /// @param facet that the pixel sees
   /// @param shift_px set where the point has a place in the other picture's plane
@@ -59,21 +53,27 @@ class Follower {
     if (facet == kNoFacet) return Fate::kNothing;
     const Eigen::Vector3d point = scene_.seen_point(facet, lines_(u, v));
     const Eigen::Vector3d in_other = to_.view.camera_from_world * point;
-    if (!(in_other.z() > kNear_m)) return Fate::kOutside;
-    const Eigen::Vector2d there = vision::project(to_.view.camera, in_other);
-    const Eigen::Vector2d here = vision::project(from_.view.camera, from_.view.camera_from_world * point);
+    if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Fate::kOutside;
+    const Eigen::Vector2d there = shown_at(to_.view, in_other);
+    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * point);
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
-    if (!vision::project_if_visible(to_.view.camera, in_other)) return Fate::kOutside;
+    if (!vision::is_inside(to_.view.camera, there)) return Fate::kOutside;
     return is_hidden(scene_, to_.facet, other_eye_m_, {facet, point, there}) ? Fate::kHidden : Fate::kSeen;
   }
 
  private:
+  /// Whether a direction is none of those that the other picture shows: a lens may fold it into it.
+  bool is_beyond(const Eigen::Vector3d& in_other) const {
+    return field_ && !field_->contains(Eigen::Vector2d(in_other.hnormalized()));
+  }
+
   const SceneGeometry& scene_;
   const EyeSight& from_;
   const EyeSight& to_;
   Sightlines lines_;
   Eigen::Vector3d other_eye_m_;
+  std::optional<Eigen::AlignedBox2d> field_;  // of the other eye, where it has a lens
 };
 
 }  // namespace

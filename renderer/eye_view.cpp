@@ -1,5 +1,9 @@
 #include "renderer/eye_view.h"
 
+#include <stdexcept>
+
+#include "vision/distortion.h"
+
 namespace stereobench::renderer {
 namespace {
 
@@ -24,6 +28,22 @@ EyeView eye_view(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose
                                    Eigen::AngleAxisd(world_from_robot.heading_rad, Eigen::Vector3d::UnitZ()) *
                                    vision::robot_from_camera(rig, eye);
   return {placed.inverse(), rig.camera, eye == vision::Eye::kLeft ? 0 : rig.camera.width_px};
+}
+
+Eigen::Vector3d line_of_sight(const EyeView& view, const Eigen::Vector2d& pixel_px) {
+  const Eigen::Vector3d arriving = vision::pixel_ray(view.camera, pixel_px);
+  if (view.lens == vision::Distortion{}) return arriving;
+  const Eigen::Vector2d place = arriving.head<2>();
+  auto direction = vision::undistort(view.lens, place, place);
+  if (!direction) direction = vision::undistort(view.lens, place);
+  if (!direction) throw std::invalid_argument("line_of_sight: the lens folds its picture");
+  return direction->homogeneous();
+}
+
+Eigen::Vector2d shown_at(const EyeView& view, const Eigen::Vector3d& point_in_camera) {
+  if (view.lens == vision::Distortion{}) return vision::project(view.camera, point_in_camera);
+  return vision::project(view.camera,
+                         vision::distort(view.lens, point_in_camera.hnormalized()).homogeneous());
 }
 
 Eigen::Vector4d clip_point(const vision::Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {

@@ -21,6 +21,7 @@ struct EyeView {
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
   vision::Intrinsics camera;
   int first_column_px = 0;
+  vision::Distortion lens;  ///< that bends its sight; eyes that are drawn for have none
 
   /// The eye's optical centre, world frame, metres.
   Eigen::Vector3d centre_in_world() const { return camera_from_world.inverse().translation(); }
@@ -28,6 +29,15 @@ struct EyeView {
 
 /// @param world_from_robot the robot's pose in the plane
 EyeView eye_view(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& world_from_robot);
+
+/// The point of a pixel's line of sight with Z = 1, in the camera frame.
+/// @param pixel_px (0, 0) is the centre of the top-left pixel
+/// @throws std::invalid_argument where the lens folds its picture
+Eigen::Vector3d line_of_sight(const EyeView& view, const Eigen::Vector2d& pixel_px);
+
+/// Where an eye's picture shows a point, px; may lie outside of it.
+/// @param point_in_camera Z > 0 and, with a lens, a direction that it does not fold
+Eigen::Vector2d shown_at(const EyeView& view, const Eigen::Vector3d& point_in_camera);
 
 /// A point of the camera frame in clip space, w = Z.
 Eigen::Vector4d clip_point(const vision::Intrinsics& camera, const Eigen::Vector3d& point_in_camera);

@@ -17,25 +17,6 @@ constexpr int kOversampling = 2;
 constexpr int kMargin_px = 2;      // for the interpolation at the border
 constexpr int kLargest_px = 8192;  // of the pinhole's picture
 
-vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
-  const auto seen = vision::directions_seen(rig.distortion, rig.camera);
-  if (!seen) throw std::invalid_argument("Lens: the lens folds its picture");
-  vision::StereoRig pinhole = rig;
-  pinhole.distortion = {};
-  vision::Intrinsics& camera = pinhole.camera;
-  camera.focal_px = kOversampling * rig.camera.focal_px;
-  const Eigen::Vector2d first = (camera.focal_px * seen->min()).array().floor() - kMargin_px;
-  const Eigen::Vector2d last = (camera.focal_px * seen->max()).array().ceil() + kMargin_px;
-  const Eigen::Vector2d size = last - first;
-  if (!(size.maxCoeff() < kLargest_px))
-    throw std::invalid_argument("Lens: it sees more than a pinhole camera can draw");
-  camera.cx_px = -first.x();
-  camera.cy_px = -first.y();
-  camera.width_px = static_cast<int>(size.x()) + 1;
-  camera.height_px = static_cast<int>(size.y()) + 1;
-  return pinhole;
-}
-
 /// Where a grid of `density` by `density` places a pixel looks in the pinhole's picture.
 /// @return CV_64FC2
 cv::Mat places_seen(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int density) {
@@ -81,6 +62,25 @@ cv::Mat picked(const cv::Mat& straight, const cv::Mat& places) {
 }
 
 }  // namespace
+
+vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
+  const auto seen = vision::directions_seen(rig.distortion, rig.camera);
+  if (!seen) throw std::invalid_argument("Lens: the lens folds its picture");
+  vision::StereoRig pinhole = rig;
+  pinhole.distortion = {};
+  vision::Intrinsics& camera = pinhole.camera;
+  camera.focal_px = kOversampling * rig.camera.focal_px;
+  const Eigen::Vector2d first = (camera.focal_px * seen->min()).array().floor() - kMargin_px;
+  const Eigen::Vector2d last = (camera.focal_px * seen->max()).array().ceil() + kMargin_px;
+  const Eigen::Vector2d size = last - first;
+  if (!(size.maxCoeff() < kLargest_px))
+    throw std::invalid_argument("Lens: it sees more than a pinhole camera can draw");
+  camera.cx_px = -first.x();
+  camera.cy_px = -first.y();
+  camera.width_px = static_cast<int>(size.x()) + 1;
+  camera.height_px = static_cast<int>(size.y()) + 1;
+  return pinhole;
+}
 
 Lens::Lens(const vision::StereoRig& rig) : pinhole_(pinhole_rig_of(rig)) {
   cv::Mat light;

@@ -8,6 +8,10 @@
 
 namespace stereobench::renderer {
 
+/// The rig without distortion, with twice as many pixels each way, that sees all that a rig's lenses see.
+/// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
+vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig);
+
 /// Bends pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is drawn
 /// by a pinhole camera with twice as many pixels each way, and its light gathered per pixel of the bent
 /// picture at four places. Truth is that of the pinhole's pixel nearest to where the bent pixel's centre

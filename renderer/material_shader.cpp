@@ -13,23 +13,23 @@ layout(location = 1) in vec2 a_along;
 layout(location = 2) in float a_light;
 layout(location = 3) in vec3 a_colour;
 uniform mat4 u_clip_from_position;
+uniform vec3 u_tint;  // factors on the material's colours: with the light, which costs no pixel anything
 out vec2 v_along;
-out float v_light;
+out vec3 v_light;
 out vec3 v_colour;
 
 void main() {
   gl_Position = u_clip_from_position * a_position;
   v_along = a_along;
-  v_light = a_light;
+  v_light = a_light * u_tint;
   v_colour = a_colour;
 }
 )glsl";
 
 constexpr const char* kHead = R"glsl(#version 450 core
 in vec2 v_along;
-in float v_light;
+in vec3 v_light;
 out vec4 o_colour;  // blue, green, red, identity
-uniform vec3 u_tint;  // factors on the material's colours
 
 // A random value of a cell in [-1, 1]. key: the cell's coordinates times odd numbers, combined.
 float random(uint key) {
@@ -84,7 +84,7 @@ vec3 albedo(vec2 place, vec2 footprint);  // place on the material and the pixel
 
 void main() {
   vec2 footprint = max(abs(dFdx(v_along)) + abs(dFdy(v_along)), 1e-5);
-  o_colour = vec4((albedo(v_along, footprint) * v_light * u_tint).bgr, 0.0);
+  o_colour = vec4((albedo(v_along, footprint) * v_light).bgr, 0.0);
 }
 )glsl";
 

@@ -49,16 +49,16 @@ void depth_to_metres(cv::Mat& depth, float near_m) {
   for (int row = 0; row < depth.rows; ++row) row_to_metres(depth.ptr<float>(row), depth.cols, near_m);
 }
 
-cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px) {
+cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows) {
   static_assert(std::endian::native == std::endian::little, "the lowest byte is written first");
-  cv::Mat facets(size_px, CV_32SC1);
-  gl.ReadPixels(first_column_px, 0, size_px.width, size_px.height, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
+  cv::Mat facets(rows.size(), columns.size(), CV_32SC1);
+  gl.ReadPixels(columns.start, rows.start, facets.cols, facets.rows, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
   return facets;
 }
 
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows) {
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows, PicturePool& pool) {
   const cv::Size size_px(columns.size(), asked_rows.size());
-  EyeFrame frame{cv::Mat(size_px, CV_8UC3), cv::Mat(size_px, CV_8UC1), cv::Mat(size_px, CV_32FC1)};
+  EyeFrame frame{pool.take(size_px, CV_8UC3), pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
   cv::Mat pixels(std::min(kBandRows, size_px.height), size_px.width, CV_8UC4);
   for (int row = 0; row < size_px.height; row += kBandRows) {
     const cv::Range rows(row, std::min(row + kBandRows, size_px.height));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/gl.h"
+#include "renderer/picture_pool.h"
 #include "renderer/types.h"
 
 namespace stereobench::renderer {
@@ -14,13 +15,15 @@ void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame);
 /// @param depth CV_32FC1
 void depth_to_metres(cv::Mat& depth, float near_m);
 
-/// Reads one eye's part of the framebuffer that is bound, drawn as facets.
+/// Reads some rows of one eye's part of the framebuffer that is bound, drawn as facets.
+/// @param columns of the eye's part
 /// @return CV_32SC1, numbers of facets.h
-cv::Mat read_facets(const Gl& gl, int first_column_px, const cv::Size& size_px);
+cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
 
 /// Reads some rows of one eye's part of the framebuffer that is bound.
 /// @param columns of the eye's part
+/// @param pool that the pictures' memory is of
 /// @return a picture of these rows alone
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
+EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows, PicturePool& pool);
 
 }  // namespace stereobench::renderer

@@ -98,6 +98,7 @@ struct Renderer::Parts {
   SurfacePainter surfaces;
   BallPainter balls;
   EdgeSmoother edges;
+  PicturePool pictures;
 
   /// @param meshes read before there is a context, as reading them forks
   Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
@@ -151,8 +152,6 @@ struct Renderer::Parts {
   cv::Range with_neighbours(const cv::Range& rows) const {
     return {std::max(rows.start - 1, 0), std::min(rows.end + 1, rig.camera.height_px)};
   }
-
-  cv::Size size_px() const { return {rig.camera.width_px, rig.camera.height_px}; }
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
@@ -176,24 +175,27 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
     parts_->balls.draw(view);
   }
   const auto picture = [&](const EyeView& view) {
-    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn);
+    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn, parts_->pictures);
     parts_->edges.smooth(part_of(view, drawn), frame);
     return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : part_of(frame, drawn.start, rows);
   };
   return {picture(left), picture(right)};
 }
 
-StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose) {
+StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                            const cv::Range& asked) {
   require(!parts_->lens, "Renderer::sight: not for lenses that distort");
-  const auto [left, right] =
-      parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), {0, parts_->rig.camera.height_px});
+  const cv::Range rows = parts_->checked_rows(asked);
+  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
   for (const EyeView& view : {left, right}) {
     parts_->look_through(view);
     parts_->surfaces.draw_facets(view);
     parts_->balls.draw_facets(view);
   }
-  return {{left, read_facets(parts_->gl, left.first_column_px, parts_->size_px())},
-          {right, read_facets(parts_->gl, right.first_column_px, parts_->size_px())}};
+  const auto seen = [&](const EyeView& view) {
+    return EyeSight{part_of(view, rows), read_facets(parts_->gl, columns_of(view), rows)};
+  };
+  return {seen(left), seen(right)};
 }
 
 }  // namespace stereobench::renderer

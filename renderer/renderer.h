@@ -50,8 +50,10 @@ class Renderer {
 
   /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
   /// want more truth than a frame carries (eye_truth.h, correspondence.h).
-  /// @throws std::invalid_argument as render, and for lenses that distort
-  StereoSight sight(const slam::Pose& left_pose, const slam::Pose& right_pose);
+  /// @param rows of the picture, those that look now; the views are of a picture of these alone
+  /// @throws std::invalid_argument as render, and for lenses that distort: theirs is bent_sight.h
+  StereoSight sight(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                    const cv::Range& rows = cv::Range::all());
 
  private:
   struct Parts;

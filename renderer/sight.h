@@ -1,6 +1,8 @@
 /// What eyes look at, exactly: from where, and which facet of the world each pixel's centre sees.
 #pragma once
 
+#include <array>
+
 #include <opencv2/core.hpp>
 
 #include "renderer/eye_view.h"
@@ -12,6 +14,9 @@ struct EyeSight {
   EyeView view;
   cv::Mat facet;  ///< CV_32SC1, numbers of facets.h
 };
+
+/// The facets that the four pixels around a place see; those nearest to it, where it is not in the picture.
+std::array<int, 4> facets_around(const cv::Mat& facets, const Eigen::Vector2d& place_px);
 
 struct StereoSight {
   EyeSight left;

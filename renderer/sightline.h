@@ -15,17 +15,17 @@ struct Sightline {
 class Sightlines {
  public:
   explicit Sightlines(const EyeView& view)
-      : camera_(view.camera),
+      : view_(view),
         eye_m_(view.centre_in_world()),
         world_from_camera_(view.camera_from_world.linear().transpose()) {}
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
   Sightline operator()(double u, double v) const {
-    return {eye_m_, world_from_camera_ * vision::pixel_ray(camera_, {u, v})};
+    return {eye_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
   }
 
  private:
-  vision::Intrinsics camera_;
+  EyeView view_;
   Eigen::Vector3d eye_m_;
   Eigen::Matrix3d world_from_camera_;
 };

@@ -14,6 +14,7 @@
 #include "harness/dataset/draws_file.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/rendered_truth.h"
+#include "harness/dataset/truth_limits.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
 #include "harness/run/recording.h"
@@ -55,10 +56,7 @@ int render(const RenderArguments& arguments) {
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
         arguments.scenario.string()));
-  if (!arguments.truth.kinds.empty() && !(scenario.rig.distortion == vision::Distortion{}))
-    throw std::runtime_error(
-        fmt::format("{}: --truth is not there yet for lenses that distort; leave rig.distortion out",
-                    arguments.scenario.string()));
+  require_truth(arguments.truth, scenario);
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / (scenario.name + "_dataset") : arguments.out;
   const worlds::World world = worlds::world_for_seed(scenario, arguments.seed);

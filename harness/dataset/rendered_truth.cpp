@@ -9,9 +9,11 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/ball_lines.h"
 #include "harness/dataset/picture_file.h"
+#include "harness/dataset/truth_limits.h"
 #include "harness/dataset/truth_pictures.h"
 #include "renderer/ball_truth.h"
-#include "renderer/eye_truth.h"
+#include "renderer/bent_sight.h"
+#include "renderer/lens.h"
 #include "worlds/path.h"
 
 namespace stereobench::harness {
@@ -54,6 +56,11 @@ cv::Mat surface_picture(const cv::Mat& surface) {
   return narrow;
 }
 
+/// What draws straight lines for a rig.
+vision::StereoRig straight_rig(const vision::StereoRig& rig) {
+  return rig.distortion == vision::Distortion{} ? rig : renderer::pinhole_rig_of(rig);
+}
+
 }  // namespace
 
 /// One eye at one step.
@@ -61,6 +68,7 @@ struct RenderedTruth::EyeLook {
   std::size_t step;
   Eye eye;
   const cv::Mat& ball_id;
+  double late_s;
 };
 
 RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
@@ -71,7 +79,8 @@ RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
       scenario_(scenario),
       world_(world),
       scene_(world),
-      renderer_(world, scenario.rig, backend) {
+      renderer_(world, straight_rig(scenario.rig), backend) {
+  require_truth(request_, scenario);
   const std::size_t surfaces =
       static_cast<std::size_t>(renderer::first_mesh_facet(world)) + world.meshes.size();
   if (wants(TruthKind::kSurface) && surfaces > std::numeric_limits<std::uint16_t>::max())
@@ -106,44 +115,69 @@ bool RenderedTruth::has_all(const EyeLook& look) const {
 
 void RenderedTruth::write(const Look& look) {
   sights_.erase(sights_.begin(), sights_.lower_bound(look.step));
-  write_eye({look.step, Eye::kLeft, look.frame.left.ball_id});
-  write_eye({look.step, Eye::kRight, look.frame.right.ball_id});
+  write_eye({look.step, Eye::kLeft, look.frame.left.ball_id, look.late_s});
+  write_eye({look.step, Eye::kRight, look.frame.right.ball_id, look.late_s});
 }
 
-StereoSight RenderedTruth::sight_at(std::size_t step) {
-  const auto known = sights_.find(step);
-  if (known != sights_.end()) return known->second;
-  const slam::Pose left = worlds::pose_near(scenario_.path, step, 0.0);
-  const slam::Pose right = worlds::pose_near(scenario_.path, step, scenario_.shutter.right_delay_s);
-  return sights_.emplace(step, renderer_.sight(left, right)).first->second;
+StereoSight RenderedTruth::sight_of(const RowBand& band, std::size_t step, double late_s) {
+  const double offset_s = late_s + band.offset_s;
+  const slam::Pose left = worlds::pose_near(scenario_.path, step, offset_s);
+  const slam::Pose right =
+      worlds::pose_near(scenario_.path, step, offset_s + scenario_.shutter.right_delay_s);
+  if (scenario_.rig.distortion == vision::Distortion{}) return renderer_.sight(left, right, band.rows);
+  const StereoSight straight = renderer_.sight(left, right);
+  return {renderer::bent_sight(scene_, straight.left, scenario_.rig),
+          renderer::bent_sight(scene_, straight.right, scenario_.rig)};
+}
+
+/// What the eyes look at, by bands of rows; one where all rows look at once.
+const std::vector<StereoSight>& RenderedTruth::sights_at(std::size_t step, double late_s) {
+  const auto [known, is_new] = sights_.try_emplace(step);
+  if (!is_new) return known->second;
+  for (const RowBand& band : row_bands(scenario_.shutter, scenario_.rig.camera.height_px))
+    known->second.push_back(sight_of(band, step, late_s));
+  return known->second;
+}
+
+renderer::EyeTruth RenderedTruth::truth_of(const EyeLook& look) {
+  renderer::EyeTruth whole;
+  for (const StereoSight& band : sights_at(look.step, look.late_s)) {
+    const renderer::EyeTruth rows = renderer::eye_truth(scene_, eye_of(band, look.eye));
+    whole.surface.push_back(rows.surface);
+    whole.range_m.push_back(rows.range_m);
+    whole.normal.push_back(rows.normal);
+  }
+  return whole;
+}
+
+void RenderedTruth::write_pictures(const EyeLook& look) {
+  const renderer::EyeTruth truth = truth_of(look);
+  if (wants(TruthKind::kSurface))
+    write_once(file(look.step, look.eye, TruthKind::kSurface), surface_picture(truth.surface));
+  if (wants(TruthKind::kRange)) write_once(file(look.step, look.eye, TruthKind::kRange), truth.range_m);
+  if (wants(TruthKind::kNormal))
+    write_once(file(look.step, look.eye, TruthKind::kNormal), normal_picture(truth.normal));
 }
 
 void RenderedTruth::write_eye(const EyeLook& look) {
   if (has_all(look)) return;
-  const StereoSight sight = sight_at(look.step);
-  const EyeSight& here = eye_of(sight, look.eye);
+  if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal))
+    write_pictures(look);
+  const StereoSight sight = sights_at(look.step, look.late_s).front();
   if (wants(TruthKind::kBalls)) {
-    const auto truths = renderer::ball_truths(world_, here.view, look.ball_id);
+    const auto truths = renderer::ball_truths(world_, eye_of(sight, look.eye).view, look.ball_id);
     write_file_atomically(file(look.step, look.eye, TruthKind::kBalls), ball_lines(world_, truths));
-  }
-  if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal)) {
-    const renderer::EyeTruth truth = renderer::eye_truth(scene_, here);
-    if (wants(TruthKind::kSurface))
-      write_once(file(look.step, look.eye, TruthKind::kSurface), surface_picture(truth.surface));
-    if (wants(TruthKind::kRange)) write_once(file(look.step, look.eye, TruthKind::kRange), truth.range_m);
-    if (wants(TruthKind::kNormal))
-      write_once(file(look.step, look.eye, TruthKind::kNormal), normal_picture(truth.normal));
   }
   for (const TruthKind kind : {TruthKind::kDisparity, TruthKind::kMatch})
     if (wants(kind)) write_shift(look, kind, eye_of(sight, other(look.eye)));
   if (wants(TruthKind::kFlow) && look.step + 1 < scenario_.path.size())
-    write_shift(look, TruthKind::kFlow, eye_of(sight_at(look.step + 1), look.eye));
+    write_shift(look, TruthKind::kFlow, eye_of(sights_at(look.step + 1, 0.0).front(), look.eye));
 }
 
 void RenderedTruth::write_shift(const EyeLook& look, TruthKind kind, const EyeSight& to) const {
   const std::filesystem::path path = file(look.step, look.eye, kind);
   const renderer::Correspondence found =
-      renderer::correspond(scene_, eye_of(sights_.at(look.step), look.eye), to);
+      renderer::correspond(scene_, eye_of(sights_.at(look.step).front(), look.eye), to);
   const bool kitti = request_.format == TruthFormat::kKitti;
   if (kind == TruthKind::kDisparity) {
     const cv::Mat disparity = renderer::disparity_px(found, look.eye);

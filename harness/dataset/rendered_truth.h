@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <vector>
 
 #include "harness/dataset/truth_request.h"
 #include "harness/run/recording.h"
+#include "harness/run/shutter.h"
+#include "renderer/eye_truth.h"
 #include "renderer/renderer.h"
 #include "renderer/scene_geometry.h"
 
@@ -29,8 +32,8 @@ class RenderedTruth {
  public:
   /// @param folder of the data set, which exists
   /// @param scenario, world as they are rendered; they outlive this
-  /// @throws std::runtime_error when the folder cannot be written, a mesh cannot be read, or there are more
-  /// surfaces
+  /// @throws std::runtime_error as require_truth, when the folder cannot be written, a mesh cannot be read,
+  /// or there are more surfaces
   ///   than 16 bits can number
   RenderedTruth(std::filesystem::path folder, TruthRequest request, const worlds::Scenario& scenario,
                 const worlds::World& world, renderer::Backend backend);
@@ -46,8 +49,11 @@ class RenderedTruth {
   bool wants(TruthKind kind) const;
   std::filesystem::path file(std::size_t step, vision::Eye eye, TruthKind kind) const;
   bool has_all(const EyeLook& look) const;
-  renderer::StereoSight sight_at(std::size_t step);
+  renderer::StereoSight sight_of(const RowBand& band, std::size_t step, double late_s);
+  const std::vector<renderer::StereoSight>& sights_at(std::size_t step, double late_s);
+  renderer::EyeTruth truth_of(const EyeLook& look);
   void write_eye(const EyeLook& look);
+  void write_pictures(const EyeLook& look);
   void write_shift(const EyeLook& look, TruthKind kind, const renderer::EyeSight& other) const;
 
   std::filesystem::path folder_;
@@ -56,7 +62,7 @@ class RenderedTruth {
   const worlds::World& world_;
   renderer::SceneGeometry scene_;
   renderer::Renderer renderer_;
-  std::map<std::size_t, renderer::StereoSight> sights_;  // of this step and the next
+  std::map<std::size_t, std::vector<renderer::StereoSight>> sights_;  // of this step and the next, by bands
 };
 
 }  // namespace stereobench::harness

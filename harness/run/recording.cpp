@@ -61,7 +61,7 @@ class StereoSense {
     });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
-    on_look({index, frame, pair, observations});
+    on_look({index, frame, pair, observations, late_s});
     return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
   }
 

@@ -25,6 +25,7 @@ struct Look {
   const renderer::StereoFrame& frame;
   const vision::StereoPair& pair;
   const std::vector<vision::BallObservation>& observations;
+  double late_s = 0.0;  ///< by how much the eyes looked later than the step's time says
 };
 
 /// Who wants to be told while a drive goes on.

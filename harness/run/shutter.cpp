@@ -31,21 +31,29 @@ void append(const renderer::EyeFrame& rows, renderer::EyeFrame& picture) {
 
 /// The picture whose middle row looks at an offset from the step's time.
 renderer::StereoFrame rolled(const Step& step, double offset_s) {
-  const double readout_s = step.shutter.readout_s;
-  if (readout_s == 0.0) return step.seen(offset_s, cv::Range::all());
+  const std::vector<RowBand> bands = row_bands(step.shutter, step.height_px);
+  if (bands.size() == 1) return step.seen(offset_s, cv::Range::all());
   renderer::StereoFrame frame;
-  const int height = step.height_px;
-  for (int first = 0; first < height; first += kRowsAtOnce) {
-    const cv::Range rows(first, std::min(first + kRowsAtOnce, height));
-    const double share = (0.5 * (rows.start + rows.end) - 0.5 * height) / height;
-    const renderer::StereoFrame band = step.seen(offset_s + share * readout_s, rows);
-    append(band.left, frame.left);
-    append(band.right, frame.right);
+  for (const RowBand& band : bands) {
+    const renderer::StereoFrame rows = step.seen(offset_s + band.offset_s, band.rows);
+    append(rows.left, frame.left);
+    append(rows.right, frame.right);
   }
   return frame;
 }
 
 }  // namespace
+
+std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px) {
+  if (shutter.readout_s == 0.0) return {{cv::Range(0, height_px), 0.0}};
+  std::vector<RowBand> bands;
+  for (int first = 0; first < height_px; first += kRowsAtOnce) {
+    const cv::Range rows(first, std::min(first + kRowsAtOnce, height_px));
+    const double share = (0.5 * (rows.start + rows.end) - 0.5 * height_px) / height_px;
+    bands.push_back({rows, share * shutter.readout_s});
+  }
+  return bands;
+}
 
 renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
                                    std::size_t index, const worlds::Shutter& shutter, double late_s) {

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "renderer/renderer.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {
+
+/// Rows that look at one instant.
+struct RowBand {
+  cv::Range rows;
+  double offset_s;  ///< from the instant of the middle row
+};
+
+/// The bands of a picture, from the first row to the last; one where all rows look at once.
+std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px);
 
 /// Renders a step of a drive as its camera sees it: the average of the instants while the shutter is open,
 /// row after row while the chip is read out, the right eye later by its delay.

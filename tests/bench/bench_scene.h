@@ -1,29 +1,15 @@
-/// Scenes that are rendered and timed, beside copying the same pair of images.
+/// Stages that are timed on a scene, beside copying the same pair of images.
 #pragma once
 
 #include <chrono>
-#include <string>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 
 #include "renderer/renderer.h"
-#include "worlds/scenario.h"
+#include "tests/bench/scenes.h"
 
 namespace stereobench {
-
-/// A world as it is rendered from one place.
-struct Scene {
-  worlds::World world;
-  vision::StereoRig rig;
-  slam::Pose pose;
-};
-
-/// A quarter of the way along a shipped scenario's path.
-inline Scene scenario_scene(const std::string& name) {
-  const auto scenario =
-      worlds::read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml");
-  return {scenario.world, scenario.rig, scenario.path[scenario.path.size() / 4].pose};
-}
 
 /// A rendered pair and what copying it costs.
 struct Bench {

@@ -1,5 +1,4 @@
 /// The stages that touch pixels, on one core, as times and as multiples of copying the same pair of images.
-#include <cstdlib>
 #include <stdexcept>
 
 #include <benchmark/benchmark.h>
@@ -14,21 +13,6 @@ namespace stereobench {
 namespace {
 
 constexpr int kLastBackend = static_cast<int>(renderer::kBackends.size()) - 1;
-
-/// All eighteen colours in view, in three rows before the walls of ball_circle's room.
-Scene eighteen_balls() {
-  Scene scene = scenario_scene("ball_circle");
-  scene.pose = {-2.5, 1.0, 0.0};
-  scene.world.meshes.clear();
-  for (std::size_t i = 0; i < scene.world.balls.size(); ++i) {
-    const double row = static_cast<double>(i / 6);
-    const double column = static_cast<double>(i % 6) - 2.5;
-    const double ahead_m = 2.0 + 0.8 * row;
-    scene.world.balls[i].centre_m = {scene.pose.x_m + ahead_m, scene.pose.y_m + 0.18 * ahead_m * column,
-                                     0.1 + 0.2 * row};
-  }
-  return scene;
-}
 
 /// The argument is an index into kBackends; one that this machine does not have is skipped.
 void render_pair(benchmark::State& state, const Scene& scene) {
@@ -100,10 +84,3 @@ STEREOBENCH_STAGE(observe_pair, corridor_noise_2, scenario_scene("corridor"), 2.
 
 }  // namespace
 }  // namespace stereobench
-
-int main(int argc, char** argv) {
-  ::setenv("LP_NUM_THREADS", "0", 0);  // rasterise in the calling thread: figures are for one core
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-}

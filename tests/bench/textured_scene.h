@@ -1,35 +1,33 @@
 /// A room whose walls, floor and ceiling are pictures.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
-
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/bench/bench_scene.h"
+#include "tests/renderer/folder.h"
 
 namespace stereobench {
 
-/// ball_circle's balls in a textured box, 1024 texels of grain on each 2 m, drawn once for each process.
+/// ball_circle's balls in a textured box, 1024 texels of grain on each 2 m, in files that last as long as the
+/// process.
 inline Scene textured_scene() {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "stereobench_bench_textured";
-  std::filesystem::create_directories(folder);
+  static const renderer::test::Folder folder;
   cv::Mat grain(1024, 1024, CV_8UC3);
   cv::RNG random(1);
   random.fill(grain, cv::RNG::UNIFORM, 90, 200);
-  cv::imwrite((folder / "grain.png").string(), grain);
-  std::ofstream(folder / "room.mtl") << "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n";
-  std::ofstream(folder / "room.obj")
-      << "mtllib room.mtl\nusemtl grain\n"
-         "v -3 -2 0.001\nv 3 -2 0.001\nv 3 4 0.001\nv -3 4 0.001\nv -3 -2 2.5\nv 3 -2 2.5\nv 3 4 2.5\nv -3 4 "
-         "2.5\n"
-         "vt 0 0\nvt 3 0\nvt 3 1.25\nvt 0 1.25\nvt 3 3\nvt 0 3\n"
-         "f 1/1 2/2 3/5 4/6\nf 5/1 6/2 7/5 8/6\nf 1/1 2/2 6/3 5/4\nf 2/1 3/2 7/3 6/4\nf 3/1 4/2 8/3 7/4\n"
-         "f 4/1 1/2 5/3 8/4\n";
+  folder.write("grain.png", grain);
+  folder.write("room.mtl", "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n");
+  const std::string file = folder.write(
+      "room.obj",
+      "mtllib room.mtl\nusemtl grain\n"
+      "v -3 -2 0.001\nv 3 -2 0.001\nv 3 4 0.001\nv -3 4 0.001\n"
+      "v -3 -2 2.5\nv 3 -2 2.5\nv 3 4 2.5\nv -3 4 2.5\n"
+      "vt 0 0\nvt 3 0\nvt 3 1.25\nvt 0 1.25\nvt 3 3\nvt 0 3\n"
+      "f 1/1 2/2 3/5 4/6\nf 5/1 6/2 7/5 8/6\nf 1/1 2/2 6/3 5/4\nf 2/1 3/2 7/3 6/4\nf 3/1 4/2 8/3 7/4\n"
+      "f 4/1 1/2 5/3 8/4\n");
   Scene scene = scenario_scene("ball_circle");
   scene.world.walls.clear();
-  scene.world.meshes.push_back({.file = (folder / "room.obj").string(), .material = worlds::Material::kFile});
+  scene.world.meshes.push_back({.file = file, .material = worlds::Material::kFile});
   return scene;
 }
 

@@ -9,10 +9,10 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "renderer/backend.h"
 #include "renderer/renderer.h"
+#include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer::test {
@@ -49,28 +49,22 @@ Difference difference(const EyeFrame& a, const EyeFrame& b) {
 class PictureOnAWall {
  public:
   explicit PictureOnAWall(std::uint64_t seed) {
-    std::string name = (std::filesystem::temp_directory_path() / "stereobench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for a test");
-    folder_ = name;
     cv::Mat grain(256, 192, CV_8UC3);
     slam::RandomStream random(seed, slam::Stream::kWorld, 2);
     for (cv::Vec3b& texel : cv::Mat_<cv::Vec3b>(grain))
       for (int i = 0; i < 3; ++i) texel[i] = static_cast<std::uint8_t>(random.bits() >> 24U);
-    cv::imwrite((folder_ / "grain.png").string(), grain);
-    std::ofstream(folder_ / "wall.mtl") << "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n";
-    std::ofstream(folder_ / "wall.obj") << "mtllib wall.mtl\nusemtl grain\nv -4 -4 0\nv 4 -3 0\nv 0 4 "
-                                           "2.4\nvt 0 0\nvt 5 0\nvt 0 5\nf 1/1 2/2 3/3\n";
+    folder_.write("grain.png", grain);
+    folder_.write("wall.mtl", "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n");
+    file_ = folder_.write("wall.obj",
+                          "mtllib wall.mtl\nusemtl grain\nv -4 -4 0\nv 4 -3 0\nv 0 4 2.4\n"
+                          "vt 0 0\nvt 5 0\nvt 0 5\nf 1/1 2/2 3/3\n");
   }
-  ~PictureOnAWall() { std::filesystem::remove_all(folder_); }
-  PictureOnAWall(const PictureOnAWall&) = delete;
-  PictureOnAWall& operator=(const PictureOnAWall&) = delete;
 
-  worlds::MeshInstance mesh() const {
-    return {.file = (folder_ / "wall.obj").string(), .material = worlds::Material::kFile};
-  }
+  worlds::MeshInstance mesh() const { return {.file = file_, .material = worlds::Material::kFile}; }
 
  private:
-  std::filesystem::path folder_;
+  Folder folder_;
+  std::string file_;
 };
 
 StereoFrame blank_frame() {
@@ -107,6 +101,16 @@ Difference difference(const StereoFrame& a, const StereoFrame& b) {
   const Difference left = difference(a.left, b.left);
   const Difference right = difference(a.right, b.right);
   return {left.ids + right.ids, left.colours + right.colours, left.depths + right.depths};
+}
+
+std::uint64_t hash_of(const StereoFrame& frame) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const EyeFrame* eye : {&frame.left, &frame.right})
+    for (const cv::Mat& picture : {eye->colour, eye->ball_id, eye->depth_m})
+      for (int row = 0; row < picture.rows; ++row)
+        for (std::size_t i = 0; i < picture.elemSize() * static_cast<std::size_t>(picture.cols); ++i)
+          hash = (hash ^ picture.ptr(row)[i]) * 1099511628211U;
+  return hash;
 }
 
 StereoFrame room_frame(std::uint64_t room, Backend backend) {

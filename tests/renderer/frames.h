@@ -22,6 +22,9 @@ struct Difference {
 };
 Difference difference(const StereoFrame& a, const StereoFrame& b);
 
+/// Of all bytes of colours, identities and depths (FNV-1a).
+std::uint64_t hash_of(const StereoFrame& frame);
+
 /// What small_rig sees of random_room(room), with a texture in it, from random_pose(room).
 StereoFrame room_frame(std::uint64_t room, Backend backend);
 

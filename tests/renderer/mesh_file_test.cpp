@@ -2,7 +2,6 @@
 
 #include "renderer/mesh_file.h"
 
-#include <fstream>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 
 #include "renderer/mesh_surfaces.h"
 #include "renderer/renderer.h"
+#include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer {
@@ -19,9 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string written(const std::string& name, const std::string& text) {
-  const std::string file = testing::TempDir() + "/" + name;
-  std::ofstream(file) << text;
-  return file;
+  return test::folder_of_this_process().write(name, text);
 }
 
 const char* const kSquare = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 0 0 1\nf 1 2 3 4\n";

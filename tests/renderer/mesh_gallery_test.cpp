@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/mesh_file.h"
+#include "tests/renderer/folder.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -95,10 +96,11 @@ TEST(MeshGallery, AFileOfAnotherKindBehindAGoodEndingIsRefused) {
   const std::filesystem::path crash =
       kFolder / "malformed/invalid/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply";
   if (!std::filesystem::exists(crash)) GTEST_SKIP() << "no " << crash;
+  const test::Folder folder;
   for (const char* ending : {".obj", ".dae", ".gltf", ".glb", ".stl", ".fbx"}) {
-    const std::string disguised = testing::TempDir() + "/gallery_crash" + ending;
-    std::filesystem::copy_file(crash, disguised, std::filesystem::copy_options::overwrite_existing);
-    EXPECT_THROW(read_mesh(disguised, {.seconds = 0.5}), std::runtime_error) << ending;
+    const std::filesystem::path disguised = folder.path() / (std::string("crash") + ending);
+    std::filesystem::copy_file(crash, disguised);
+    EXPECT_THROW(read_mesh(disguised.string(), {.seconds = 0.5}), std::runtime_error) << ending;
   }
 }
 

@@ -10,37 +10,15 @@
 
 #include "renderer/renderer.h"
 #include "renderer/texture_pyramid.h"
+#include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/ray_caster.h"
 
 namespace stereobench::renderer {
 namespace {
 
+using test::Folder;
 using testing::HasSubstr;
-
-/// A folder of this test's own, removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::path(testing::TempDir()) / "stereobench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for a test");
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-  std::string write(const std::string& name, const cv::Mat& picture) const {
-    cv::imwrite((path_ / name).string(), picture);
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A picture of waves of several lengths and of blocks, no two corners alike.
 cv::Mat picture(int width, int height) {

@@ -5,7 +5,6 @@
 /// depth; no depth test; a mesh without its scale; 16 bits of depth.
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -13,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/renderer.h"
+#include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/ray_caster.h"
 
@@ -117,8 +117,9 @@ TEST(Truth, BallsFarFromTheWorldsOriginKeepTheirDepth) {
 }
 
 TEST(Truth, AMeshStandsTurnsAndScalesAsTheScenarioSays) {
-  const std::string file = testing::TempDir() + "/truth_wedge.obj";
-  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const test::Folder folder;
+  const std::string file =
+      folder.write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   worlds::World world = test::random_room(5);
   world.meshes.push_back({file, {1.6, 0.2, 0.1}, 0.8, {0.5, 1.5, 0.6}, worlds::Material::kWood});
   std::vector<Triangle> triangles = read_mesh(file);

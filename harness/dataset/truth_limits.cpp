@@ -1,0 +1,42 @@
+#include "harness/dataset/truth_limits.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace stereobench::harness {
+namespace {
+
+/// The line of the scenario with which there is no such truth; empty where there is.
+std::string obstacle(TruthKind kind, const worlds::Scenario& scenario) {
+  const bool has_lens = !(scenario.rig.distortion == vision::Distortion{});
+  const bool rolls = scenario.shutter.readout_s != 0.0;
+  switch (kind) {
+    case TruthKind::kSurface:
+    case TruthKind::kRange:
+    case TruthKind::kNormal:
+      return has_lens && rolls ? "shutter.readout_s behind rig.distortion" : "";
+    case TruthKind::kBalls:
+      return has_lens ? "rig.distortion" : rolls ? "shutter.readout_s" : "";
+    case TruthKind::kDisparity:
+    case TruthKind::kMatch:
+      return rolls ? "shutter.readout_s" : "";
+    case TruthKind::kFlow:
+      if (rolls) return "shutter.readout_s";
+      if (scenario.shutter.drop_probability > 0.0) return "shutter.drop_probability";
+      return scenario.shutter.late_probability > 0.0 ? "shutter.late_probability" : "";
+  }
+  throw std::invalid_argument("require_truth: no such kind of truth");
+}
+
+}  // namespace
+
+void require_truth(const TruthRequest& request, const worlds::Scenario& scenario) {
+  for (const TruthKind kind : request.kinds) {
+    const std::string line = obstacle(kind, scenario);
+    if (!line.empty())
+      throw std::runtime_error(fmt::format("--truth {}: there is none with {}", name_of(kind), line));
+  }
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,56 @@
+#include "renderer/bent_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vision/rig.h"
+
+namespace stereobench::renderer {
+namespace {
+
+/// The facet that a ray meets first. Where it meets none of them it looks into the open, or through a crack
+/// that the rasteriser has closed by snapping corners.
+/// @param around the facets of pixels around its place
+/// @param nearest that of the nearest one
+int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int nearest,
+              const Sightline& ray) {
+  if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == nearest; })) return nearest;
+  int first = kNoFacet;
+  double first_m = std::numeric_limits<double>::infinity();
+  for (const int facet : around) {
+    const double there_m = facet == kNoFacet ? first_m : scene.enter(facet, ray);
+    if (!(there_m < first_m)) continue;
+    first = facet;
+    first_m = there_m;
+  }
+  const bool is_open = std::find(around.begin(), around.end(), kNoFacet) != around.end();
+  return first == kNoFacet && !is_open ? nearest : first;
+}
+
+int nearest_of(const cv::Mat& facets, const Eigen::Vector2d& place_px) {
+  const int u = std::clamp(static_cast<int>(std::lround(place_px.x())), 0, facets.cols - 1);
+  const int v = std::clamp(static_cast<int>(std::lround(place_px.y())), 0, facets.rows - 1);
+  return facets.at<int>(v, u);
+}
+
+}  // namespace
+
+EyeSight bent_sight(const SceneGeometry& scene, const EyeSight& straight, const vision::StereoRig& rig) {
+  EyeSight bent{straight.view, cv::Mat(rig.camera.height_px, rig.camera.width_px, CV_32SC1)};
+  bent.view.camera = rig.camera;
+  bent.view.lens = rig.distortion;
+  const Sightlines lines(bent.view);
+  const Eigen::Matrix3d turn = bent.view.camera_from_world.linear();
+  for (int v = 0; v < bent.facet.rows; ++v) {
+    for (int u = 0; u < bent.facet.cols; ++u) {
+      const Sightline line = lines(u, v);
+      const Eigen::Vector2d place = vision::project(straight.view.camera, turn * line.direction);
+      bent.facet.at<int>(v, u) =
+          first_met(scene, facets_around(straight.facet, place), nearest_of(straight.facet, place), line);
+    }
+  }
+  return bent;
+}
+
+}  // namespace stereobench::renderer
