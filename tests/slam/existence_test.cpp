@@ -16,16 +16,17 @@ Observation observed(double range_m, double bearing_rad) {
   return {{range_m, bearing_rad}, Eigen::Vector2d(0.1 * 0.1, 0.02 * 0.02).asDiagonal()};
 }
 
-// Meant to catch: any of the four that does not ask whether a sector is declared.
+// Mutations: any of the four that does not ask whether a sector is declared.
 TEST(Existence, WithoutADeclaredSectorEverythingIsTakenForReal) {
   const Existence existence{SensorSector{}};
   EXPECT_FALSE(existence.is_tracked());
   EXPECT_TRUE(Existence::is_believed(existence.founded()));
-  EXPECT_EQ(existence.seen(existence.founded(), observed(5.0, 0.0)), existence.founded());
+  EXPECT_EQ(existence.unseen(existence.founded()), existence.founded());
+  EXPECT_EQ(existence.seen(0.0F, observed(5.0, 0.0)), 0.0F);
   EXPECT_EQ(existence.cost_of_new(observed(5.0, 0.0)), INFINITY);
 }
 
-// Meant to catch: the sign of either kind of evidence.
+// Mutations: the sign of either kind of evidence.
 TEST(Existence, SightingsSpeakForALandmarkAndLooksWithoutOneAgainstIt) {
   const Existence existence(kSector);
   EXPECT_FALSE(Existence::is_believed(existence.founded())) << "likelier clutter";
@@ -35,12 +36,12 @@ TEST(Existence, SightingsSpeakForALandmarkAndLooksWithoutOneAgainstIt) {
   float odds = existence.founded();
   for (int i = 0; i < 1000; ++i) odds = existence.seen(odds, observed(10.0, 0.0));
   int looks = 0;
-  for (; !Existence::is_dead(odds); ++looks) odds = existence.unseen(odds);
+  for (; looks < 100 && !Existence::is_dead(odds); ++looks) odds = existence.unseen(odds);
   EXPECT_GE(looks, 4) << "some misses in a row are normal";
   EXPECT_LE(looks, 10) << "what was seen a thousand times can go";
 }
 
-// The better the sensor, the less can clutter pass for a landmark. Meant to catch: the clutter of the whole
+// The better the sensor, the less can clutter pass for a landmark. Mutation: the clutter of the whole
 // sector in place of that of the gate.
 TEST(Existence, APreciseSightingSaysMore) {
   const Existence existence(kSector);
@@ -50,7 +51,7 @@ TEST(Existence, APreciseSightingSaysMore) {
   EXPECT_GE(existence.seen(0.0F, rough), 0.0F) << "a sighting never speaks against what it shows";
 }
 
-// Meant to catch: the whole angle for the half, the margin left out.
+// Mutations: the whole angle for the half, the margin left out.
 TEST(Existence, OnlyWhatIsSafelyWithinTheSectorIsMissed) {
   const Existence existence(kSector);
   const Pose robot{1.0, 2.0, 0.5};
@@ -68,7 +69,7 @@ TEST(Existence, OnlyWhatIsSafelyWithinTheSectorIsMissed) {
   EXPECT_TRUE(at(10.0, 0.0, 0.5));
 }
 
-// Over the sector the density holds all clutter and the few new landmarks of a look. Meant to catch: a
+// Over the sector the density holds all clutter and the few new landmarks of a look. Mutations: a
 // density that is flat in range, and the half angle taken for the whole.
 TEST(Existence, TheDensityOfTheNewAddsUpOverTheSector) {
   const Existence existence(kSector);
@@ -80,6 +81,8 @@ TEST(Existence, TheDensityOfTheNewAddsUpOverTheSector) {
   }
   sum *= kSector.range_m / kParts * 2.0 * kSector.half_angle_rad;
   EXPECT_NEAR(sum, kSector.false_per_look + 0.1, 1e-4);
+  const double twice_as_far = existence.cost_of_new(observed(14.0, 0.0));
+  EXPECT_NEAR(existence.cost_of_new(observed(7.0, 0.0)) - twice_as_far, 2.0 * std::log(2.0), 1e-9);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(JointCompatibility, FindsWhatTryingEverythingFinds) {
   EXPECT_GE(equal, compared * 95 / 100);
 }
 
-// Meant to catch: sightings searched in the order in which they come.
+// Mutation: sightings searched in the order in which they come.
 TEST(JointCompatibility, DoesNotCareForTheOrderOfCandidates) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Frame frame(seed, 4, 4);
@@ -193,7 +193,8 @@ TEST(JointCompatibility, WithoutCompetitorsNothingCompetes) {
   EXPECT_TRUE(compete(std::vector<Candidate>{{0, 0, 1.0, false}, {0, 1, 1.0, false}}));
 }
 
-// Twelve sightings of twelve landmarks on one spot: 13 billion ways. Meant to catch: no limit.
+// Twelve sightings of twelve landmarks on one spot: 13 billion ways. Mutation: no limit, by which it does not
+// come back.
 TEST(JointCompatibility, GivesUpInTimeAndSaysSo) {
   std::vector<Candidate> candidates;
   std::vector<Pairing> pairings;

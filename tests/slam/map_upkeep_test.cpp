@@ -32,7 +32,7 @@ std::size_t alive(const Particle& particle) {
   return count;
 }
 
-// A robot that stands still among clutter. Meant to catch: no place of a dead landmark is taken.
+// A robot that stands still among clutter. Mutation: no place of a dead landmark is taken.
 TEST(MapUpkeep, TheClutterOfOnePlaceDoesNotFillTheMap) {
   MapUpkeep upkeep(config_with_sector());
   Particle particle;
@@ -47,7 +47,7 @@ TEST(MapUpkeep, TheClutterOfOnePlaceDoesNotFillTheMap) {
   EXPECT_LT(alive(particle), 50u);
 }
 
-// Meant to catch: landmarks that were seen lose odds as well; none does.
+// Mutations: landmarks that were seen lose odds as well; none does.
 TEST(MapUpkeep, OnlyWhatShouldHaveBeenSeenLosesOdds) {
   MapUpkeep upkeep(config_with_sector());
   Particle particle;
@@ -65,7 +65,7 @@ TEST(MapUpkeep, OnlyWhatShouldHaveBeenSeenLosesOdds) {
 }
 
 // From the corrected pose a sighting beside a landmark that nobody else claims may be that one; beside a
-// claimed one it is another. Meant to catch: claims forgotten; the doubtful landmark taken for missed.
+// claimed one it is another. Mutations: claims forgotten; the doubtful landmark taken for missed.
 TEST(MapUpkeep, WhatMayBeMappedIsNotNew) {
   MapUpkeep upkeep(config_with_sector());
   Particle particle;
@@ -84,7 +84,7 @@ TEST(MapUpkeep, WhatMayBeMappedIsNotNew) {
   EXPECT_EQ(particle.classed[2].origin, 4);
 }
 
-// Meant to catch: dead landmarks still stand in the way of new ones.
+// Mutation: dead landmarks still stand in the way of new ones.
 TEST(MapUpkeep, TheDeadAreInNobodysWay) {
   for (const double spacing_m : {0.0, 4.0}) {
     FilterConfig config = config_with_sector();

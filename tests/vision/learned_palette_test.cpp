@@ -27,15 +27,15 @@ std::vector<Eigen::Vector3d> shaded(const Eigen::Vector3d& bgr, std::size_t coun
   return pixels;
 }
 
-// Law: what is not of the colour, up to a third of a sample, does not move it. Meant to catch: mean and
+// Law: what is not of the colour, up to a third of a sample, does not move it. Mutations: mean and
 // covariance of all; darkest level of all.
 TEST(LearnedColour, IsThatOfMostPixels) {
   const Eigen::Vector3d orange(20.0, 110.0, 240.0);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     auto pixels = shaded(orange, 300, seed);
     const LearnedColour clean = learn_colour("orange", pixels);
-    for (int i = 0; i < 60; ++i) pixels.emplace_back(245.0, 250.0, 255.0);          // a highlight
-    for (int i = 0; i < 60; ++i) pixels.emplace_back(200.0, 40.0 + 0.1 * i, 20.0);  // a blue neighbour
+    for (int i = 0; i < 60; ++i) pixels.emplace_back(245.0, 250.0, 255.0);        // a highlight
+    for (int i = 0; i < 60; ++i) pixels.emplace_back(80.0, 16.0 + 0.1 * i, 8.0);  // a dark blue neighbour
     const LearnedColour soiled = learn_colour("orange", pixels);
     EXPECT_LT((soiled.chromaticity - clean.chromaticity).norm(), 0.005);
     EXPECT_LT(std::abs(soiled.covariance.trace() / clean.covariance.trace() - 1.0), 0.25);
@@ -126,7 +126,7 @@ TEST(RoundPatch, SaysWhatIsCutAndHidden) {
   EXPECT_GT(other[0].hidden_fraction, 0.15);
 }
 
-// Balls of learned colours are triangulated as ours are. Meant to catch: the palette looked up in kPalette's
+// Balls of learned colours are triangulated as ours are. Mutation: the palette looked up in kPalette's
 // table.
 TEST(RoundPatch, IsTriangulatedAsAnyOutline) {
   const StereoRig rig;

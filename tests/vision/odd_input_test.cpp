@@ -23,7 +23,7 @@ StereoPair painted() {
   return painter::paint(scene, small_rig());
 }
 
-// Meant to catch: either eye's picture unchecked.
+// Mutations: either eye's picture unchecked.
 TEST(OddInput, PicturesThatAreNoneOfTheRigsAreRefused) {
   const StereoPair good = painted();
   const cv::Mat odd[] = {cv::Mat(),
@@ -62,7 +62,7 @@ TEST(OddInput, OnePixelShowsNothing) {
   EXPECT_TRUE(observe({pixel, pixel}, rig, {}).empty());
 }
 
-// Eyes that are swapped see no ball before them. Meant to catch: disparities of either sign.
+// Eyes that are swapped see no ball before them. Mutation: outlines matched whichever lies to the left.
 TEST(OddInput, SwappedEyesMeasureNothing) {
   const StereoPair good = painted();
   EXPECT_TRUE(observe({good.right, good.left}, small_rig(), {}).empty());

@@ -91,7 +91,7 @@ EyePair different_eyes() {
 }
 
 // Law: two different cameras are put straight by their own lenses. A point that both see is on one row.
-// Meant to catch: one eye's lens for both.
+// Mutation: one eye's lens for both.
 TEST(Rectification, PutsTwoDifferentCamerasStraight) {
   StereoRig rig;
   rig.camera = {320, 240, 256.0, 158.0, 120.5};

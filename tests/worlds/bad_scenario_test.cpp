@@ -219,7 +219,7 @@ TEST(BadColours, OfOneClassAreFartherApartThanTheSpacingUnderAnyJitter) {
   EXPECT_EQ(complaint_about(file, {"placement_jitter_m=0"}), "no complaint");
 }
 
-// Where nothing tells balls apart, all are of one class. Meant to catch: colours still told apart.
+// Where nothing tells balls apart, all are of one class. Mutation: colours still told apart.
 TEST(BadColours, DoNotMatterWhereNobodySeesThem) {
   const std::string text =
       small_scenario_with("identity: known", "identity: none\ncolour_spacing_m: 3.99");  // (2, 0) and (0, 3)

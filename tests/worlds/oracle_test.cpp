@@ -121,7 +121,7 @@ TEST(Oracle, KeepsWhoseEachSightingIsApart) {
   }
 }
 
-// Meant to catch: a draw that is taken where nothing can go wrong.
+// Mutation: a draw that is taken where nothing can go wrong.
 TEST(OracleFaults, AreNoneByDefaultAndDrawNothing) {
   const World world = world_of({{2, 0}, {3, 1}});
   slam::RandomStream noise(0, slam::Stream::kOracle);
@@ -133,7 +133,7 @@ TEST(OracleFaults, AreNoneByDefaultAndDrawNothing) {
   EXPECT_EQ(chance.bits(), untouched.bits());
 }
 
-// A count of mean m in n looks has a deviation of sqrt(m / n). Meant to catch: a Poisson variable that is
+// A count of mean m in n looks has a deviation of sqrt(m / n). Mutations: a Poisson variable that is
 // one too large, ranges that are uniform, half the sector's angle, misses that hit the false ones, too.
 TEST(OracleFaults, HappenAsOftenAndWhereTheyShould) {
   const World world = world_of({{2, 0}, {3, 1}});
@@ -173,7 +173,7 @@ TEST(OracleFaults, HappenAsOftenAndWhereTheyShould) {
   EXPECT_NEAR(outer_left / imagined, 0.25, spread);
 }
 
-// Meant to catch: a colour that no ball has.
+// Mutation: a colour that no ball has.
 TEST(OracleFaults, LookLikeTheOthers) {
   const World world = world_of({{2, 0}, {3, 1}});
   OracleSensor sensor;

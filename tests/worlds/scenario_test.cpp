@@ -52,7 +52,7 @@ TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
   EXPECT_DOUBLE_EQ(scenario.world.meshes.at(0).heading_rad, 90 * kDegree);
 }
 
-// Meant to catch: the two lists of names in another order than what they name.
+// Mutations: the two lists of names in another order than what they name.
 TEST(Scenario, SaysHowLandmarksAreToldApart) {
   EXPECT_EQ(read_small().association, slam::Association::kJoint);
   EXPECT_EQ(read_small().oracle.false_per_look, 0.0);

@@ -81,7 +81,7 @@ TEST_P(Strewn, ThingsLeaveEnoughBallsInViewAtEachStep) {
   RecordProperty("hidden", hidden);
 }
 
-// Mutation: no clearance. Meant to catch: walls not looked at.
+// Mutations: no clearance; walls not looked at.
 TEST_P(Strewn, ThingsStandClearOfDriveWallsBallsAndEachOther) {
   const Scenario& scenario = everything();
   const World world = world_for_seed(scenario, GetParam());

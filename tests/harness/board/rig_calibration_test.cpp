@@ -96,8 +96,8 @@ class RenderedBoards : public testing::Test {
 std::unique_ptr<ScratchFolder> RenderedBoards::folder_;
 vision::StereoRig RenderedBoards::rig_;
 
-// The rig that rendered the pictures is found again, within what the fit says of itself. Meant to catch:
-// corners half a pixel off (by which the centre is); corners not refined; a window of half a square.
+// The rig that rendered the pictures is found again, within what the fit says of itself. Mutations:
+// corners half a pixel off (by which the centre is); corners not refined; a window as wide as two squares.
 TEST_F(RenderedBoards, GiveBackTheRigThatTookThem) {
   for (const RigModel model : {RigModel::kOneCamera, RigModel::kTwoCameras}) {
     const BoardCalibration found = calibrate_rig(files(), {.board = kBoard, .model = model});
@@ -117,7 +117,7 @@ std::string dropped(const BoardCalibration& calibration, const std::string& view
   return "no such view";
 }
 
-// Meant to catch: an outlier that stays; eyes exchanged in the reason.
+// Mutations: an outlier that stays; eyes exchanged in the reason.
 TEST_F(RenderedBoards, ViewsThatDoNotSuitAreDroppedWithTheReason) {
   const TestFolder odd;
   cv::imwrite((odd.path() / "blank.png").string(), cv::Mat(768, 1024, CV_8UC3, cv::Scalar::all(90)));

@@ -26,7 +26,7 @@ FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
 class RigFits : public testing::TestWithParam<RigModel> {};
 
 // Law: without noise the rig is found again. Points come from vision::image_point, the fit has equations of
-// its own. Meant to catch: p1 and p2 exchanged.
+// its own. Mutation: p1 and p2 exchanged.
 TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
   const vision::StereoRig rig = test::faulty_rig();
   const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 1), 0.0, 1);
@@ -52,7 +52,7 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
 
 // Law: errors are as large as the fit says. The mean square of n deviations of unit size is 1 within a few
 // times sqrt(2 / n); those of one fit hang together, and its fifteen or more count for four.
-// Meant to catch: variances that are twice as large, or half.
+// Mutations: variances that are twice as large, or half.
 TEST_P(RigFits, KnowHowFarTheyAreOff) {
   constexpr int kSeeds = 24;
   const vision::StereoRig rig = test::faulty_rig();
@@ -74,7 +74,7 @@ TEST_P(RigFits, KnowHowFarTheyAreOff) {
 INSTANTIATE_TEST_SUITE_P(Models, RigFits, testing::Values(RigModel::kTwoCameras, RigModel::kOneCamera),
                          [](const auto& test) { return test.param == RigModel::kOneCamera ? "One" : "Two"; });
 
-// Meant to catch: the loss left out.
+// Mutation: the loss left out.
 TEST(RigFit, RobustlyPassesOverCornersThatAreFarOff) {
   const vision::StereoRig rig = test::faulty_rig();
   auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 3), 0.1, 3);

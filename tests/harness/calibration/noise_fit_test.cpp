@@ -19,6 +19,10 @@ struct Truth {
   double outliers = 0.0;               ///< of all, ten times as far out
 };
 
+double range_sd_m(const Truth& truth, double range_m) {
+  return std::hypot(truth.range_sd_m, truth.range_sd_per_m2 * range_m * range_m);
+}
+
 std::vector<CalibrationSample> samples_of(const Truth& truth, int count, std::uint64_t seed) {
   slam::RandomStream random(seed, slam::Stream::kWorld);
   std::vector<CalibrationSample> samples;
@@ -26,9 +30,7 @@ std::vector<CalibrationSample> samples_of(const Truth& truth, int count, std::ui
     CalibrationSample sample;
     sample.depth_m = 0.5 * std::pow(20.0, random.uniform());
     sample.truth = {sample.depth_m, random.uniform() - 0.5};
-    const Eigen::Vector2d sd(
-        std::hypot(truth.range_sd_m, truth.range_sd_per_m2 * sample.depth_m * sample.depth_m),
-        truth.bearing_sd_rad);
+    const Eigen::Vector2d sd(range_sd_m(truth, sample.depth_m), truth.bearing_sd_rad);
     const double far = random.uniform() < truth.outliers ? 10.0 : 1.0;
     sample.error = {far * sd.x() * random.normal(), far * sd.y() * random.normal()};
     sample.stated = sd.cwiseQuotient(truth.worse).cwiseAbs2().asDiagonal();
@@ -59,8 +61,8 @@ TEST(NoiseFit, LeavesOutWhatFiltersRefuse) {
   EXPECT_NEAR(fitted.stereo.bearing_sd_rad / 1e-4, 1.0, 0.08);
 }
 
-// NIS / 2 of n samples scatters by 1 / sqrt(n). Mutations: bins by range of the wrong end; refused ones
-// counted.
+// NIS / 2 of n samples scatters by 1 / sqrt(n), and the deviation in a bin lies between the law's at its
+// ends. Mutations: bins from the wrong end; samples of the bin at the other end.
 TEST(NoiseFit, BinsOfHonestNoiseHaveANisOfOne) {
   const FittedNoise fitted = fit_noise(samples_of({}, 4000, 3));
   const auto held_out = samples_of({}, 4000, 4);
@@ -74,10 +76,21 @@ TEST(NoiseFit, BinsOfHonestNoiseHaveANisOfOne) {
     EXPECT_NEAR(bin.half_nis[1], 1.0, four_sigma);
     EXPECT_NEAR(bin.half_nis[2], 1.0, four_sigma + 0.05);
     EXPECT_NEAR(bin.correlation.x(), 0.0, four_sigma);
+    EXPECT_GT(bin.sd.x(), range_sd_m({}, bin.nearest_m) * (1.0 - four_sigma));
+    EXPECT_LT(bin.sd.x(), range_sd_m({}, bin.farthest_m) * (1.0 + four_sigma));
     EXPECT_LE(bin.refused, 3);
   }
   EXPECT_EQ(bins.back().samples, 0);
   EXPECT_TRUE(std::isnan(bins.back().half_nis[1]));
+}
+
+// What is ten times as far out is beyond the gate with 1 - 0.09. Mutation: refused ones counted.
+TEST(NoiseFit, BinsLeaveOutWhatFiltersRefuse) {
+  const FittedNoise fitted = fit_noise(samples_of({}, 4000, 5));
+  const CalibrationBin bin =
+      bin_samples(samples_of({.outliers = 0.02}, 4000, 6), fitted, 0.5, 10.0, 1).front();
+  EXPECT_NEAR(static_cast<double>(bin.refused), 73.0, 4.0 * std::sqrt(73.0));
+  EXPECT_NEAR(bin.half_nis[1], 1.0, 0.1);
 }
 
 TEST(NoiseFit, OfNothingIsNothing) {

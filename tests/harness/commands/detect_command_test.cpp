@@ -237,7 +237,7 @@ TEST_F(Dataset, OddInputsAreOneLine) {
   }
 }
 
-// Meant to catch: not looked for.
+// Mutation: not looked for.
 TEST_F(Dataset, SwappedPicturesAreSaidToBe) {
   const std::string right =
       data() + "/right/" + nlohmann::json::parse(lines().at(0))["right"].get<std::string>();

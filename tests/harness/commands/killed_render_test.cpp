@@ -22,9 +22,9 @@ std::vector<std::string> render_to(const std::filesystem::path& folder) {
   return words;
 }
 
-/// Starts the same and kills it after some time; whether it was still at work.
-bool kill_render(const std::filesystem::path& folder, double after_s) {
-  std::string command = fmt::format("timeout -s KILL {} '{}'", after_s, STEREOBENCH_PROGRAM);
+/// Starts the same in a shell's words that kill it; whether it was still at work.
+bool kill_render(const std::filesystem::path& folder, const std::string& how) {
+  std::string command = fmt::format("ulimit -c 0; {} '{}'", how, STEREOBENCH_PROGRAM);
   for (const std::string& word : render_to(folder)) command += " '" + word + "'";
   return std::system((command + " >/dev/null 2>&1").c_str()) != 0;
 }
@@ -43,25 +43,27 @@ bool is_product(const std::string& name) {
          name.ends_with(".csv");
 }
 
-// Killed again and again, each time a little later: what has a final name is whole, byte for byte what an
+// Killed again and again, a little later or in the middle of a file (the first one larger than so many blocks
+// of 512 bytes: a picture, a map of depths): what has a final name is whole, byte for byte what an
 // undisturbed rendering writes; and what comes to its end in the end is the same folder, with nothing left
-// over. Meant to catch: files written under their own names.
+// over. Mutations: files written under their own names; what a dead process left behind let be.
 TEST(KilledRender, LeavesWholeFilesAndIsTakenUpWhereItWas) {
   const ScratchFolder scratch;
   const auto whole = scratch.path() / "whole", broken = scratch.path() / "broken";
   ASSERT_EQ(run_stereobench(render_to(whole)).exit_code, 0);
   const auto expected = files_of(whole);
   int killed = 0;
-  for (const double after_s : {0.15, 0.3, 0.5, 0.7}) {
-    killed += kill_render(broken, after_s) ? 1 : 0;
+  for (const char* how : {"timeout -s KILL 0.15", "ulimit -f 2048; exec", "timeout -s KILL 0.5",
+                          "ulimit -f 4096; exec", "timeout -s KILL 0.7"}) {
+    killed += kill_render(broken, how) ? 1 : 0;
     if (!std::filesystem::exists(broken)) continue;
     for (const auto& [name, bytes] : files_of(broken))
       if (is_product(name)) {
         ASSERT_TRUE(expected.contains(name)) << name;
-        EXPECT_EQ(bytes == expected.at(name), true) << name << " after " << after_s << " s";
+        EXPECT_EQ(bytes == expected.at(name), true) << name << " after " << how;
       }
   }
-  EXPECT_GE(killed, 1);
+  EXPECT_GE(killed, 2);
   ASSERT_EQ(run_stereobench(render_to(broken)).exit_code, 0);
   const auto finished = files_of(broken);
   ASSERT_EQ(finished.size(), expected.size());

@@ -35,8 +35,7 @@ constexpr const char* kSmartiesMarks = R"({"marks": [
   {"picture": "smarties.png", "colour": "orange", "circle_px": [205.5, 211.4, 22]},
   {"picture": "smarties.png", "colour": "blue", "box_px": [332, 222, 32, 32]}]})";
 
-// Four are marked, all twelve are found, neither of the brown ones is. Meant to catch: the darkest level left
-// out.
+// Four are marked, all twelve are found, neither of the brown ones is. Mutation: the gate left out.
 TEST(Smarties, TheTwelveColouredOnesAreFound) {
   if (!std::filesystem::exists(smarties())) GTEST_SKIP() << "no opencv-doc";
   constexpr SeenBall kSeen[] = {
@@ -148,7 +147,7 @@ TEST(LearnPalette, RefusesMarksThatAreNotRight) {
               HasSubstr("no.png: no such file"));
 }
 
-// Meant to catch: names that are there twice.
+// Mutation: names that are there twice.
 TEST(PaletteFile, RefusesWhatIsNone) {
   const ScratchFolder scratch;
   vision::LearnedColour red{"red", {0.9, 0.05}, 4e-4 * Eigen::Matrix2d::Identity(), 60.0, {10, 5, 220}};

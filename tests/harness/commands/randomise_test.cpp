@@ -30,7 +30,7 @@ std::vector<std::string> with_world(std::vector<std::string> arguments) {
 }
 
 // The drawn world, written as a plain scenario, gives the same bytes; another seed other ones.
-// Meant to catch: jitter kept in the written scenario.
+// Mutation: jitter kept in the written scenario.
 TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
   const ScratchFolder folder;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
@@ -56,7 +56,7 @@ TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
             bytes_of(folder.path() / "other/left/000000.png"));
 }
 
-// What looks like a ball is a surface in truth. Meant to catch: shapes numbered among the balls.
+// What looks like a ball is a surface in truth. Mutation: shapes numbered among the balls.
 TEST(RandomisedWorld, HasDistractorsInTruthAsSurfaces) {
   const ScratchFolder folder;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
@@ -84,7 +84,7 @@ TEST(RandomisedWorld, HasDistractorsInTruthAsSurfaces) {
   EXPECT_GE(seen.size(), 3U);
 }
 
-// Meant to catch: the seeds' worlds all that of the first.
+// Mutation: what is drawn for all seeds that of the first.
 TEST(RandomisedWorld, EachSeedOfARunDrawsItsOwn) {
   const ScratchFolder folder;
   const auto out = [&](const char* name) { return (folder.path() / name).string(); };
@@ -102,6 +102,23 @@ TEST(RandomisedWorld, EachSeedOfARunDrawsItsOwn) {
       EXPECT_EQ(line["from"], nlohmann::json({0.35, 0.55}));
     }
   EXPECT_EQ(ambients.size(), 3U);
+}
+
+// Without noise nothing but the world makes a difference to what is seen.
+// Mutation: the first seed's world for all.
+TEST(RandomisedWorld, OfEachSeedIsTheOneThatIsLookedAt) {
+  const ScratchFolder folder;
+  std::set<double> errors;
+  for (const char* seeds : {"2", "3", "3,2"}) {
+    const std::string out = (folder.path() / seeds).string();
+    const Outcome outcome = run_stereobench(
+        with_world({"run", scenario_path("ball_circle"), "--seeds", seeds, "--filters", "dead_reckoning",
+                    "--set", "gates=[]", "--set", "camera.noise_sd_levels=0", "--out", out}));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    errors.insert(nlohmann::json::parse(bytes_of(folder.path() / seeds / "run.json"))["vision"]["range_rms_m"]
+                      .get<double>());
+  }
+  EXPECT_EQ(errors.size(), 3U);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ vision::EyePair two_eyes() {
   return eyes;
 }
 
-// Law: two different eyes are read as they were written. Meant to catch: the eyes exchanged.
+// Law: two different eyes are read as they were written. Mutation: the eyes exchanged.
 TEST(CalibrationFile, TwoEyesAreReadAsTheyWereWritten) {
   const TestFolder folder;
   const vision::EyePair eyes = two_eyes();
@@ -73,7 +73,7 @@ TEST(CalibrationFile, TwoEyesAreReadAsTheyWereWritten) {
               ThrowsMessage<std::runtime_error>(HasSubstr("expected one camera twice")));
 }
 
-// Meant to catch: a turn that is no rotation let through.
+// Mutation: a turn that is no rotation let through.
 TEST(CalibrationFile, RefusesEyesThatAreNone) {
   const TestFolder folder;
   const auto complaint_of = [&](const vision::EyePair& eyes, const std::string& from, const std::string& to) {

@@ -27,7 +27,7 @@ worlds::Scenario scene() {
   return scenario;
 }
 
-// Meant to catch: balls counted through walls, or behind the robot.
+// Mutations: balls counted through walls, or behind the robot.
 TEST(PlanPicture, CountsWhatIsInViewAtEachStepAndForEachBall) {
   const worlds::Scenario scenario = scene();
   const ViewCoverage coverage = view_coverage(scenario, scenario.world);

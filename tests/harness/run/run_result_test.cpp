@@ -106,7 +106,7 @@ TEST(RunResult, WhatHasNoValueIsNull) {
   EXPECT_TRUE(json["filters"]["ufastslam"]["landmark_rms_m"]["mean"].is_null());        // there is none
 }
 
-// Meant to catch: the table in every run; counts of the last seed alone.
+// Mutations: the table in every run; counts of the last seed alone.
 TEST(RunResult, AssociationIsScoredWhereTheTruthIsKnownAndShownWhereIdentitiesAreNot) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
   EXPECT_TRUE(run_json(assemble("name", "none", drives))["filters"]["ufastslam"]["association"].is_null());

@@ -24,7 +24,7 @@ std::vector<long> judged(const slam::Decision& decision) {
   return counts(score);
 }
 
-// Meant to catch: each of the branches swapped with another one.
+// Mutations: each of the branches swapped with another one.
 TEST(AssociationScore, EachDecisionIsOneOfFourThings) {
   const std::vector<long> correct = {1, 0, 0, 0, 0, 0};
   const std::vector<long> wrong = {0, 1, 0, 0, 0, 0};
@@ -46,14 +46,14 @@ TEST(AssociationScore, EachDecisionIsOneOfFourThings) {
 }
 
 // Two new sightings of one frame are of two new landmarks: what the frame itself added was not there before.
-// Meant to catch: was_mapped without its limit.
+// Mutation: was_mapped without its limit.
 TEST(AssociationScore, WhatAFrameAddsWasNotMappedBefore) {
   AssociationScore score;
   judge({{{0, Fate::kAdd, kUnknown}, {1, Fate::kAdd, kUnknown}}, {0, 1}}, kTruth, score);
   EXPECT_EQ(counts(score), (std::vector<long>{2, 0, 0, 0, 0, 0}));
 }
 
-// Meant to catch: the first copy counted as well; clutter counted as one landmark.
+// Mutations: the first copy counted as well; clutter counted as one landmark.
 TEST(AssociationScore, TheFinalMapHoldsEachLandmarkOnce) {
   std::vector<slam::LandmarkEstimate> map(6);
   for (std::size_t i = 0; i < map.size(); ++i) map[i].origin = static_cast<int>(i) + 2;
@@ -83,7 +83,7 @@ MeasurementLog two_looks() {
   return log;
 }
 
-// Meant to catch: a log that says half of it taken at its word.
+// Mutation: a log that says half of it taken at its word.
 TEST(AssociationScore, IsKnownWhereTheLogSaysWhoseEverySightingIs) {
   MeasurementLog log = two_looks();
   EXPECT_EQ(true_landmarks(log), (std::vector<int>{0, 1, 0, 1}));

@@ -19,7 +19,7 @@ TEST(ChiSquare, QuantilesAreThoseOfTheTables) {
   EXPECT_NEAR(chi_square_quantile(0.975, 100), 129.561, 5e-4);
 }
 
-// Meant to catch: a band that leaves out 5 % at each end; of sums and not of ratios.
+// Mutations: a band that leaves out 5 % at each end; of sums and not of ratios.
 TEST(ChiSquare, BandLeavesOutTheSameAtBothEnds) {
   const Band band = chi_square_band(0.95, 100);
   EXPECT_NEAR(100.0 * band.low, 74.2219, 5e-4);
@@ -28,7 +28,7 @@ TEST(ChiSquare, BandLeavesOutTheSameAtBothEnds) {
   EXPECT_TRUE(std::isnan(chi_square_band(0.95, 0).low));
 }
 
-// Of two degrees of freedom the chance of more than x is exp(-x / 2). Meant to catch: a p-value of one side.
+// Of two degrees of freedom the chance of more than x is exp(-x / 2). Mutation: a p-value of one side.
 TEST(ChiSquare, PIsOfBothSides) {
   for (const double x : {3.0, 10.0, 100.0, 1000.0})
     EXPECT_NEAR(chi_square_p({x, 2}) / (2.0 * std::exp(-0.5 * x)), 1.0, 1e-9);
@@ -58,7 +58,7 @@ TEST(ChiSquare, PIsUniformWhenAllIsHonest) {
   EXPECT_LT(farthest, 1.95 / std::sqrt(5000.0));
 }
 
-// The same log ten times tells no more than once. Meant to catch: ten times the degrees of freedom.
+// The same log ten times tells no more than once. Mutation: ten times the degrees of freedom.
 TEST(ChiSquare, SeedsThatHangTogetherAreWorthOne) {
   SquaredSum ten;
   for (int i = 0; i < 10; ++i) ten += {7.0, 3};
@@ -69,7 +69,7 @@ TEST(ChiSquare, SeedsThatHangTogetherAreWorthOne) {
   EXPECT_EQ(worth({}, Seeds::kFilters, 0).degrees_of_freedom, 0);
 }
 
-// By hand: 4 x 0.01, 3 x 0.02, 2 x 0.03 (0.06 already), 1 x 0.5. Meant to catch: Bonferroni; adjusted values
+// By hand: 4 x 0.01, 3 x 0.02, 2 x 0.03 (0.06 already), 1 x 0.5. Mutations: Bonferroni; adjusted values
 // that fall; values in sorted order.
 TEST(Holm, IsWhatItIsByHand) {
   const std::vector<double> adjusted = holm(std::vector{0.03, 0.5, 0.01, 0.02});

@@ -39,14 +39,15 @@ double mean_over_draws(const Eigen::Matrix<double, 3, Columns>& root, double sca
 
 const Eigen::Matrix3d kRoot{{0.3, 0.0, 0.0}, {-0.1, 0.2, 0.0}, {0.004, -0.003, 0.01}};
 
-// 20,000 draws of chi-square(3) / 3 have a mean of 1 +- 0.0058: five deviations. Meant to catch: dividing by
-// 3 whatever the rank, no wrapping, P in place of its inverse.
+// 20,000 draws of chi-square(3) / 3 have a mean of 1 +- 0.0058: five deviations. Mutations: no wrapping;
+// P in place of its inverse.
 TEST(NormalisedError, IsOneOnAverageWhenTheCovarianceIsHonest) {
   EXPECT_NEAR(mean_over_draws<3>(kRoot), 1.0, 0.03);
   EXPECT_NEAR(mean_over_draws<3>(kRoot, 0.25), 4.0, 0.12);
 }
 
 // P of rank 2 and 1: the degrees of freedom are those that there are (chi-square(1) has a deviation of 0.01).
+// Mutation: dividing by 3 whatever the rank.
 TEST(NormalisedError, CountsTheDegreesOfFreedomThatThereAre) {
   EXPECT_NEAR((mean_over_draws<2>(kRoot.leftCols<2>())), 1.0, 0.04);
   EXPECT_NEAR((mean_over_draws<1>(kRoot.leftCols<1>())), 1.0, 0.05);
@@ -80,7 +81,7 @@ TEST(NormalisedError, IsNothingWithoutACovariance) {
   EXPECT_FALSE(normalised_error({std::nan(""), 1, 1}, Eigen::Matrix3d::Identity(), {}).has_value());
 }
 
-// Meant to catch: scoring the first steps, where the start is given and P is zero, and where one control was
+// Mutations: scoring the first steps, where the start is given and P is zero, and where one control was
 // too few.
 TEST(NormalisedErrors, SkipTheFirstTwoStepsAndThoseWithoutTruth) {
   MeasurementLog log;
@@ -99,7 +100,7 @@ TEST(NormalisedErrors, SkipTheFirstTwoStepsAndThoseWithoutTruth) {
   EXPECT_DOUBLE_EQ(errors[4].value().ratio(), 3.0);
 }
 
-// Meant to catch: the mean of ratios, in which a seed of rank 1 counts as much as one of rank 3.
+// Mutation: the mean of ratios, in which a seed of rank 1 counts as much as one of rank 3.
 TEST(SumOverSeeds, IsStepByStepOverThoseThatHaveAValue) {
   const std::vector<std::vector<std::optional<SquaredSum>>> runs = {
       {{}, SquaredSum{1.0, 3}, SquaredSum{4.0, 1}}, {{}, SquaredSum{3.0, 3}}, {{}, {}, SquaredSum{8.0, 3}}};
@@ -133,8 +134,7 @@ std::vector<SquaredSum> steps_of(std::uint64_t seed, std::size_t count, double f
 }
 
 // 300 families of 40 honest steps: with Holm's correction one in twenty has any step outside, 15 +- 3.8: four
-// deviations (Holm is a little cautious). Without it 260 would. Meant to catch: no correction; one-sided
-// p-values.
+// deviations (Holm is a little cautious). Without it 260 would. Mutation: no correction.
 TEST(JudgeSteps, OneHonestFamilyInTwentyHasAnyStepOutside) {
   int families = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed)
@@ -153,7 +153,8 @@ TEST(JudgeSteps, FindsWhenErrorsBecomeTooLarge) {
   EXPECT_TRUE(std::isnan(judge_steps({}).fraction_outside));
 }
 
-// Meant to catch: errors that are too small are no fault. (They are: the filter throws away what it knows.)
+// Mutation: p-values of one side, by which errors that are too small are no fault. (They are: the filter
+// throws away what it knows.)
 TEST(JudgeSteps, ErrorsThatAreTooSmallLieOutsideToo) {
   EXPECT_EQ(judge_steps(steps_of(2, 40, 0.2)).first_outside, std::optional<std::size_t>(20));
 }

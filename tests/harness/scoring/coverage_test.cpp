@@ -33,7 +33,7 @@ double five_deviations(double p, double count) {
   return 5.0 * std::sqrt(p * (1.0 - p) / count);
 }
 
-// Meant to catch: the heading's variance in the ellipse; one degree of freedom; a box in place of an ellipse.
+// Mutations: the heading's variance in the ellipse; one degree of freedom; a box in place of an ellipse.
 TEST(CoverPath, IsTheEllipsesProbabilityWhenTheCovarianceIsHonest) {
   const Drawn honest(3, 10'002);
   const Coverage coverage = cover_path(honest.run, honest.log);
@@ -52,7 +52,7 @@ TEST(CoverPath, FallsWhenTheCovarianceIsTooSmall) {
   }
 }
 
-// Meant to catch: counting the steps where the start is known.
+// Mutation: counting the steps where the start is known.
 TEST(CoverPath, LeavesOutTheFirstStepsAndThoseWithoutTruth) {
   Drawn run(5, 6);
   run.log.steps[3].truth.reset();
@@ -60,7 +60,7 @@ TEST(CoverPath, LeavesOutTheFirstStepsAndThoseWithoutTruth) {
   EXPECT_TRUE(std::isnan(cover_path({}, {}).within[0]));
 }
 
-// Meant to catch: landmarks that are nobody's counted as far off; a landmark's place after alignment.
+// Mutations: landmarks that are nobody's counted as far off; a landmark's place after alignment.
 TEST(CoverMap, IsOfTheLandmarksThatBelongToATrueOne) {
   const std::vector<LandmarkTruth> truth = {{7, slam::kUnknown, {1.0, 2.0}}, {8, slam::kUnknown, {5.0, 5.0}}};
   const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();

@@ -8,8 +8,8 @@ namespace stereobench::harness {
 namespace {
 
 // By hand, from the end: the last update left 0..3, which it drew from {1, 1, 2, 3}; those are three of what
-// the second update left. That one drew them from {0, 0, 2, 2}: 1 is from 0, 2 and 3 are from 2. Meant to
-// catch: forgetting an update without resampling; ancestors composed from the front; counting before the
+// the second update left. That one drew them from {0, 0, 2, 2}: 1 is from 0, 2 and 3 are from 2. Mutations:
+// forgetting an update without resampling; ancestors composed from the front; counting before the
 // update.
 TEST(DistinctAncestors, OfAKnownSequence) {
   const std::vector<std::vector<int>> updates = {{}, {0, 0, 2, 2}, {}, {1, 1, 2, 3}};
@@ -24,7 +24,7 @@ TEST(DistinctAncestors, OfNoResamplingAreAllAndOfOneSurvivorOne) {
   EXPECT_TRUE(distinct_ancestors({}, 3).empty());
 }
 
-// Meant to catch: steps at which nothing was seen counted as updates; the quarter counted from the front.
+// Mutations: steps at which nothing was seen counted as updates; the quarter counted from the front.
 TEST(ScoreParticles, IsOfTheUpdatesAlone) {
   MeasurementLog log;
   FilterRun run{.particles = 100};
