@@ -10,11 +10,10 @@ namespace stereobench::vision {
 namespace {
 
 constexpr double kRingWidth_px = 2.0;
-constexpr std::size_t kBackgroundArcs = 2;  // to either side, that may show the same background
-constexpr std::size_t kShadeArcs = 3;       // to either side, that tell how good the shading is
-constexpr double kUnknownShade = 0.12;      // sd of the ball's brightness at the rim, relative
-constexpr double kLeastShade = 0.01;        // the same where the shading suits all that is seen
-constexpr double kShadeAtRim = 2.0;         // times as uncertain as beside it
+constexpr std::size_t kShadeArcs = 3;   // to either side, that tell how good the shading is
+constexpr double kUnknownShade = 0.12;  // sd of the ball's brightness at the rim, relative
+constexpr double kLeastShade = 0.01;    // the same where the shading suits all that is seen
+constexpr double kShadeAtRim = 2.0;     // times as uncertain as beside it
 constexpr double kTextureSigmas = 2.0;
 constexpr std::size_t kTextureArcs = 1;    // to either side
 constexpr double kTextureElsewhere = 0.2;  // of what the whole ring shows
@@ -112,22 +111,6 @@ double believed_part(double squares, double freedom) {
   return squares > freedom ? 1.0 - freedom / squares : 0.0;
 }
 
-// The background beside an arc: its own, drawn towards that of the arcs around.
-Eigen::Vector3d background_beside(const Arcs& arcs, std::size_t arc, double noise_variance) {
-  BackgroundSums around;
-  visit_around(arcs, arc, kBackgroundArcs, [&](const ArcSamples& other) { around.add(other.outside); });
-  double squares = 0.0;
-  double freedom = -5.0;  // three for their mean, two by James and Stein
-  visit_around(arcs, arc, kBackgroundArcs, [&](const ArcSamples& other) {
-    if (other.outside.count < 2.0) return;
-    squares += other.outside.count * (other.outside.mean() - around.mean()).squaredNorm() / noise_variance;
-    freedom += 3.0;
-  });
-  const Eigen::Vector3d own = arcs[arc].outside.mean();
-  if (!(freedom > 0.0)) return own;
-  return around.mean() + believed_part(squares, freedom) * (own - around.mean());
-}
-
 // How the background's colours scatter beyond what noise explains: its own trace would be off by
 // noise_variance sqrt(6 / freedom).
 Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double noise_variance) {
@@ -221,7 +204,7 @@ std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setting
     const ArcSamples& sample = samples[i];
     if (!sample.shows_ball || sample.outside.count < 2.0 || sample.crossed.count < 1.0) continue;
     const ShadeTrust trust = rim.has_shades ? trust_around(samples, i, noise_variance) : ShadeTrust{};
-    arcs[i].background = background_beside(samples, i, noise_variance);
+    arcs[i].background = sample.outside.mean();
     arcs[i].beyond_shade = trust.beyond_shade * sample.inside.beyond_shade();
     const Eigen::Vector3d ball = sample.crossed.shade / sample.crossed.count + arcs[i].beyond_shade;
     unmix(arcs[i], ball,

@@ -33,9 +33,7 @@ struct UnmixSettings {
 ///
 /// The ball's colour at the rim is the shading's; what is shown beside the rim says how well that can be
 /// trusted. Without shading it is known from further inside only to some 12 %, since Lambert's shading
-/// changes fastest there. The background is drawn towards that of the arcs around, as far as noise explains
-/// the difference, and extrapolated to the rim where it changes steadily. Differences along which shade or
-/// the background's texture varies count for little.
+/// changes fastest there. Differences along which shade or the background's texture varies count for little.
 std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
 
 }  // namespace stereobench::vision
