@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace stereobench::vision {
 namespace {
@@ -183,10 +183,9 @@ void unmix(ArcColours& arc, const Eigen::Vector3d& ball, const Disturbance& dist
   const Eigen::Vector3d shade = disturbance.shade_sd * ball;
   const Eigen::Matrix3d covariance = disturbance.noise_variance * Eigen::Matrix3d::Identity() +
                                      kMeanSquareShare * (shade * shade.transpose() + disturbance.texture);
-  const Eigen::LDLT<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d weighted = solver.solve(contrast);
+  const Eigen::Vector3d weighted = covariance.inverse() * contrast;
   const double strength = contrast.dot(weighted);
-  if (!solver.isPositive() || !(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return;
+  if (!(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return;
   arc.unmix = weighted / strength;
   arc.noise_variance = disturbance.noise_variance * arc.unmix.squaredNorm();
   arc.texture_variance = std::max(0.0, arc.unmix.dot(disturbance.texture * arc.unmix));

@@ -8,6 +8,7 @@ namespace stereobench::vision {
 namespace {
 
 constexpr double kArcLength_px = 3.0;
+constexpr double kNoBall_px = 1.71;  // outside of an outline that may yet move by a pixel
 constexpr double kPi = 3.14159265358979323846;
 
 // Angle in turns, [0, 1), to 0.001 turns: arithmetic only, so that every machine agrees on it.
@@ -50,7 +51,8 @@ Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double reach_
       const std::uint8_t* bgr = row + 3 * x;
       const auto sector =
           static_cast<std::size_t>(turns(position - centre) * static_cast<double>(rim.sectors));
-      const Eigen::Vector3d shade = shading ? shading->at(position) : Eigen::Vector3d::Zero();
+      const Eigen::Vector3d shade =
+          shading && distance < kNoBall_px ? shading->at(position) : Eigen::Vector3d::Zero();
       rim.pixels.push_back({position, Eigen::Vector3d(bgr[0], bgr[1], bgr[2]), shade, distance, sector});
     }
   }

@@ -16,7 +16,8 @@ namespace stereobench::vision {
 struct RimPixel {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
   Eigen::Vector3d bgr = Eigen::Vector3d::Zero();
-  /// What the ball would show here, BGR, as far as its shading is known; zero when nothing is.
+  /// What the ball would show here, BGR, as far as its shading is known; zero when nothing is, and
+  /// far outside.
   Eigen::Vector3d shade = Eigen::Vector3d::Zero();
   double distance_px = 0.0;  ///< from the outline that it was collected for, positive outside
   std::size_t sector = 0;    ///< which arc of the outline it belongs to

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShadeTolerance = 0.10;   // colour off the ball's line, relative to its brightness
 constexpr double kMinShade_levels = 35.0;  // a ball in the deepest shade and its own noise has more
-constexpr double kMostSamples = 1000.0;    // spread over the ball
+constexpr double kMostSamples = 1500.0;    // spread over the ball
 constexpr std::size_t kFewestSamples = 24;
 constexpr int kMostTurns = 12;
 constexpr double kRidge = 1e-6;  // per sample: a lamp that nothing shows is none
@@ -28,10 +28,11 @@ std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface
   const double inside = 1.0 - gap_px / outline.semi_minor_px();
   const double extent = outline.semi_major_px();
   const double area = 3.14 * outline.radius_px() * outline.radius_px();
-  const int step = std::max(1, static_cast<int>(std::sqrt(area / kMostSamples)));
+  const int row_step = std::max(1, static_cast<int>(std::sqrt(area / kMostSamples)));
+  const int step = std::max(1, static_cast<int>(std::ceil(area / (kMostSamples * row_step))));
   const int first_y = std::max(0, static_cast<int>(std::ceil(outline.centre_px().y() - extent)));
   const int last_y = std::min(image.rows - 1, static_cast<int>(std::floor(outline.centre_px().y() + extent)));
-  for (int y = first_y; y <= last_y; y += step) {
+  for (int y = first_y; y <= last_y; y += row_step) {
     const ColumnSpan columns = outline.columns_within(inside, y);
     const auto* row = image.ptr<std::uint8_t>(y);
     for (int x = std::max(0, columns.first); x <= std::min(image.cols - 1, columns.last); x += step) {
