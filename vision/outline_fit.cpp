@@ -19,6 +19,8 @@ constexpr double kFinestRamp_px = 1.5;
 constexpr double kGap_px = 0.9;           // between a sharp edge and the colours beside it
 constexpr double kRing_px = 2.0;          // width of the ring that the colours are sampled in
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
+constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
+constexpr double kPatience = 0.4;         // arcs that are hidden may pull for some steps
 constexpr double kLookAgainAbove_px = 0.2;
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;
@@ -62,10 +64,11 @@ OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
   return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius)};
 }
 
-// One step of the fit; the change's size, or empty when the arcs no longer make an outline.
-std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px) {
+// One step of the fit; the change's size, or empty when the arcs no longer make an outline. Arcs may be at
+// odds by half of what the outline may still be off, since then all are.
+std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px, double off_px) {
   fit.arcs = arc_offsets(fit.rim, fit.colours, fit.outline, ramp_px);
-  const auto step = solve_arcs(fit.arcs, ramp_px > 0.0 ? 0.5 * ramp_px : kTolerance_px);
+  const auto step = solve_arcs(fit.arcs, kTolerance_px + 0.5 * off_px);
   if (!step) return std::nullopt;
   const double limit = std::max(ramp_px, 0.5);
   const Eigen::Vector3d change = step->change_px.cwiseMax(-limit).cwiseMin(limit);
@@ -89,21 +92,23 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
   Fit fit{start, {}, {}, {}};
   for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
     look(fit, image, unmix, ramp);
-    const auto change = improve(fit, settings, ramp);
+    const auto change = improve(fit, settings, ramp, ramp);
     if (!change) return std::nullopt;
     if (*change < kSharpenBelow_px) break;
     ramp = std::min(*change * 2.0, 0.7 * ramp);
   }
-  std::optional<double> change = kLookAgainAbove_px + 1.0;
-  for (int i = 0; i<kSharpSteps&& * change> kConverged_px; ++i) {
-    if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
-    change = improve(fit, settings, 0.0);
+  look(fit, image, unmix, 0.0);
+  double off = kFirstSharp_px;
+  for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
+    const auto change = improve(fit, settings, 0.0, off);
     if (!change) return std::nullopt;
+    if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
+    off = std::max(*change, kPatience * off);
   }
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   look(fit, image, unmix, 0.0, fit_shading(image, settings.camera, fit.outline, shades, kGap_px));
   for (int i = 0; i < kShadedSteps; ++i)
-    if (!improve(fit, settings, 0.0)) return std::nullopt;
+    if (!improve(fit, settings, 0.0, 0.0)) return std::nullopt;
   return fit;
 }
 

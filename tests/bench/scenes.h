@@ -36,4 +36,24 @@ inline Scene eighteen_balls() {
   return scene;
 }
 
+/// As many balls as stand beside each other three metres ahead: ten rows of ten.
+inline Scene hundred_balls() {
+  Scene scene = eighteen_balls();
+  const double radius_m = scene.world.ball_radius_m();
+  scene.world.balls.clear();
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d place(scene.pose.x_m + 3.0, scene.pose.y_m + 0.27 * (i % 10 - 4.5),
+                                0.08 + 0.14 * (i / 10));
+    scene.world.balls.push_back({.centre_m = place, .radius_m = radius_m, .colour = i % 18});
+  }
+  return scene;
+}
+
+/// The same walls with nothing before them.
+inline Scene no_balls() {
+  Scene scene = eighteen_balls();
+  scene.world.balls.clear();
+  return scene;
+}
+
 }  // namespace stereobench

@@ -60,7 +60,7 @@ worlds::CameraSensor whole_camera() {
 void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_levels) {
   Bench bench(scene);
   const auto pair = renderer::expose(bench.frame, {.noise_sd_levels = noise_sd_levels}, 0, 0);
-  const vision::ObserverSettings settings{.ball_radius_m = scene.world.balls.front().radius_m,
+  const vision::ObserverSettings settings{.ball_radius_m = scene.world.ball_radius_m(),
                                           .noise_sd_levels = noise_sd_levels};
   std::size_t balls = 0;
   bench.run(state, [&] { balls = vision::observe(pair, scene.rig, settings).size(); });
@@ -80,6 +80,8 @@ STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle
 STEREOBENCH_STAGE(expose_pair, whole_camera, scenario_scene("ball_circle"), whole_camera());
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_2, eighteen_balls(), 2.0);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_8, eighteen_balls(), 8.0);
+STEREOBENCH_STAGE(observe_pair, hundred_balls_noise_2, hundred_balls(), 2.0);
+STEREOBENCH_STAGE(observe_pair, no_balls_noise_2, no_balls(), 2.0);
 STEREOBENCH_STAGE(observe_pair, corridor_noise_2, scenario_scene("corridor"), 2.0);
 
 }  // namespace
