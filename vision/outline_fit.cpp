@@ -105,6 +105,8 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
     off = std::max(*change, kPatience * off);
   }
+  // An outline that the ball's own shades do not suit was pulled aside, and is better looked for from
+  // elsewhere.
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   look(fit, image, unmix, 0.0, fit_shading(image, settings.camera, fit.outline, shades, kGap_px));
   for (int i = 0; i < kShadedSteps; ++i)

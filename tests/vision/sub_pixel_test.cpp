@@ -70,7 +70,8 @@ Errors errors_at(const StereoRig& rig, const Eigen::Vector2d& phase_px, double d
 class SubPixel : public testing::TestWithParam<double> {};
 
 // Eighteen colours without noise: what is left is the whole levels of their pixels, some 0.001 px a ball, and
-// what the fit itself has wrong. Mutations: pixels taken whole; half the square of a pixel for its area.
+// what the fit itself has wrong. Mutations: pixels taken whole; a pixel's corner taken for a whole strip of
+// it.
 TEST_P(SubPixel, TheSCurveIsFlat) {
   StereoRig rig = painter::rig_with_pictures_of(620, 380);
   rig.camera.cx_px = 310.0;
