@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <opencv2/core/hal/intrin.hpp>
+
 namespace stereobench::vision {
 namespace {
 
@@ -64,15 +66,34 @@ class BlobForest {
   std::vector<Blob> blobs_;
 };
 
+constexpr int kAtOnce = cv::v_uint8x16::nlanes;
+
+// Whether the next kAtOnce pixels are all greyer than any colour of a table, as most of most images are.
+bool is_grey(const std::uint8_t* bgr, const cv::v_uint8x16& least_spread) {
+  cv::v_uint8x16 b, g, r;
+  cv::v_load_deinterleave(bgr, b, g, r);
+  const cv::v_uint8x16 spread = cv::v_max(cv::v_max(b, g), r) - cv::v_min(cv::v_min(b, g), r);
+  return cv::v_check_all(spread < least_spread);
+}
+
 void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, std::vector<Run>& runs) {
   runs.clear();
+  const auto least_spread =
+      cv::v_setall_u8(static_cast<std::uint8_t>(std::min(255, table.least_spread_levels())));
   std::uint8_t current = kBackground;
-  for (int x = 0; x < width; ++x, bgr += 3) {
-    const std::uint8_t colour = table.classify(bgr[0], bgr[1], bgr[2]);
-    if (colour == current) continue;
-    if (current != kBackground) runs.back().end = x;
-    if (colour != kBackground) runs.push_back({x, width, colour, 0});
-    current = colour;
+  for (int x = 0; x < width;) {
+    if (current == kBackground && x + kAtOnce <= width && is_grey(bgr + 3 * x, least_spread)) {
+      x += kAtOnce;
+      continue;
+    }
+    for (const int end = std::min(width, x + kAtOnce); x < end; ++x) {
+      const std::uint8_t* pixel = bgr + 3 * x;
+      const std::uint8_t colour = table.classify(pixel[0], pixel[1], pixel[2]);
+      if (colour == current) continue;
+      if (current != kBackground) runs.back().end = x;
+      if (colour != kBackground) runs.push_back({x, width, colour, 0});
+      current = colour;
+    }
   }
 }
 

@@ -60,8 +60,12 @@ ColourTable::ColourTable()
 
 ColourTable::ColourTable(const std::function<std::uint8_t(const Eigen::Vector3d&)>& colour_of) {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    cells_[cell] = colour_of(
-        Eigen::Vector3d(cell_value(cell >> 12), cell_value((cell >> 6) & 63U), cell_value(cell & 63U)));
+    const std::array<std::size_t, 3> bgr = {cell >> 12, (cell >> 6) & 63U, cell & 63U};
+    cells_[cell] = colour_of(Eigen::Vector3d(cell_value(bgr[0]), cell_value(bgr[1]), cell_value(bgr[2])));
+    if (cells_[cell] == kBackground) continue;
+    const auto [darkest, brightest] = std::ranges::minmax(bgr);
+    const int cells_apart = static_cast<int>(brightest - darkest);
+    least_spread_levels_ = std::min(least_spread_levels_, std::max(0, 4 * cells_apart - 3));
   }
 }
 

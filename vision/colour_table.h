@@ -29,8 +29,13 @@ class ColourTable {
     return cells_[cell];
   }
 
+  /// The least difference between a colour's brightest and darkest channel, levels; what is greyer than that
+  /// is background. 256 when everything is.
+  int least_spread_levels() const { return least_spread_levels_; }
+
  private:
   std::array<std::uint8_t, 64 * 64 * 64> cells_;
+  int least_spread_levels_ = 256;
 };
 
 /// The one table there is: it follows from kPalette alone, is built on first use and never changes.
