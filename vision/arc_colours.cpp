@@ -9,7 +9,6 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kRingWidth_px = 2.0;
 constexpr std::size_t kShadeArcs = 3;   // to either side, that tell how good the shading is
 constexpr double kUnknownShade = 0.12;  // sd of the ball's brightness at the rim, relative
 constexpr double kLeastShade = 0.01;    // the same where the shading suits all that is seen
@@ -21,85 +20,33 @@ constexpr double kMeanSquareShare = 0.4;   // of either colour in a rim pixel
 constexpr double kMinContrast_levels = 14.0;
 constexpr double kMaxAlphaSd = 0.5;  // a pixel that knows its share no better says nothing
 
-// Sums over pixels that show the background alone.
-struct BackgroundSums {
-  double count = 0.0;
-  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-
-  void add(const Eigen::Vector3d& bgr) {
-    count += 1.0;
-    colour += bgr;
-    squares.noalias() += bgr * bgr.transpose();
-  }
-  void add(const BackgroundSums& other) {
-    count += other.count;
-    colour += other.colour;
-    squares += other.squares;
-  }
-  Eigen::Vector3d mean() const { return colour / count; }
-  Eigen::Matrix3d scatter() const { return squares - colour * colour.transpose() / count; }
-};
-
-// Sums over pixels that show the ball alone, or over those that the outline crosses.
-struct BallSums {
-  double count = 0.0;
-  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-  Eigen::Vector3d shade = Eigen::Vector3d::Zero();
-
-  void add(const RimPixel& pixel) {
-    count += 1.0;
-    colour += pixel.bgr;
-    shade += pixel.shade;
-  }
-  void add(const BallSums& other) {
-    count += other.count;
-    colour += other.colour;
-    shade += other.shade;
-  }
-  Eigen::Vector3d mean() const { return colour / count; }
-  Eigen::Vector3d beyond_shade() const { return (colour - shade) / count; }
-};
-
-struct ArcSamples {
+// The ball beside one arc.
+struct BallBeside {
   BallSums inside;
-  BallSums crossed;
-  BackgroundSums outside;
   bool shows_ball = false;
 };
 
-using Arcs = std::vector<ArcSamples>;
+using Balls = std::vector<BallBeside>;
 
-Arcs sample_arcs(const Rim& rim, const UnmixSettings& settings, double noise_variance) {
-  Arcs arcs(rim.sectors);
-  for (const RimPixel& pixel : rim.pixels) {
-    ArcSamples& arc = arcs[pixel.sector];
-    const double beyond_gap = std::abs(pixel.distance_px) - settings.gap_px;
-    if (beyond_gap < 0.0) arc.crossed.add(pixel);
-    if (beyond_gap < 0.0 || beyond_gap > kRingWidth_px) continue;
-    if (pixel.distance_px < 0.0) {
-      arc.inside.add(pixel);
-    } else {
-      arc.outside.add(pixel.bgr);
-    }
-  }
-  const Arcs own = arcs;
+Balls balls_beside(const std::vector<RimArc>& arcs, const UnmixSettings& settings, double noise_variance) {
+  Balls balls(arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    BallSums& inside = arcs[i].inside;
+    BallSums& inside = balls[i].inside;
+    inside = arcs[i].inside;
     if (inside.count < 3.0) {  // small balls have few pixels inside: the arcs on both sides help out
-      inside.add(own[(i + 1) % own.size()].inside);
-      inside.add(own[(i + own.size() - 1) % own.size()].inside);
+      inside.add(arcs[(i + 1) % arcs.size()].inside);
+      inside.add(arcs[(i + arcs.size() - 1) % arcs.size()].inside);
     }
     if (inside.count < 2.0) continue;
     const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / inside.count));
-    arcs[i].shows_ball = shades.contain(inside.mean());
+    balls[i].shows_ball = shades.contain(inside.mean());
   }
-  return arcs;
+  return balls;
 }
 
 // Visits an arc and as many as `reach` to either side of it, each once.
-template <typename Visit>
-void visit_around(const Arcs& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
+template <typename Arc, typename Visit>
+void visit_around(const std::vector<Arc>& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
   const std::size_t count = std::min(2 * reach + 1, arcs.size());
   for (std::size_t step = 0; step < count; ++step)
     visit(arcs[(arc + arcs.size() - reach % arcs.size() + step) % arcs.size()]);
@@ -122,10 +69,10 @@ Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double n
 
 // Beside all arcs, each about its own mean. An edge in the background may lie under the rim and be seen
 // nowhere.
-Eigen::Matrix3d texture_everywhere(const Arcs& arcs, double noise_variance) {
+Eigen::Matrix3d texture_everywhere(const std::vector<RimArc>& arcs, double noise_variance) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   double freedom = 0.0;
-  for (const ArcSamples& arc : arcs) {
+  for (const RimArc& arc : arcs) {
     if (arc.outside.count < 2.0) continue;
     scatter += arc.outside.scatter();
     freedom += arc.outside.count - 1.0;
@@ -134,9 +81,9 @@ Eigen::Matrix3d texture_everywhere(const Arcs& arcs, double noise_variance) {
 }
 
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
-Eigen::Matrix3d texture_around(const Arcs& arcs, std::size_t arc, double noise_variance) {
+Eigen::Matrix3d texture_around(const std::vector<RimArc>& arcs, std::size_t arc, double noise_variance) {
   BackgroundSums around;
-  visit_around(arcs, arc, kTextureArcs, [&](const ArcSamples& other) { around.add(other.outside); });
+  visit_around(arcs, arc, kTextureArcs, [&](const RimArc& other) { around.add(other.outside); });
   return texture(around.scatter(), around.count - 1.0, noise_variance);
 }
 
@@ -146,12 +93,12 @@ struct ShadeTrust {
   double relative_sd = kUnknownShade;
 };
 
-ShadeTrust trust_around(const Arcs& arcs, std::size_t arc, double noise_variance) {
+ShadeTrust trust_around(const Balls& balls, std::size_t arc, double noise_variance) {
   double squares = 0.0;
   double freedom = -2.0;
   double of_brightness = 0.0;
   double brightness = 0.0;
-  visit_around(arcs, arc, kShadeArcs, [&](const ArcSamples& other) {
+  visit_around(balls, arc, kShadeArcs, [&](const BallBeside& other) {
     if (!other.shows_ball) return;
     const Eigen::Vector3d mean = other.inside.mean();
     const Eigen::Vector3d beyond = other.inside.beyond_shade();
@@ -196,21 +143,21 @@ void unmix(ArcColours& arc, const Eigen::Vector3d& ball, const Disturbance& dist
 
 std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
-  const Arcs samples = sample_arcs(rim, settings, noise_variance);
-  const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(samples, noise_variance);
-  std::vector<ArcColours> arcs(rim.sectors);
+  const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
+  const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
+  std::vector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const ArcSamples& sample = samples[i];
-    if (!sample.shows_ball || sample.outside.count < 2.0 || sample.crossed.count < 1.0) continue;
-    const ShadeTrust trust = rim.has_shades ? trust_around(samples, i, noise_variance) : ShadeTrust{};
-    arcs[i].background = sample.outside.mean();
-    arcs[i].beyond_shade = trust.beyond_shade * sample.inside.beyond_shade();
-    const Eigen::Vector3d ball = sample.crossed.shade / sample.crossed.count + arcs[i].beyond_shade;
+    const RimArc& seen = rim.arcs[i];
+    if (!balls[i].shows_ball || seen.outside.count < 2.0 || seen.crossed.count < 1.0) continue;
+    const ShadeTrust trust = rim.has_shades ? trust_around(balls, i, noise_variance) : ShadeTrust{};
+    arcs[i].background = seen.outside.mean();
+    arcs[i].beyond_shade = trust.beyond_shade * balls[i].inside.beyond_shade();
+    const Eigen::Vector3d ball = seen.crossed.shade / seen.crossed.count + arcs[i].beyond_shade;
     unmix(arcs[i], ball,
-          {noise_variance, elsewhere + texture_around(samples, i, noise_variance), trust.relative_sd});
+          {noise_variance, elsewhere + texture_around(rim.arcs, i, noise_variance), trust.relative_sd});
   }
   for (std::size_t i = 0; i < arcs.size(); ++i) {  // what hides one arc may begin in the next
-    if (samples[i].shows_ball || samples[i].inside.count < 2.0 || samples[i].outside.count < 2.0) continue;
+    if (balls[i].shows_ball || balls[i].inside.count < 2.0 || rim.arcs[i].outside.count < 2.0) continue;
     arcs[(i + 1) % arcs.size()].usable = false;
     arcs[(i + arcs.size() - 1) % arcs.size()].usable = false;
   }

@@ -26,7 +26,6 @@ struct ArcColours {
 struct UnmixSettings {
   Eigen::Vector3d ball_bgr = Eigen::Vector3d::Zero();  ///< palette colour, any brightness
   double noise_sd_levels = 0.0;
-  double gap_px = 0.9;  ///< colours are sampled this far from the outline and two pixels further
 };
 
 /// Samples both colours of each arc and prepares how they are told apart.

@@ -35,24 +35,32 @@ Eigen::Vector3d direction(const ArcOffset& arc) {
 
 }  // namespace
 
-std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>& colours,
-                                   const OutlineModel& outline, double ramp_half_width_px) {
-  std::vector<ArcOffset> arcs(rim.sectors);
-  std::vector<double> information(rim.sectors, 0.0);
-  const double reach_px = std::max(ramp_half_width_px, 1.5);
-  const double noise_factor = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
+std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& colours) {
+  std::vector<UnmixedPixel> pixels;
+  pixels.reserve(rim.pixels.size());
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
-    if (!colour.usable || std::abs(pixel.distance_px) > reach_px) continue;
+    if (!colour.usable) continue;
+    pixels.push_back({pixel.position_px, colour.unmix.dot(pixel.bgr - colour.background),
+                      colour.unmix.dot(pixel.shade + colour.beyond_shade - colour.background), pixel.sector});
+  }
+  return pixels;
+}
+
+std::vector<ArcOffset> arc_offsets(const std::vector<UnmixedPixel>& pixels,
+                                   const std::vector<ArcColours>& colours, const OutlineModel& outline,
+                                   double ramp_half_width_px) {
+  std::vector<ArcOffset> arcs(colours.size());
+  std::vector<double> information(colours.size(), 0.0);
+  const double noise_factor = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
+  for (const UnmixedPixel& pixel : pixels) {
     const RimPoint point = outline.rim_point(pixel.position_px);
     const Coverage covered =
         ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : edge_coverage(point);
     if (covered.per_px <= 0.0) continue;
-    const double whole = colour.unmix.dot(pixel.shade + colour.beyond_shade - colour.background);
-    const double shown = colour.unmix.dot(pixel.bgr - colour.background);
-    const double slope = covered.per_px * whole;
+    const double slope = covered.per_px * pixel.whole;
     ArcOffset& arc = arcs[pixel.sector];
-    arc.offset_px += slope * (shown - covered.fraction * whole);
+    arc.offset_px += slope * (pixel.shown - covered.fraction * pixel.whole);
     arc.normal += slope * slope * point.normal;
     information[pixel.sector] += slope * slope;
   }
@@ -66,6 +74,10 @@ std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>
     arcs[i].weight = 1.0;
   }
   return arcs;
+}
+
+void move_outline(std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px) {
+  for (ArcOffset& arc : arcs) arc.offset_px -= direction(arc).dot(change_px);
 }
 
 std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double tolerance_px) {

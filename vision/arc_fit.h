@@ -26,11 +26,26 @@ struct OutlineStep {
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
 };
 
+/// A pixel that the outline may cross, told apart into ball and background.
+struct UnmixedPixel {
+  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
+  double shown = 0.0;  ///< how much of the ball it shows
+  double whole = 0.0;  ///< how much it would show if the ball covered it
+  std::size_t sector = 0;
+};
+
+/// Tells the pixels of usable arcs apart.
+std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& colours);
+
 /// Compares each arc's coverage with the model's.
 /// @param ramp_half_width_px of the model's edge; 0 for the pixels' own box filter
-/// @return one for each sector of the rim, weight 1 where the arc is usable
-std::vector<ArcOffset> arc_offsets(const Rim& rim, const std::vector<ArcColours>& colours,
-                                   const OutlineModel& outline, double ramp_half_width_px);
+/// @return one for each arc, weight 1 where it says something
+std::vector<ArcOffset> arc_offsets(const std::vector<UnmixedPixel>& pixels,
+                                   const std::vector<ArcColours>& colours, const OutlineModel& outline,
+                                   double ramp_half_width_px);
+
+/// The offsets from an outline that has been changed, as long as the change is small.
+void move_outline(std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px);
 
 /// Weighted least squares over the arcs; those at odds with the solution lose weight (Huber, then cut off).
 /// @param arcs their weights are updated

@@ -17,11 +17,11 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFinestRamp_px = 1.5;
 constexpr double kGap_px = 0.9;           // between a sharp edge and the colours beside it
-constexpr double kRing_px = 2.0;          // width of the ring that the colours are sampled in
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
 constexpr double kPatience = 0.4;         // arcs that are hidden may pull for some steps
 constexpr double kLookAgainAbove_px = 0.2;
+constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;
 constexpr double kConverged_px = 0.02;  // before the shading is looked at
@@ -43,7 +43,9 @@ struct Fit {
   OutlineModel outline;
   Rim rim;
   std::vector<ArcColours> colours;
-  std::vector<ArcOffset> arcs;
+  std::vector<UnmixedPixel> pixels;
+  std::vector<ArcOffset> arcs;  // as the outline was when they were compared, moved along with it
+  double moved_px = 0.0;        // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
 };
 
@@ -64,10 +66,16 @@ OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
   return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius)};
 }
 
+// Compares what is seen with the outline as it is.
+void compare(Fit& fit, double ramp_px) {
+  fit.arcs = arc_offsets(fit.pixels, fit.colours, fit.outline, ramp_px);
+  fit.moved_px = 0.0;
+}
+
 // One step of the fit; the change's size, or empty when the arcs no longer make an outline. Arcs may be at
 // odds by half of what the outline may still be off, since then all are.
 std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px, double off_px) {
-  fit.arcs = arc_offsets(fit.rim, fit.colours, fit.outline, ramp_px);
+  if (fit.moved_px > kStraight_px) compare(fit, ramp_px);
   const auto step = solve_arcs(fit.arcs, kTolerance_px + 0.5 * off_px);
   if (!step) return std::nullopt;
   const double limit = std::max(ramp_px, 0.5);
@@ -76,20 +84,23 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
   if (!(radius >= 0.5 * settings.min_radius_px) || radius > kMaxRadius_px) return std::nullopt;
   fit.outline = OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius);
   fit.covariance_px2 = step->covariance_px2;
+  move_outline(fit.arcs, change);
+  fit.moved_px += change.cwiseAbs().maxCoeff();
   return change.cwiseAbs().maxCoeff();
 }
 
 // Looks again at the image, around where the outline is by now.
-void look(Fit& fit, const cv::Mat& image, UnmixSettings unmix, double ramp_px,
+void look(Fit& fit, const cv::Mat& image, const UnmixSettings& settings, double ramp_px,
           const std::optional<Shading>& shading = std::nullopt) {
-  unmix.gap_px = std::max(kGap_px, ramp_px);
-  fit.rim = collect_rim(image, fit.outline, unmix.gap_px + kRing_px, shading);
-  fit.colours = arc_colours(fit.rim, unmix);
+  fit.rim = collect_rim(image, fit.outline, std::max(kGap_px, ramp_px), shading);
+  fit.colours = arc_colours(fit.rim, settings);
+  fit.pixels = unmix(fit.rim, fit.colours);
+  compare(fit, ramp_px);
 }
 
 std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
                             const UnmixSettings& unmix) {
-  Fit fit{start, {}, {}, {}};
+  Fit fit{.outline = start};
   for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
     look(fit, image, unmix, ramp);
     const auto change = improve(fit, settings, ramp, ramp);
@@ -205,7 +216,7 @@ double outside_area(const cv::Mat& image, const OutlineModel& outline) {
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
                                            const FitSettings& settings) {
   if (!may_be_ball(blob)) return std::nullopt;
-  const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels, kGap_px};
+  const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels};
   const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
   if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
   const double radius = fit->outline.radius_px();

@@ -33,10 +33,11 @@ class OutlineModel {
   RimPoint rim_point(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector2d offset = pixel_px - centre_px_;
     const Eigen::Vector2d gradient = form_ * offset;
-    const double level = std::sqrt(offset.dot(gradient));
-    const double slope = gradient.norm();
+    const double level2 = offset.dot(gradient);
+    const double slope = std::sqrt(gradient.squaredNorm());
     if (!(slope > 0.0)) return {-radius_px_, Eigen::Vector2d(1.0, 0.0)};
-    return {(level - 1.0) * level / slope, gradient / slope};
+    const double per_slope = 1.0 / slope;
+    return {(level2 - std::sqrt(level2)) * per_slope, gradient * per_slope};
   }
 
   /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.

@@ -17,10 +17,14 @@ constexpr double kRidge = 1e-6;  // per sample: a lamp that nothing shows is non
 
 // A pixel that shows the ball.
 struct Sample {
-  Eigen::Vector3d normal;
+  Eigen::Vector4d light;  // 1, from all around, and the surface's normal
   Eigen::Vector3d bgr;
   bool is_lit = true;
 };
+
+Eigen::Vector4d as_light(const Eigen::Vector3d& normal) {
+  return {1.0, normal.x(), normal.y(), normal.z()};
+}
 
 std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface, const OutlineModel& outline,
                                 const Shades& shades, double gap_px) {
@@ -38,7 +42,8 @@ std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface
     for (int x = std::max(0, columns.first); x <= std::min(image.cols - 1, columns.last); x += step) {
       const std::uint8_t* bgr = row + 3 * x;
       const Eigen::Vector3d colour(bgr[0], bgr[1], bgr[2]);
-      if (shades.contain(colour)) samples.push_back({surface.normal(Eigen::Vector2d(x, y)), colour});
+      if (shades.contain(colour))
+        samples.push_back({as_light(surface.normal(Eigen::Vector2d(x, y))), colour});
     }
   }
   return samples;
@@ -48,25 +53,26 @@ std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface
 class LampFit {
  public:
   explicit LampFit(const std::vector<Sample>& samples) {
-    const auto count = static_cast<double>(samples.size());
-    squares_.diagonal() << count, kRidge * count, kRidge * count, kRidge * count;
-    for (const Sample& sample : samples) {
-      products_.row(0) += sample.bgr.transpose();
-      turn(sample, 1.0);
-    }
+    const double ridge = kRidge * static_cast<double>(samples.size());
+    squares_.diagonal() << 0.0, ridge, ridge, ridge;
+    for (const Sample& sample : samples) add(sample.light, sample);
   }
 
   /// @param sign 1 to let the lamp shine on a sample, -1 to take it away again
   void turn(const Sample& sample, double sign) {
-    const Eigen::Vector3d normal = sign * sample.normal;
-    squares_.bottomLeftCorner<3, 1>() += normal;
-    squares_.bottomRightCorner<3, 3>().noalias() += normal * sample.normal.transpose();
-    products_.bottomRows<3>().noalias() += normal * sample.bgr.transpose();
+    Eigen::Vector4d lamp = sign * sample.light;
+    lamp[0] = 0.0;
+    add(lamp, sample);
   }
 
   Eigen::Matrix<double, 4, 3> colours() const { return squares_.ldlt().solve(products_); }
 
  private:
+  void add(const Eigen::Vector4d& part, const Sample& sample) {
+    squares_.noalias() += part * sample.light.transpose();
+    products_.noalias() += part * sample.bgr.transpose();
+  }
+
   Eigen::Matrix4d squares_ = Eigen::Matrix4d::Zero();  // lower triangle
   Eigen::Matrix<double, 4, 3> products_ = Eigen::Matrix<double, 4, 3>::Zero();
 };
@@ -81,7 +87,7 @@ bool Shades::contain(const Eigen::Vector3d& bgr) const {
 }
 
 BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
-    : principal_px_(camera.cx_px, camera.cy_px), focal_px_(camera.focal_px) {
+    : principal_px_(camera.cx_px, camera.cy_px), per_focal_px_(1.0 / camera.focal_px) {
   const double b = outline.semi_minor_px() / camera.focal_px;  // sphere_outline (sphere.h) read backwards
   centre_ = (outline.centre_px() - principal_px_) / (camera.focal_px * (1.0 + b * b));
   tangent2_ = centre_.squaredNorm() + 1.0 - b * b / (1.0 + b * b);
@@ -98,7 +104,7 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
     const Eigen::Vector3d lamp = colours.bottomRows<3>().rowwise().sum();
     bool any_turned = false;
     for (Sample& sample : samples) {
-      const bool is_lit = lamp.dot(sample.normal) > 0.0;
+      const bool is_lit = lamp.dot(sample.light.tail<3>()) > 0.0;
       if (is_lit == sample.is_lit) continue;
       sample.is_lit = is_lit;
       fit.turn(sample, is_lit ? 1.0 : -1.0);

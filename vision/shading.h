@@ -37,19 +37,19 @@ class BallSurface {
   /// Where the ball faces that a pixel shows; beyond the outline, where its nearest point faces.
   /// @return unit, in the camera's frame
   Eigen::Vector3d normal(const Eigen::Vector2d& pixel_px) const {
-    const Eigen::Vector2d sight = (pixel_px - principal_px_) / focal_px_;  // and 1 ahead, as the ball is
+    const Eigen::Vector2d sight = (pixel_px - principal_px_) * per_focal_px_;  // and 1 ahead, as the ball is
     const double along = sight.dot(centre_) + 1.0;
     const double length2 = sight.squaredNorm() + 1.0;
     const double nearer = std::sqrt(std::max(0.0, along * along - length2 * tangent2_));
     const double scale = (along - nearer) / length2;
     const Eigen::Vector3d outwards(scale * sight.x() - centre_.x(), scale * sight.y() - centre_.y(),
                                    scale - 1.0);
-    return outwards / outwards.norm();
+    return outwards * (1.0 / outwards.norm());
   }
 
  private:
   Eigen::Vector2d principal_px_;
-  double focal_px_;
+  double per_focal_px_;
   Eigen::Vector2d centre_;
   double tangent2_;  ///< squared length of a tangent from the eye
 };
