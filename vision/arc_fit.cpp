@@ -99,11 +99,16 @@ std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double toler
     step.change_px = solver.solve(right_side);
     step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());
     if (!step.change_px.allFinite()) return std::nullopt;
+    bool any_changed = false;
     for (ArcOffset& arc : arcs) {
       if (arc.variance_px2 <= 0.0) continue;
       const double residual = arc.offset_px - direction(arc).dot(step.change_px);
-      arc.weight = robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
+      const double weight =
+          robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
+      any_changed = any_changed || weight != arc.weight;
+      arc.weight = weight;
     }
+    if (!any_changed) break;
   }
   return step;
 }

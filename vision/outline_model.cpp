@@ -34,29 +34,4 @@ ColumnSpan OutlineModel::columns_within(double level, int row) const {
   return {static_cast<int>(std::ceil(middle - reach)), static_cast<int>(std::floor(middle + reach))};
 }
 
-Coverage edge_coverage(const RimPoint& rim) {
-  const double nx = std::abs(rim.normal.x());
-  const double ny = std::abs(rim.normal.y());
-  const double larger = std::max(nx, ny);
-  const double smaller = std::min(nx, ny);
-  const double t = std::abs(rim.distance_px);
-  const double corner = 0.5 * (larger + smaller);  // where the edge leaves the square
-  const double side = 0.5 * (larger - smaller);    // where it meets the square's nearer corner
-  if (t >= corner) return {rim.distance_px > 0.0 ? 0.0 : 1.0, 0.0};
-  double outer = 0.5 - t / larger;
-  double per_px = 1.0 / larger;
-  if (t > side) {
-    outer = (corner - t) * (corner - t) / (2.0 * larger * smaller);
-    per_px = (corner - t) / (larger * smaller);
-  }
-  return {rim.distance_px > 0.0 ? outer : 1.0 - outer, per_px};
-}
-
-Coverage ramp_coverage(const RimPoint& rim, double half_width_px) {
-  const double fraction = 0.5 - 0.5 * rim.distance_px / half_width_px;
-  if (fraction <= 0.0) return {0.0, 0.0};
-  if (fraction >= 1.0) return {1.0, 0.0};
-  return {fraction, 0.5 / half_width_px};
-}
-
 }  // namespace stereobench::vision

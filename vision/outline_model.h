@@ -1,6 +1,7 @@
 /// The outline that a ball of a given centre and size must have, and what it covers of each pixel.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -40,6 +41,18 @@ class OutlineModel {
     return {(level2 - std::sqrt(level2)) * per_slope, gradient * per_slope};
   }
 
+  /// The distances of several pixels of a row at once, in single precision.
+  /// @param right_px, down_px from the outline's centre
+  template <typename Floats>
+  Floats distances_px(const Floats& right_px, float down_px) const {
+    const Eigen::Matrix2f form = form_.cast<float>();
+    const Floats gradient_x = form(0, 0) * right_px + form(0, 1) * down_px;
+    const Floats gradient_y = form(1, 0) * right_px + form(1, 1) * down_px;
+    const Floats level2 = right_px * gradient_x + down_px * gradient_y;
+    const Floats slope = (gradient_x.square() + gradient_y.square()).sqrt();
+    return (level2 - level2.sqrt()) / slope;
+  }
+
   /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.
   double level(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector2d offset = pixel_px - centre_px_;
@@ -68,9 +81,30 @@ struct Coverage {
 };
 
 /// Coverage of a unit square pixel by the inside of an edge: a box filter, exact for straight edges.
-Coverage edge_coverage(const RimPoint& rim);
+inline Coverage edge_coverage(const RimPoint& rim) {
+  const double nx = std::abs(rim.normal.x());
+  const double ny = std::abs(rim.normal.y());
+  const double larger = std::max(nx, ny);
+  const double smaller = std::min(nx, ny);
+  const double t = std::abs(rim.distance_px);
+  const double corner = 0.5 * (larger + smaller);  // where the edge leaves the square
+  const double side = 0.5 * (larger - smaller);    // where it meets the square's nearer corner
+  if (t >= corner) return {rim.distance_px > 0.0 ? 0.0 : 1.0, 0.0};
+  double outer = 0.5 - t / larger;
+  double per_px = 1.0 / larger;
+  if (t > side) {
+    outer = (corner - t) * (corner - t) / (2.0 * larger * smaller);
+    per_px = (corner - t) / (larger * smaller);
+  }
+  return {rim.distance_px > 0.0 ? outer : 1.0 - outer, per_px};
+}
 
 /// The same with the edge blurred to a ramp of the given half width: finds outlines that are further away.
-Coverage ramp_coverage(const RimPoint& rim, double half_width_px);
+inline Coverage ramp_coverage(const RimPoint& rim, double half_width_px) {
+  const double fraction = 0.5 - 0.5 * rim.distance_px / half_width_px;
+  if (fraction <= 0.0) return {0.0, 0.0};
+  if (fraction >= 1.0) return {1.0, 0.0};
+  return {fraction, 0.5 / half_width_px};
+}
 
 }  // namespace stereobench::vision

@@ -8,12 +8,13 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kShadeTolerance = 0.10;   // colour off the ball's line, relative to its brightness
-constexpr double kMinShade_levels = 35.0;  // a ball in the deepest shade and its own noise has more
-constexpr double kMostSamples = 1500.0;    // spread over the ball
+constexpr double kMostSamples = 1500.0;  // spread over the ball
 constexpr std::size_t kFewestSamples = 24;
+constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
 constexpr int kMostTurns = 12;
 constexpr double kRidge = 1e-6;  // per sample: a lamp that nothing shows is none
+
+using LampColours = Eigen::Matrix<double, 4, 3>;  // c0 and l, by channel
 
 // A pixel that shows the ball.
 struct Sample {
@@ -52,20 +53,22 @@ std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface
 // Least squares of colours = c0 + [lit] n . l, whose samples may be turned on and off.
 class LampFit {
  public:
-  explicit LampFit(const std::vector<Sample>& samples) {
-    const double ridge = kRidge * static_cast<double>(samples.size());
-    squares_.diagonal() << 0.0, ridge, ridge, ridge;
-    for (const Sample& sample : samples) add(sample.light, sample);
-  }
+  /// Takes a sample in, lit or not as it is said to be.
+  void add(const Sample& sample) { add(sample.is_lit ? sample.light : Eigen::Vector4d::Unit(0), sample); }
 
-  /// @param sign 1 to let the lamp shine on a sample, -1 to take it away again
+  /// @param sign 1 to let the lamp shine on a sample that was taken in, -1 to take it away again
   void turn(const Sample& sample, double sign) {
     Eigen::Vector4d lamp = sign * sample.light;
     lamp[0] = 0.0;
     add(lamp, sample);
   }
 
-  Eigen::Matrix<double, 4, 3> colours() const { return squares_.ldlt().solve(products_); }
+  LampColours colours() const {
+    const double ridge = kRidge * squares_(0, 0);
+    return (squares_ + Eigen::Vector4d(0.0, ridge, ridge, ridge).asDiagonal().toDenseMatrix())
+        .ldlt()
+        .solve(products_);
+  }
 
  private:
   void add(const Eigen::Vector4d& part, const Sample& sample) {
@@ -74,37 +77,28 @@ class LampFit {
   }
 
   Eigen::Matrix4d squares_ = Eigen::Matrix4d::Zero();  // lower triangle
-  Eigen::Matrix<double, 4, 3> products_ = Eigen::Matrix<double, 4, 3>::Zero();
+  LampColours products_ = LampColours::Zero();
 };
 
-}  // namespace
-
-bool Shades::contain(const Eigen::Vector3d& bgr) const {
-  const double brightness = line_.dot(bgr);
-  const double tolerance = kShadeTolerance * brightness + noise_tolerance_;
-  return brightness >= kMinShade_levels &&
-         bgr.squaredNorm() - brightness * brightness <= tolerance * tolerance;
+Eigen::Vector3d lamp_of(const LampColours& colours) {
+  return colours.bottomRows<3>().rowwise().sum();
 }
 
-BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
-    : principal_px_(camera.cx_px, camera.cy_px), per_focal_px_(1.0 / camera.focal_px) {
-  const double b = outline.semi_minor_px() / camera.focal_px;  // sphere_outline (sphere.h) read backwards
-  centre_ = (outline.centre_px() - principal_px_) / (camera.focal_px * (1.0 + b * b));
-  tangent2_ = centre_.squaredNorm() + 1.0 - b * b / (1.0 + b * b);
+bool is_lit_by(const Eigen::Vector3d& lamp, const Sample& sample) {
+  return lamp.dot(sample.light.tail<3>()) > 0.0;
 }
 
-std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
-                                   const OutlineModel& outline, const Shades& shades, double gap_px) {
-  const BallSurface surface(camera, outline);
-  std::vector<Sample> samples = sample_ball(image, surface, outline, shades, gap_px);
-  if (samples.size() < kFewestSamples) return std::nullopt;
-  LampFit fit(samples);
-  Eigen::Matrix<double, 4, 3> colours = fit.colours();
-  for (int i = 0; i < kMostTurns; ++i) {
-    const Eigen::Vector3d lamp = colours.bottomRows<3>().rowwise().sum();
+// Fits every `stride`-th sample, whose sides towards the lamp are found in turns with the lamp.
+LampColours fit_lamp(std::vector<Sample>& samples, std::size_t stride) {
+  LampFit fit;
+  for (std::size_t i = 0; i < samples.size(); i += stride) fit.add(samples[i]);
+  LampColours colours = fit.colours();
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const Eigen::Vector3d lamp = lamp_of(colours);
     bool any_turned = false;
-    for (Sample& sample : samples) {
-      const bool is_lit = lamp.dot(sample.light.tail<3>()) > 0.0;
+    for (std::size_t i = 0; i < samples.size(); i += stride) {
+      Sample& sample = samples[i];
+      const bool is_lit = is_lit_by(lamp, sample);
       if (is_lit == sample.is_lit) continue;
       sample.is_lit = is_lit;
       fit.turn(sample, is_lit ? 1.0 : -1.0);
@@ -113,7 +107,31 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
     if (!any_turned) break;
     colours = fit.colours();
   }
-  return Shading(surface, colours);
+  return colours;
+}
+
+}  // namespace
+
+BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
+    : principal_px_(camera.cx_px, camera.cy_px), per_focal_px_(1.0 / camera.focal_px) {
+  const double b = outline.semi_minor_px() / camera.focal_px;  // sphere_outline (sphere.h) read backwards
+  centre_ = (outline.centre_px() - principal_px_) / (camera.focal_px * (1.0 + b * b));
+  const double radius2 = b * b / (1.0 + b * b);
+  tangent2_ = centre_.squaredNorm() + 1.0 - radius2;
+  per_radius_ = 1.0 / std::sqrt(radius2);
+}
+
+std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
+                                   const OutlineModel& outline, const Shades& shades, double gap_px) {
+  const BallSurface surface(camera, outline);
+  std::vector<Sample> samples = sample_ball(image, surface, outline, shades, gap_px);
+  if (samples.size() < kFewestSamples) return std::nullopt;
+  const std::size_t stride = samples.size() / kFirstSamples;
+  if (stride > 1) {
+    const Eigen::Vector3d lamp = lamp_of(fit_lamp(samples, stride));
+    for (Sample& sample : samples) sample.is_lit = is_lit_by(lamp, sample);
+  }
+  return Shading(surface, fit_lamp(samples, 1));
 }
 
 }  // namespace stereobench::vision

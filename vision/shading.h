@@ -22,9 +22,17 @@ class Shades {
       : line_(ball_bgr.normalized()), noise_tolerance_(3.0 * noise_levels) {}
 
   /// Whether a colour is a shade of the ball's.
-  bool contain(const Eigen::Vector3d& bgr) const;
+  bool contain(const Eigen::Vector3d& bgr) const {
+    const double brightness = line_.dot(bgr);
+    const double tolerance = kTolerance * brightness + noise_tolerance_;
+    return brightness >= kDarkest_levels &&
+           bgr.squaredNorm() - brightness * brightness <= tolerance * tolerance;
+  }
 
  private:
+  static constexpr double kTolerance = 0.10;       // off the ball's line, relative to brightness
+  static constexpr double kDarkest_levels = 35.0;  // a ball in the deepest shade and its own noise has more
+
   Eigen::Vector3d line_;
   double noise_tolerance_;
 };
@@ -40,18 +48,20 @@ class BallSurface {
     const Eigen::Vector2d sight = (pixel_px - principal_px_) * per_focal_px_;  // and 1 ahead, as the ball is
     const double along = sight.dot(centre_) + 1.0;
     const double length2 = sight.squaredNorm() + 1.0;
-    const double nearer = std::sqrt(std::max(0.0, along * along - length2 * tangent2_));
-    const double scale = (along - nearer) / length2;
+    const double half_chord2 = along * along - length2 * tangent2_;
+    const bool is_met = half_chord2 > 0.0;
+    const double scale = (is_met ? along - std::sqrt(half_chord2) : along) / length2;
     const Eigen::Vector3d outwards(scale * sight.x() - centre_.x(), scale * sight.y() - centre_.y(),
                                    scale - 1.0);
-    return outwards * (1.0 / outwards.norm());
+    return outwards * (is_met ? per_radius_ : 1.0 / outwards.norm());
   }
 
  private:
   Eigen::Vector2d principal_px_;
   double per_focal_px_;
   Eigen::Vector2d centre_;
-  double tangent2_;  ///< squared length of a tangent from the eye
+  double tangent2_;    ///< squared length of a tangent from the eye
+  double per_radius_;  ///< of the ball
 };
 
 /// What a ball shows of itself under one lamp and light from all around: c0 + max(0, n . l) in each channel
