@@ -33,12 +33,12 @@ Balls balls_beside(const std::vector<RimArc>& arcs, const UnmixSettings& setting
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     BallSums& inside = balls[i].inside;
     inside = arcs[i].inside;
-    if (inside.count < 3.0) {  // small balls have few pixels inside: the arcs on both sides help out
+    if (inside.count() < 3.0) {  // small balls have few pixels inside: the arcs on both sides help out
       inside.add(arcs[(i + 1) % arcs.size()].inside);
       inside.add(arcs[(i + arcs.size() - 1) % arcs.size()].inside);
     }
-    if (inside.count < 2.0) continue;
-    const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / inside.count));
+    if (inside.count() < 2.0) continue;
+    const Shades shades(settings.ball_bgr, std::sqrt(noise_variance / inside.count()));
     balls[i].shows_ball = shades.contain(inside.mean());
   }
   return balls;
@@ -73,9 +73,9 @@ Eigen::Matrix3d texture_everywhere(const std::vector<RimArc>& arcs, double noise
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   double freedom = 0.0;
   for (const RimArc& arc : arcs) {
-    if (arc.outside.count < 2.0) continue;
+    if (arc.outside.count() < 2.0) continue;
     scatter += arc.outside.scatter();
-    freedom += arc.outside.count - 1.0;
+    freedom += arc.outside.count() - 1.0;
   }
   return texture(scatter, freedom, noise_variance);
 }
@@ -83,8 +83,9 @@ Eigen::Matrix3d texture_everywhere(const std::vector<RimArc>& arcs, double noise
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
 Eigen::Matrix3d texture_around(const std::vector<RimArc>& arcs, std::size_t arc, double noise_variance) {
   BackgroundSums around;
-  visit_around(arcs, arc, kTextureArcs, [&](const RimArc& other) { around.add(other.outside); });
-  return texture(around.scatter(), around.count - 1.0, noise_variance);
+  visit_around(arcs, arc, kTextureArcs,
+               [&](const RimArc& other) { around.moments += other.outside.moments; });
+  return texture(around.scatter(), around.count() - 1.0, noise_variance);
 }
 
 // How well the ball's colours at the rim of an arc are known.
@@ -101,12 +102,12 @@ ShadeTrust trust_around(const Balls& balls, std::size_t arc, double noise_varian
   visit_around(balls, arc, kShadeArcs, [&](const BallBeside& other) {
     if (!other.shows_ball) return;
     const Eigen::Vector3d mean = other.inside.mean();
-    const Eigen::Vector3d beyond = other.inside.beyond_shade();
+    const Eigen::Vector3d beyond = mean - other.inside.mean_shade();
     const double along = beyond.dot(mean);
-    squares += other.inside.count * beyond.squaredNorm() / noise_variance;
+    squares += other.inside.count() * beyond.squaredNorm() / noise_variance;
     freedom += 3.0;
-    of_brightness += other.inside.count * along * along / mean.squaredNorm() - noise_variance;
-    brightness += other.inside.count * mean.squaredNorm();
+    of_brightness += other.inside.count() * along * along / mean.squaredNorm() - noise_variance;
+    brightness += other.inside.count() * mean.squaredNorm();
   });
   if (!(freedom > 0.0)) return {};
   const double beside = std::max(0.0, of_brightness / brightness);
@@ -114,29 +115,36 @@ ShadeTrust trust_around(const Balls& balls, std::size_t arc, double noise_varian
   return {believed_part(squares, freedom), std::min(kUnknownShade, at_rim)};
 }
 
-// What disturbs the colours of an arc's pixels.
-struct Disturbance {
-  double noise_variance = 0.0;  // of each channel
-  Eigen::Matrix3d texture = Eigen::Matrix3d::Zero();
-  double shade_sd = 0.0;  // of the ball's brightness, relative
+// The two colours of an arc, and what disturbs them.
+struct Mixture {
+  Eigen::Vector3d background;
+  Eigen::Vector3d ball;
+  Eigen::Vector3d beyond_shade;  // part of the ball's colour that the shading does not tell
+  Eigen::Matrix3d texture;
+  double shade_sd;        // of the ball's brightness, relative
+  double noise_variance;  // of each channel
 };
 
 // Generalised least squares of I - background = alpha (ball - background). The image's noise disturbs all
 // channels alike, the shade at the rim lies along the ball's own colour, and texture mostly along grey: alpha
 // is read in the direction that suffers least from the three of them.
-void unmix(ArcColours& arc, const Eigen::Vector3d& ball, const Disturbance& disturbance) {
-  const Eigen::Vector3d contrast = ball - arc.background;
-  if (!(contrast.norm() > kMinContrast_levels)) return;
-  const Eigen::Vector3d shade = disturbance.shade_sd * ball;
-  const Eigen::Matrix3d covariance = disturbance.noise_variance * Eigen::Matrix3d::Identity() +
-                                     kMeanSquareShare * (shade * shade.transpose() + disturbance.texture);
+ArcColours unmixed(const Mixture& mixture) {
+  ArcColours arc;
+  const Eigen::Vector3d contrast = mixture.ball - mixture.background;
+  if (!(contrast.norm() > kMinContrast_levels)) return arc;
+  const Eigen::Vector3d shade = mixture.shade_sd * mixture.ball;
+  const Eigen::Matrix3d covariance = mixture.noise_variance * Eigen::Matrix3d::Identity() +
+                                     kMeanSquareShare * (shade * shade.transpose() + mixture.texture);
   const Eigen::Vector3d weighted = covariance.inverse() * contrast;
   const double strength = contrast.dot(weighted);
-  if (!(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return;
-  arc.unmix = weighted / strength;
-  arc.noise_variance = disturbance.noise_variance * arc.unmix.squaredNorm();
-  arc.texture_variance = std::max(0.0, arc.unmix.dot(disturbance.texture * arc.unmix));
+  if (!(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return arc;
+  const Eigen::Vector3d by_channel = weighted / strength;
+  arc.unmix << by_channel, -by_channel.dot(mixture.background);
+  arc.beyond_shade = by_channel.dot(mixture.beyond_shade);
+  arc.noise_variance = mixture.noise_variance * by_channel.squaredNorm();
+  arc.texture_variance = std::max(0.0, by_channel.dot(mixture.texture * by_channel));
   arc.usable = true;
+  return arc;
 }
 
 }  // namespace
@@ -148,16 +156,19 @@ std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setting
   std::vector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const RimArc& seen = rim.arcs[i];
-    if (!balls[i].shows_ball || seen.outside.count < 2.0 || seen.crossed.count < 1.0) continue;
+    if (!balls[i].shows_ball || seen.outside.count() < 2.0 || seen.crossed.count() < 1.0) continue;
+    const BallSums& inside = balls[i].inside;
     const ShadeTrust trust = rim.has_shades ? trust_around(balls, i, noise_variance) : ShadeTrust{};
-    arcs[i].background = seen.outside.mean();
-    arcs[i].beyond_shade = trust.beyond_shade * balls[i].inside.beyond_shade();
-    const Eigen::Vector3d ball = seen.crossed.shade / seen.crossed.count + arcs[i].beyond_shade;
-    unmix(arcs[i], ball,
-          {noise_variance, elsewhere + texture_around(rim.arcs, i, noise_variance), trust.relative_sd});
+    const Eigen::Vector3d beyond_shade = trust.beyond_shade * (inside.mean() - inside.mean_shade());
+    arcs[i] = unmixed({.background = seen.outside.mean(),
+                       .ball = seen.crossed.mean_shade() + beyond_shade,
+                       .beyond_shade = beyond_shade,
+                       .texture = elsewhere + texture_around(rim.arcs, i, noise_variance),
+                       .shade_sd = trust.relative_sd,
+                       .noise_variance = noise_variance});
   }
   for (std::size_t i = 0; i < arcs.size(); ++i) {  // what hides one arc may begin in the next
-    if (balls[i].shows_ball || balls[i].inside.count < 2.0 || rim.arcs[i].outside.count < 2.0) continue;
+    if (balls[i].shows_ball || balls[i].inside.count() < 2.0 || rim.arcs[i].outside.count() < 2.0) continue;
     arcs[(i + 1) % arcs.size()].usable = false;
     arcs[(i + arcs.size() - 1) % arcs.size()].usable = false;
   }

@@ -12,14 +12,18 @@ namespace stereobench::vision {
 /// What the pixels of one arc are mixed of: covered . ball + (1 - covered) . background. The ball's colour at
 /// a pixel is the shading's (RimPixel::shade) plus what the arc shows beyond it.
 struct ArcColours {
-  Eigen::Vector3d background = Eigen::Vector3d::Zero();  ///< BGR, just outside
-  Eigen::Vector3d beyond_shade = Eigen::Vector3d::Zero();
-  /// How much of the ball a change of colour is worth, per level; zero where the arc shows nothing. What it
-  /// yields of the ball's colour less the background's is about 1.
-  Eigen::Vector3d unmix = Eigen::Vector3d::Zero();
+  /// How much of the ball a colour is: 0 for the background just outside, about 1 for the ball.
+  Eigen::Vector4d unmix = Eigen::Vector4d::Zero();
+  double beyond_shade = 0.0;      ///< what the ball is worth beyond its shade
   double noise_variance = 0.0;    ///< of a pixel's share of the ball, from image noise
   double texture_variance = 0.0;  ///< the same, since texture is not the same at the rim as beside it
   bool usable = false;            ///< the ball's colour inside, another one outside, enough contrast
+
+  /// How much of the ball a pixel shows, in the unit of `whole`.
+  double shown(const RimPixel& pixel) const { return unmix.dot(pixel.colour); }
+
+  /// How much it would show if the ball covered it.
+  double whole(const RimPixel& pixel) const { return unmix.dot(pixel.shade) + beyond_shade; }
 };
 
 /// What arc colours are judged by.

@@ -41,8 +41,7 @@ std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& c
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
     if (!colour.usable) continue;
-    pixels.push_back({pixel.position_px, colour.unmix.dot(pixel.bgr - colour.background),
-                      colour.unmix.dot(pixel.shade + colour.beyond_shade - colour.background), pixel.sector});
+    pixels.push_back({pixel.position_px, colour.shown(pixel), colour.whole(pixel), pixel.sector});
   }
   return pixels;
 }

@@ -163,11 +163,9 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
   const double covered = edge_coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
   if (covered <= 0.0) return 0.0;
-  if (!colours.usable) return shades.contain(pixel.bgr) ? 0.0 : covered;
+  if (!colours.usable) return shades.contain(pixel.colour.head<3>()) ? 0.0 : covered;
   if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
-  const double whole = colours.unmix.dot(pixel.shade + colours.beyond_shade - colours.background);
-  const double shown = colours.unmix.dot(pixel.bgr - colours.background) / whole;
-  return std::clamp(covered - shown, 0.0, covered);
+  return std::clamp(covered - colours.shown(pixel) / colours.whole(pixel), 0.0, covered);
 }
 
 // Area of the outline, px, in which the image does not show the ball.

@@ -67,32 +67,34 @@ class RimCollector {
 
  private:
   void add(ColumnSpan columns, int y) {
+    const int first = std::max(0, columns.first);
     const int last = std::min(image_.cols - 1, columns.last);
-    const auto above = static_cast<float>(y - outline_.centre_px().y());
-    for (int x = std::max(0, columns.first); x <= last; x += kAtOnce) {
+    const auto* bgr = image_.ptr<std::uint8_t>(y) + 3 * first;
+    const auto below = static_cast<float>(y - outline_.centre_px().y());
+    for (int x = first; x <= last; x += kAtOnce) {
       const Four beside = static_cast<float>(x - outline_.centre_px().x()) + Four(0.0F, 1.0F, 2.0F, 3.0F);
-      const Four distances = outline_.distances_px(beside, above);
-      const Four sectors = turns(beside, above) * static_cast<float>(rim_.arcs.size());
-      for (int i = 0; i < kAtOnce && x + i <= last; ++i) {
-        const auto sector = static_cast<std::size_t>(sectors[i]);
+      const Four distances = outline_.distances_px(beside, below);
+      const Four sectors = turns(beside, below) * static_cast<float>(rim_.arcs.size());
+      for (int i = 0; i < kAtOnce && x + i <= last; ++i, bgr += 3) {
         const double distance_px = static_cast<double>(distances[i]);
-        if (std::abs(distance_px) <= reach_px_)
-          add(x + i, y, distance_px, sector < rim_.arcs.size() ? sector : 0);
+        if (!(std::abs(distance_px) <= reach_px_)) continue;
+        const auto sector = static_cast<std::size_t>(sectors[i]);
+        add({.position_px = Eigen::Vector2d(x + i, y),
+             .colour = Colour(bgr[0], bgr[1], bgr[2], 1.0),
+             .shade = Colour(0.0, 0.0, 0.0, 1.0),
+             .distance_px = distance_px,
+             .sector = sector < rim_.arcs.size() ? sector : 0});
       }
     }
   }
 
-  void add(int x, int y, double distance_px, std::size_t sector) {
-    const std::uint8_t* bytes = image_.ptr<std::uint8_t>(y) + 3 * x;
-    const Eigen::Vector3d bgr(bytes[0], bytes[1], bytes[2]);
-    RimArc& arc = rim_.arcs[sector];
-    if (distance_px >= gap_px_) arc.outside.add(bgr);
-    if (distance_px >= near_px_) return;
-    const Eigen::Vector2d position(x, y);
-    const Eigen::Vector3d shade =
-        shading_ && distance_px < kNoBall_px ? shading_->at(position) : Eigen::Vector3d::Zero();
-    if (distance_px < gap_px_) (distance_px <= -gap_px_ ? arc.inside : arc.crossed).add(bgr, shade);
-    if (distance_px > -near_px_) rim_.pixels.push_back({position, bgr, shade, distance_px, sector});
+  void add(RimPixel&& pixel) {
+    RimArc& arc = rim_.arcs[pixel.sector];
+    if (pixel.distance_px >= gap_px_) arc.outside.add(pixel.colour);
+    if (pixel.distance_px >= near_px_) return;
+    if (shading_ && pixel.distance_px < kNoBall_px) pixel.shade.head<3>() = shading_->at(pixel.position_px);
+    if (pixel.distance_px < gap_px_) (pixel.distance_px <= -gap_px_ ? arc.inside : arc.crossed).add(pixel);
+    if (pixel.distance_px > -near_px_) rim_.pixels.push_back(pixel);
   }
 
   const cv::Mat& image_;
@@ -105,14 +107,6 @@ class RimCollector {
 };
 
 }  // namespace
-
-Eigen::Matrix3d BackgroundSums::scatter() const {
-  Eigen::Matrix3d sums;
-  sums << squares[0], crosses[0], crosses[2],  //
-      crosses[0], squares[1], crosses[1],      //
-      crosses[2], crosses[1], squares[2];
-  return sums - colour * (colour / count).transpose();
-}
 
 Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double gap_px,
                 const std::optional<Shading>& shading) {

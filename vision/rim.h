@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "vision/outline_model.h"
@@ -12,60 +13,50 @@
 
 namespace stereobench::vision {
 
+/// Colours are (B, G, R, 1) here, so that sums count what they sum and means and noise come out of one
+/// matrix.
+using Colour = Eigen::Vector4d;
+
 /// A pixel that an outline may cross.
 struct RimPixel {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
-  Eigen::Vector3d bgr = Eigen::Vector3d::Zero();
-  /// What the ball would show here, BGR, as far as its shading is known; zero when nothing is, and
-  /// far outside.
-  Eigen::Vector3d shade = Eigen::Vector3d::Zero();
+  Colour colour = Colour::Zero();
+  /// What the ball would show here as far as its shading is known; black when nothing is, and far outside.
+  Colour shade = Colour::Zero();
   double distance_px = 0.0;  ///< from the outline that it was collected for, positive outside
   std::size_t sector = 0;    ///< which arc of the outline it belongs to
 };
 
 /// Sums over pixels that show the ball, wholly or in part.
 struct BallSums {
-  double count = 0.0;
-  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-  Eigen::Vector3d shade = Eigen::Vector3d::Zero();
+  Colour colour = Colour::Zero();
+  Colour shade = Colour::Zero();
 
-  void add(const Eigen::Vector3d& bgr, const Eigen::Vector3d& expected) {
-    count += 1.0;
-    colour += bgr;
-    shade += expected;
+  void add(const RimPixel& pixel) {
+    colour += pixel.colour;
+    shade += pixel.shade;
   }
   void add(const BallSums& other) {
-    count += other.count;
     colour += other.colour;
     shade += other.shade;
   }
-  Eigen::Vector3d mean() const { return colour / count; }
-  Eigen::Vector3d beyond_shade() const { return (colour - shade) / count; }
+  double count() const { return colour.w(); }
+  Eigen::Vector3d mean() const { return colour.hnormalized(); }
+  Eigen::Vector3d mean_shade() const { return shade.hnormalized(); }
 };
 
 /// Sums over pixels that show the background alone.
 struct BackgroundSums {
-  double count = 0.0;
-  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-  Eigen::Vector3d squares = Eigen::Vector3d::Zero();  ///< of the channels
-  Eigen::Vector3d crosses = Eigen::Vector3d::Zero();  ///< products of each channel and the next: BG, GR, RB
+  Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();  ///< of each colour with itself
 
-  void add(const Eigen::Vector3d& bgr) {
-    count += 1.0;
-    colour += bgr;
-    squares += bgr.cwiseProduct(bgr);
-    crosses += bgr.cwiseProduct(Eigen::Vector3d(bgr.y(), bgr.z(), bgr.x()));
-  }
-  void add(const BackgroundSums& other) {
-    count += other.count;
-    colour += other.colour;
-    squares += other.squares;
-    crosses += other.crosses;
-  }
-  Eigen::Vector3d mean() const { return colour / count; }
+  void add(const Colour& colour) { moments.noalias() += colour * colour.transpose(); }
+  double count() const { return moments(3, 3); }
+  Eigen::Vector3d mean() const { return moments.col(3).hnormalized(); }
 
   /// Sum of the squares about the mean, channel by channel.
-  Eigen::Matrix3d scatter() const;
+  Eigen::Matrix3d scatter() const {
+    return moments.topLeftCorner<3, 3>() - moments.col(3).head<3>() * mean().transpose();
+  }
 };
 
 /// What is seen along one arc of an outline.
