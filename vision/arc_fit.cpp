@@ -18,6 +18,8 @@ constexpr double kNoiseFactor = 1.1;           // k of a large ball
 constexpr double kNoiseFactorPerRadius = 3.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 
+constexpr double kContradictionSigmas = 3.0;
+
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kCutOff = 3.0;  // times the Huber threshold
@@ -31,6 +33,23 @@ double robust_weight(double residual_px, double threshold_px) {
 
 Eigen::Vector3d direction(const ArcOffset& arc) {
   return {arc.normal.x(), arc.normal.y(), 1.0};
+}
+
+// What the arcs' variances are to be multiplied by where they contradict each other more than by chance
+// (Birge's ratio, squared).
+double contradiction(const std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
+                     double tolerance_px) {
+  double squares = 0.0;
+  double freedom = -3.0;
+  for (const ArcOffset& arc : arcs) {
+    if (arc.weight <= 0.0) continue;
+    const double residual = arc.offset_px - direction(arc).dot(change_px);
+    squares += arc.weight * residual * residual / (arc.variance_px2 + tolerance_px * tolerance_px);
+    freedom += arc.weight;
+  }
+  if (!(freedom > 1.0)) return 1.0;
+  const double ratio = squares / freedom;
+  return ratio > 1.0 + kContradictionSigmas * std::sqrt(2.0 / freedom) ? ratio : 1.0;
 }
 
 }  // namespace
@@ -109,6 +128,8 @@ std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double toler
     }
     if (!any_changed) break;
   }
+  step.contradiction = contradiction(arcs, step.change_px, tolerance_px);
+  step.covariance_px2 *= step.contradiction;
   return step;
 }
 

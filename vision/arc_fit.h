@@ -24,6 +24,9 @@ struct ArcOffset {
 struct OutlineStep {
   Eigen::Vector3d change_px = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
+  /// How much more the arcs scatter than they should, as a ratio of variances; 1 if no more than by chance.
+  /// The covariance allows for it.
+  double contradiction = 1.0;
 };
 
 /// A pixel that the outline may cross, told apart into ball and background.

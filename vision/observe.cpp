@@ -17,9 +17,10 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
-constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
+constexpr double kMinPatch = 0.3;           // of the smallest outline's area that shows its colour clearly
+constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
+constexpr double kMostContradiction = 4.0;  // arcs that scatter twice as far as they should are of two things
+constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -65,7 +66,8 @@ BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   ball.ball_in_camera = pair.ball.ball_in_camera;
   ball.range_bearing = range_bearing(ball.ball_in_camera, pair.ball.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  if (!pair.sizes_agree) {
+  const bool contradicts = std::max(pair.left.contradiction, pair.right.contradiction) > kMostContradiction;
+  if (!pair.sizes_agree || contradicts) {
     ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
     ball.occluded = !ball.truncated;
   }

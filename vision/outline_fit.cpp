@@ -17,10 +17,12 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFinestRamp_px = 1.5;
 constexpr double kGap_px = 0.9;           // between a sharp edge and the colours beside it
+constexpr double kLostRim_px = 0.15;      // that boxes lack on average
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
 constexpr double kPatience = 0.4;         // arcs that are hidden may pull for some steps
-constexpr double kLookAgainAbove_px = 0.2;
+constexpr double kLookAgainAbove_px = 0.3;
+constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball is about as round as it is
 constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;
@@ -47,6 +49,7 @@ struct Fit {
   std::vector<ArcOffset> arcs;  // as the outline was when they were compared, moved along with it
   double moved_px = 0.0;        // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
+  double contradiction = 1.0;
 };
 
 bool may_be_ball(const Blob& blob) {
@@ -63,7 +66,7 @@ OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
   const Eigen::Vector2d moments(blob.sum_x / area, blob.sum_y / area);
   const Eigen::Vector2d box(0.5 * (blob.min_x + blob.max_x), 0.5 * (blob.min_y + blob.max_y));
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
-  return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius)};
+  return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px};
 }
 
 // Compares what is seen with the outline as it is.
@@ -84,6 +87,7 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
   if (!(radius >= 0.5 * settings.min_radius_px) || radius > kMaxRadius_px) return std::nullopt;
   fit.outline = OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius);
   fit.covariance_px2 = step->covariance_px2;
+  fit.contradiction = step->contradiction;
   move_outline(fit.arcs, change);
   fit.moved_px += change.cwiseAbs().maxCoeff();
   return change.cwiseAbs().maxCoeff();
@@ -98,17 +102,43 @@ void look(Fit& fit, const cv::Mat& image, const UnmixSettings& settings, double 
   compare(fit, ramp_px);
 }
 
-std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
-                            const UnmixSettings& unmix) {
-  Fit fit{.outline = start};
+// How much of an outline speaks for it, less what speaks against it, in radii along it.
+double support(const Fit& fit) {
+  double sum = 0.0;
+  for (const ArcOffset& arc : fit.arcs) {
+    if (arc.variance_px2 > 0.0) sum += 2.0 * arc.weight - 1.0;
+  }
+  return sum / static_cast<double>(fit.arcs.size()) * fit.outline.radius_px();
+}
+
+// Begins with a sharp edge where a whole ball's first guess is about right, as most are.
+bool starts_sharp(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix) {
+  look(fit, image, unmix, 0.0);
+  const auto change = improve(fit, settings, 0.0, kFirstSharp_px);
+  return change && *change < kLookAgainAbove_px && support(fit) >= kWhole * fit.outline.radius_px();
+}
+
+// Begins with a wide ramp, which is narrowed as the outline comes nearer.
+bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& settings,
+                      const UnmixSettings& unmix) {
   for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
     look(fit, image, unmix, ramp);
     const auto change = improve(fit, settings, ramp, ramp);
-    if (!change) return std::nullopt;
+    if (!change) return false;
     if (*change < kSharpenBelow_px) break;
     ramp = std::min(*change * 2.0, 0.7 * ramp);
   }
   look(fit, image, unmix, 0.0);
+  return true;
+}
+
+std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
+                            const UnmixSettings& unmix) {
+  Fit fit{.outline = start};
+  if (!starts_sharp(fit, image, settings, unmix)) {
+    fit.outline = start;
+    if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
+  }
   double off = kFirstSharp_px;
   for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
     const auto change = improve(fit, settings, 0.0, off);
@@ -123,15 +153,6 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
   for (int i = 0; i < kShadedSteps; ++i)
     if (!improve(fit, settings, 0.0, 0.0)) return std::nullopt;
   return fit;
-}
-
-// How much of an outline speaks for it, less what speaks against it, in radii along it.
-double support(const Fit& fit) {
-  double sum = 0.0;
-  for (const ArcOffset& arc : fit.arcs) {
-    if (arc.variance_px2 > 0.0) sum += 2.0 * arc.weight - 1.0;
-  }
-  return sum / static_cast<double>(fit.arcs.size()) * fit.outline.radius_px();
 }
 
 // Whether a patch lies within an outline, as far as its box tells: patches end before the rim does.
@@ -224,6 +245,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   result.radius_px = radius;
   result.covariance_px2 = fit->covariance_px2;
   result.covariance_px2(2, 2) += kRimSd_px * kRimSd_px;
+  result.contradiction = fit->contradiction;
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, *fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit->outline) / (kPi * radius * radius);
