@@ -26,9 +26,9 @@ struct BallBeside {
   bool shows_ball = false;
 };
 
-using Balls = std::vector<BallBeside>;
+using Balls = ScratchVector<BallBeside>;
 
-Balls balls_beside(const std::vector<RimArc>& arcs, const UnmixSettings& settings, double noise_variance) {
+Balls balls_beside(const ScratchVector<RimArc>& arcs, const UnmixSettings& settings, double noise_variance) {
   Balls balls(arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     BallSums& inside = balls[i].inside;
@@ -46,7 +46,7 @@ Balls balls_beside(const std::vector<RimArc>& arcs, const UnmixSettings& setting
 
 // Visits an arc and as many as `reach` to either side of it, each once.
 template <typename Arc, typename Visit>
-void visit_around(const std::vector<Arc>& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
+void visit_around(const ScratchVector<Arc>& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
   const std::size_t count = std::min(2 * reach + 1, arcs.size());
   for (std::size_t step = 0; step < count; ++step)
     visit(arcs[(arc + arcs.size() - reach % arcs.size() + step) % arcs.size()]);
@@ -69,7 +69,7 @@ Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double n
 
 // Beside all arcs, each about its own mean. An edge in the background may lie under the rim and be seen
 // nowhere.
-Eigen::Matrix3d texture_everywhere(const std::vector<RimArc>& arcs, double noise_variance) {
+Eigen::Matrix3d texture_everywhere(const ScratchVector<RimArc>& arcs, double noise_variance) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   double freedom = 0.0;
   for (const RimArc& arc : arcs) {
@@ -81,7 +81,7 @@ Eigen::Matrix3d texture_everywhere(const std::vector<RimArc>& arcs, double noise
 }
 
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
-Eigen::Matrix3d texture_around(const std::vector<RimArc>& arcs, std::size_t arc, double noise_variance) {
+Eigen::Matrix3d texture_around(const ScratchVector<RimArc>& arcs, std::size_t arc, double noise_variance) {
   BackgroundSums around;
   visit_around(arcs, arc, kTextureArcs,
                [&](const RimArc& other) { around.moments += other.outside.moments; });
@@ -149,11 +149,11 @@ ArcColours unmixed(const Mixture& mixture) {
 
 }  // namespace
 
-std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
+ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
   const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
-  std::vector<ArcColours> arcs(rim.arcs.size());
+  ScratchVector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const RimArc& seen = rim.arcs[i];
     if (!balls[i].shows_ball || seen.outside.count() < 2.0 || seen.crossed.count() < 1.0) continue;

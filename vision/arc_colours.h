@@ -1,8 +1,6 @@
 /// The two colours that mix in the rim of a ball, arc by arc.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "vision/rim.h"
@@ -37,6 +35,6 @@ struct UnmixSettings {
 /// The ball's colour at the rim is the shading's; what is shown beside the rim says how well that can be
 /// trusted. Without shading it is known from further inside only to some 12 %, since Lambert's shading
 /// changes fastest there. Differences along which shade or the background's texture varies count for little.
-std::vector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
+ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings);
 
 }  // namespace stereobench::vision

@@ -37,7 +37,7 @@ Eigen::Vector3d direction(const ArcOffset& arc) {
 
 // What the arcs' variances are to be multiplied by where they contradict each other more than by chance
 // (Birge's ratio, squared).
-double contradiction(const std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
+double contradiction(const ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
                      double tolerance_px) {
   double squares = 0.0;
   double freedom = -3.0;
@@ -54,8 +54,8 @@ double contradiction(const std::vector<ArcOffset>& arcs, const Eigen::Vector3d& 
 
 }  // namespace
 
-std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& colours) {
-  std::vector<UnmixedPixel> pixels;
+ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours>& colours) {
+  ScratchVector<UnmixedPixel> pixels;
   pixels.reserve(rim.pixels.size());
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
@@ -65,11 +65,11 @@ std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& c
   return pixels;
 }
 
-std::vector<ArcOffset> arc_offsets(const std::vector<UnmixedPixel>& pixels,
-                                   const std::vector<ArcColours>& colours, const OutlineModel& outline,
-                                   double ramp_half_width_px) {
-  std::vector<ArcOffset> arcs(colours.size());
-  std::vector<double> information(colours.size(), 0.0);
+ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
+                                     const ScratchVector<ArcColours>& colours, const OutlineModel& outline,
+                                     double ramp_half_width_px) {
+  ScratchVector<ArcOffset> arcs(colours.size());
+  ScratchVector<double> information(colours.size(), 0.0);
   const double noise_factor = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
   for (const UnmixedPixel& pixel : pixels) {
     const RimPoint point = outline.rim_point(pixel.position_px);
@@ -94,11 +94,11 @@ std::vector<ArcOffset> arc_offsets(const std::vector<UnmixedPixel>& pixels,
   return arcs;
 }
 
-void move_outline(std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px) {
+void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px) {
   for (ArcOffset& arc : arcs) arc.offset_px -= direction(arc).dot(change_px);
 }
 
-std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double tolerance_px) {
+std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px) {
   OutlineStep step;
   for (int pass = 0; pass < kReweightings; ++pass) {
     Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();

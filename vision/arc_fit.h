@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,22 +37,22 @@ struct UnmixedPixel {
 };
 
 /// Tells the pixels of usable arcs apart.
-std::vector<UnmixedPixel> unmix(const Rim& rim, const std::vector<ArcColours>& colours);
+ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours>& colours);
 
 /// Compares each arc's coverage with the model's.
 /// @param ramp_half_width_px of the model's edge; 0 for the pixels' own box filter
 /// @return one for each arc, weight 1 where it says something
-std::vector<ArcOffset> arc_offsets(const std::vector<UnmixedPixel>& pixels,
-                                   const std::vector<ArcColours>& colours, const OutlineModel& outline,
-                                   double ramp_half_width_px);
+ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
+                                     const ScratchVector<ArcColours>& colours, const OutlineModel& outline,
+                                     double ramp_half_width_px);
 
 /// The offsets from an outline that has been changed, as long as the change is small.
-void move_outline(std::vector<ArcOffset>& arcs, const Eigen::Vector3d& change_px);
+void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px);
 
 /// Weighted least squares over the arcs; those at odds with the solution lose weight (Huber, then cut off).
 /// @param arcs their weights are updated
 /// @param tolerance_px offsets from the solution that are fine whatever the noise says
 /// @return empty when the arcs left span less than a third of the outline
-std::optional<OutlineStep> solve_arcs(std::vector<ArcOffset>& arcs, double tolerance_px);
+std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px);
 
 }  // namespace stereobench::vision

@@ -45,8 +45,8 @@ class BlobForest {
     into.max_y = std::max(into.max_y, from.max_y);
   }
 
-  std::vector<Blob> roots(long min_area_px) const {
-    std::vector<Blob> result;
+  ScratchVector<Blob> roots(long min_area_px) const {
+    ScratchVector<Blob> result;
     for (std::size_t i = 0; i < blobs_.size(); ++i) {
       if (parents_[i] == i && blobs_[i].area_px >= min_area_px) result.push_back(blobs_[i]);
     }
@@ -62,8 +62,8 @@ class BlobForest {
     return i;
   }
 
-  std::vector<std::size_t> parents_;
-  std::vector<Blob> blobs_;
+  ScratchVector<std::size_t> parents_;
+  ScratchVector<Blob> blobs_;
 };
 
 constexpr int kAtOnce = cv::v_uint8x16::nlanes;
@@ -76,7 +76,7 @@ bool is_grey(const std::uint8_t* bgr, const cv::v_uint8x16& least_spread) {
   return cv::v_check_all(spread < least_spread);
 }
 
-void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, std::vector<Run>& runs) {
+void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, ScratchVector<Run>& runs) {
   runs.clear();
   const auto least_spread =
       cv::v_setall_u8(static_cast<std::uint8_t>(std::min(255, table.least_spread_levels())));
@@ -98,7 +98,7 @@ void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, std
 }
 
 // Both lists are sorted by column, so one sweep over both meets every touching pair.
-void join_touching(const std::vector<Run>& above, const std::vector<Run>& below, BlobForest& forest) {
+void join_touching(const ScratchVector<Run>& above, const ScratchVector<Run>& below, BlobForest& forest) {
   std::size_t first = 0;
   for (const Run& run : below) {
     while (first < above.size() && above[first].end < run.begin) ++first;
@@ -110,10 +110,10 @@ void join_touching(const std::vector<Run>& above, const std::vector<Run>& below,
 
 }  // namespace
 
-std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px, const ColourTable& table) {
+ScratchVector<Blob> find_blobs(const cv::Mat& image, long min_area_px, const ColourTable& table) {
   BlobForest forest;
-  std::vector<Run> above;
-  std::vector<Run> runs;
+  ScratchVector<Run> above;
+  ScratchVector<Run> runs;
   for (int y = 0; y < image.rows; ++y) {
     find_runs(image.ptr<std::uint8_t>(y), image.cols, table, runs);
     for (Run& run : runs) run.blob = forest.add(run, y);

@@ -1,11 +1,10 @@
 /// Connected patches of one palette colour: where balls may be.
 #pragma once
 
-#include <vector>
-
 #include <opencv2/core.hpp>
 
 #include "vision/colour_table.h"
+#include "vision/scratch.h"
 
 namespace stereobench::vision {
 
@@ -27,7 +26,7 @@ struct Blob {
 /// @param min_area_px smaller patches are left out
 /// @param table which pixels have which colour
 /// @return in the order in which their first pixels come, row by row
-std::vector<Blob> find_blobs(const cv::Mat& image, long min_area_px,
-                             const ColourTable& table = palette_table());
+ScratchVector<Blob> find_blobs(const cv::Mat& image, long min_area_px,
+                               const ColourTable& table = palette_table());
 
 }  // namespace stereobench::vision

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <tuple>
 
 #include <Eigen/LU>
 
@@ -27,14 +27,14 @@ double turn_order(const Eigen::Vector2d& from_middle) {
   return from_middle.y() >= 0.0 ? 1.0 - along : 3.0 + along;
 }
 
-std::vector<Eigen::Vector2d> a_few_in_order(std::vector<Eigen::Vector2d> points) {
+ScratchVector<Eigen::Vector2d> a_few_in_order(ScratchVector<Eigen::Vector2d> points) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& point : points) middle += point / static_cast<double>(points.size());
-  std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-    return turn_order(a - middle) < turn_order(b - middle);
+  std::ranges::sort(points, {}, [&](const Eigen::Vector2d& point) {
+    return std::tuple(turn_order(point - middle), point.x(), point.y());
   });
   if (points.size() <= kPoints) return points;
-  std::vector<Eigen::Vector2d> few;
+  ScratchVector<Eigen::Vector2d> few;
   for (std::size_t i = 0; i < kPoints; ++i) few.push_back(points[i * points.size() / kPoints]);
   return few;
 }
@@ -51,7 +51,7 @@ std::optional<Circle> circle_through(const Eigen::Vector2d& a, const Eigen::Vect
 }
 
 // How many points lie on the circle.
-std::size_t support(const Circle& circle, const std::vector<Eigen::Vector2d>& points) {
+std::size_t support(const Circle& circle, const ScratchVector<Eigen::Vector2d>& points) {
   const double tolerance = kOnCircle_px + kOnCircle * circle.radius_px;
   return static_cast<std::size_t>(std::ranges::count_if(points, [&](const Eigen::Vector2d& point) {
     return std::abs((point - circle.centre_px).norm() - circle.radius_px) <= tolerance;
@@ -61,7 +61,7 @@ std::size_t support(const Circle& circle, const std::vector<Eigen::Vector2d>& po
 }  // namespace
 
 std::optional<Circle> guess_from_boundary(const cv::Mat& image, const Blob& blob) {
-  const std::vector<Eigen::Vector2d> points = a_few_in_order(patch_boundary(image, blob, palette_table()));
+  const ScratchVector<Eigen::Vector2d> points = a_few_in_order(patch_boundary(image, blob, palette_table()));
   const double largest = kLargestRadius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
   std::optional<Circle> best;
   std::size_t most = static_cast<std::size_t>(kLeastOn * static_cast<double>(points.size()));

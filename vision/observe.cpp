@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -11,6 +13,7 @@
 #include "vision/range_bearing.h"
 #include "vision/rig.h"
 #include "vision/round_patch.h"
+#include "vision/scratch.h"
 #include "vision/sphere.h"
 #include "vision/stereo_match.h"
 
@@ -43,17 +46,38 @@ bool same_place(const MeasuredOutline& a, const MeasuredOutline& b) {
   return (a.centre_px - b.centre_px).norm() < kSamePlace * std::max(a.radius_px, b.radius_px);
 }
 
+using Outlines = ScratchVector<MeasuredOutline>;
+
 // Pieces of one ball, and rims that look like a third colour, all lead to the same outline: the largest patch
 // is right.
-std::vector<MeasuredOutline> without_duplicates(std::vector<MeasuredOutline> outlines) {
-  std::stable_sort(outlines.begin(), outlines.end(),
-                   [](const auto& a, const auto& b) { return a.seen_px > b.seen_px; });
-  std::vector<MeasuredOutline> result;
+Outlines without_duplicates(Outlines outlines) {
+  std::ranges::sort(outlines, {}, [](const MeasuredOutline& outline) {
+    return std::tuple(-outline.seen_px, outline.colour, outline.centre_px.y(), outline.centre_px.x());
+  });
+  Outlines result;
   for (const MeasuredOutline& outline : outlines) {
     const auto is_same = [&](const MeasuredOutline& other) { return same_place(other, outline); };
     if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(outline);
   }
   return result;
+}
+
+Outlines outlines_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSettings& settings) {
+  check_settings(settings);
+  Outlines outlines;
+  if (settings.learned != nullptr) {
+    const auto patches = find_round_patches(image, *settings.learned, settings.min_radius_px);
+    outlines.assign(patches.begin(), patches.end());
+    return without_duplicates(std::move(outlines));
+  }
+  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
+  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
+  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
+    const auto outline = fit_outline(image, blob, fit_settings);
+    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
+    outlines.push_back(*outline);
+  }
+  return without_duplicates(std::move(outlines));
 }
 
 BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
@@ -82,19 +106,9 @@ bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
 
 std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
                                            const ObserverSettings& settings) {
-  check_settings(settings);
   check_image(image, camera, "the");
-  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
-  if (settings.learned != nullptr)
-    return without_duplicates(find_round_patches(image, *settings.learned, settings.min_radius_px));
-  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
-  std::vector<MeasuredOutline> outlines;
-  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
-    const auto outline = fit_outline(image, blob, fit_settings);
-    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
-    outlines.push_back(*outline);
-  }
-  return without_duplicates(std::move(outlines));
+  const Outlines outlines = outlines_in(image, camera, settings);
+  return {outlines.begin(), outlines.end()};
 }
 
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
@@ -103,11 +117,12 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
     throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   check_image(pair.left, rig.camera, "left");
   check_image(pair.right, rig.camera, "right");
-  const auto left = find_outlines(pair.left, rig.camera, settings);
-  const auto right = find_outlines(pair.right, rig.camera, settings);
+  const Outlines left = outlines_in(pair.left, rig.camera, settings);
+  const Outlines right = outlines_in(pair.right, rig.camera, settings);
+  const auto pairs = match_outlines(left, right, rig, settings);
   std::vector<BallObservation> balls;
-  for (const OutlinePair& outlines : match_outlines(left, right, rig, settings))
-    balls.push_back(measure(outlines, rig));
+  balls.reserve(pairs.size());
+  for (const OutlinePair& outlines : pairs) balls.push_back(measure(outlines, rig));
   std::sort(balls.begin(), balls.end(), by_colour_then_column);
   return balls;
 }

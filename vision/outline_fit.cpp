@@ -44,10 +44,10 @@ Eigen::Vector3d palette_bgr(int colour) {
 struct Fit {
   OutlineModel outline;
   Rim rim;
-  std::vector<ArcColours> colours;
-  std::vector<UnmixedPixel> pixels;
-  std::vector<ArcOffset> arcs;  // as the outline was when they were compared, moved along with it
-  double moved_px = 0.0;        // since they were
+  ScratchVector<ArcColours> colours;
+  ScratchVector<UnmixedPixel> pixels;
+  ScratchVector<ArcOffset> arcs;  // as the outline was when they were compared, moved along with it
+  double moved_px = 0.0;          // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
   double contradiction = 1.0;
 };

@@ -20,10 +20,10 @@ struct Extent {
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& blob,
-                                            const ColourTable& table) {
-  std::vector<Extent> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
-  std::vector<Extent> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
+ScratchVector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& blob,
+                                              const ColourTable& table) {
+  ScratchVector<Extent> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
+  ScratchVector<Extent> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
   for (int y = blob.min_y; y <= blob.max_y; ++y) {
     const auto* bgr = image.ptr<std::uint8_t>(y) + 3 * blob.min_x;
     for (int x = blob.min_x; x <= blob.max_x; ++x, bgr += 3) {
@@ -32,7 +32,7 @@ std::vector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& bl
       columns[static_cast<std::size_t>(x - blob.min_x)].add(y);
     }
   }
-  std::vector<Eigen::Vector2d> points;
+  ScratchVector<Eigen::Vector2d> points;
   for (int y = blob.min_y; y <= blob.max_y; ++y) {
     const Extent& row = rows[static_cast<std::size_t>(y - blob.min_y)];
     if (row.last < row.first) continue;

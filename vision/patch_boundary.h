@@ -1,13 +1,12 @@
 /// Where a patch of one colour ends, to a whole pixel, and circles that may go along there.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "vision/blobs.h"
 #include "vision/colour_table.h"
+#include "vision/scratch.h"
 
 namespace stereobench::vision {
 
@@ -22,6 +21,7 @@ struct Circle {
 /// out.
 /// @param image CV_8UC3, BGR
 /// @param table that the patch was found with
-std::vector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& blob, const ColourTable& table);
+ScratchVector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& blob,
+                                              const ColourTable& table);
 
 }  // namespace stereobench::vision

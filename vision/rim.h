@@ -2,13 +2,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "vision/outline_model.h"
+#include "vision/scratch.h"
 #include "vision/shading.h"
 
 namespace stereobench::vision {
@@ -68,9 +68,9 @@ struct RimArc {
 
 /// What an image shows along an outline.
 struct Rim {
-  std::vector<RimPixel> pixels;  ///< that the outline may cross, row by row
-  std::vector<RimArc> arcs;      ///< of about three pixels' length, once around
-  bool has_shades = false;       ///< whether the ball's shading was known
+  ScratchVector<RimPixel> pixels;  ///< that the outline may cross, row by row
+  ScratchVector<RimArc> arcs;      ///< of about three pixels' length, once around
+  bool has_shades = false;         ///< whether the ball's shading was known
 };
 
 /// How far from the outline a pixel may be that a sharp outline crosses, once it is about right.

@@ -1,9 +1,10 @@
 #include "vision/shading.h"
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Cholesky>
+
+#include "vision/scratch.h"
 
 namespace stereobench::vision {
 namespace {
@@ -27,9 +28,9 @@ Eigen::Vector4d as_light(const Eigen::Vector3d& normal) {
   return {1.0, normal.x(), normal.y(), normal.z()};
 }
 
-std::vector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface, const OutlineModel& outline,
-                                const Shades& shades, double gap_px) {
-  std::vector<Sample> samples;
+ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface,
+                                  const OutlineModel& outline, const Shades& shades, double gap_px) {
+  ScratchVector<Sample> samples;
   const double inside = 1.0 - gap_px / outline.semi_minor_px();
   const double extent = outline.semi_major_px();
   const double area = 3.14 * outline.radius_px() * outline.radius_px();
@@ -89,7 +90,7 @@ bool is_lit_by(const Eigen::Vector3d& lamp, const Sample& sample) {
 }
 
 // Fits every `stride`-th sample, whose sides towards the lamp are found in turns with the lamp.
-LampColours fit_lamp(std::vector<Sample>& samples, std::size_t stride) {
+LampColours fit_lamp(ScratchVector<Sample>& samples, std::size_t stride) {
   LampFit fit;
   for (std::size_t i = 0; i < samples.size(); i += stride) fit.add(samples[i]);
   LampColours colours = fit.colours();
@@ -124,7 +125,7 @@ BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
                                    const OutlineModel& outline, const Shades& shades, double gap_px) {
   const BallSurface surface(camera, outline);
-  std::vector<Sample> samples = sample_ball(image, surface, outline, shades, gap_px);
+  ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades, gap_px);
   if (samples.size() < kFewestSamples) return std::nullopt;
   const std::size_t stride = samples.size() / kFirstSamples;
   if (stride > 1) {

@@ -44,14 +44,14 @@ std::optional<Misfit> misfit(const MeasuredOutline& left, const MeasuredOutline&
 
 }  // namespace
 
-std::vector<OutlinePair> match_outlines(const std::vector<MeasuredOutline>& left,
-                                        const std::vector<MeasuredOutline>& right, const StereoRig& rig,
-                                        const ObserverSettings& settings) {
+ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
+                                          std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                          const ObserverSettings& settings) {
   constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> best_of_left(left.size(), kNobody);
-  std::vector<std::size_t> best_of_right(right.size(), kNobody);
-  std::vector<Misfit> misfit_of_left(left.size());
-  std::vector<Misfit> misfit_of_right(right.size());
+  ScratchVector<std::size_t> best_of_left(left.size(), kNobody);
+  ScratchVector<std::size_t> best_of_right(right.size(), kNobody);
+  ScratchVector<Misfit> misfit_of_left(left.size());
+  ScratchVector<Misfit> misfit_of_right(right.size());
   for (std::size_t l = 0; l < left.size(); ++l) {
     for (std::size_t r = 0; r < right.size(); ++r) {
       const auto found = misfit(left[l], right[r], rig, settings);
@@ -66,7 +66,7 @@ std::vector<OutlinePair> match_outlines(const std::vector<MeasuredOutline>& left
       }
     }
   }
-  std::vector<OutlinePair> pairs;
+  ScratchVector<OutlinePair> pairs;
   for (std::size_t l = 0; l < left.size(); ++l) {
     const std::size_t r = best_of_left[l];
     if (r == kNobody || best_of_right[r] != l) continue;

@@ -1,11 +1,12 @@
 /// Which outline of the right eye is the same ball as which of the left.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "vision/ball_fit.h"
 #include "vision/observe.h"
 #include "vision/outline_fit.h"
+#include "vision/scratch.h"
 
 namespace stereobench::vision {
 
@@ -19,8 +20,8 @@ struct OutlinePair {
 
 /// Pairs outlines of one colour on one row whose disparity is positive and whose radii suit the depth that
 /// the disparity gives (f R / Z for balls of known radius). Only mutual best partners are paired.
-std::vector<OutlinePair> match_outlines(const std::vector<MeasuredOutline>& left,
-                                        const std::vector<MeasuredOutline>& right, const StereoRig& rig,
-                                        const ObserverSettings& settings);
+ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
+                                          std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                          const ObserverSettings& settings);
 
 }  // namespace stereobench::vision

@@ -37,14 +37,34 @@ TEST(ColourTable, TakesGreysAndPaleColoursForBackground) {
   }
 }
 
-// A random picture of few colours in blocks, so that patches of all shapes come up.
+// Mutations: a level more; cells compared by their middles.
+TEST(ColourTable, SaysTheLeastSpreadOfItsColours) {
+  int least = 256;
+  for (int b = 0; b < 256; ++b) {
+    for (int g = 0; g < 256; ++g) {
+      for (int r = 0; r < 256; ++r) {
+        const auto [low, high] = std::minmax({b, g, r});
+        if (high - low >= least) continue;
+        const auto level = [](int value) { return static_cast<std::uint8_t>(value); };
+        if (palette_table().classify(level(b), level(g), level(r)) != kBackground) least = high - low;
+      }
+    }
+  }
+  EXPECT_EQ(palette_table().least_spread_levels(), least);
+  EXPECT_EQ(ColourTable([](const Eigen::Vector3d&) { return kBackground; }).least_spread_levels(), 256);
+  EXPECT_EQ(ColourTable([](const Eigen::Vector3d&) { return std::uint8_t{0}; }).least_spread_levels(), 0);
+}
+
+// A random picture of few colours, so that patches of all shapes come up; every other one is mostly grey.
 cv::Mat random_picture(std::uint64_t seed, int rows, int columns) {
   painter::Dice dice(seed);
+  const double coloured = seed % 2 == 0 ? 0.6 : 0.02;
   cv::Mat image(rows, columns, CV_8UC3, cv::Scalar(128, 128, 128));
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const double roll = dice.uniform();
-      if (roll < 0.6) image.at<cv::Vec3b>(y, x) = shade_of(roll < 0.35 ? 0 : 1, dice.uniform(0.5, 1.0));
+      if (roll < coloured)
+        image.at<cv::Vec3b>(y, x) = shade_of(roll < 0.6 * coloured ? 0 : 1, dice.uniform(0.5, 1.0));
     }
   }
   return image;
@@ -90,11 +110,12 @@ std::vector<Blob> flood_filled(const cv::Mat& image) {
 }
 
 // Catches: corners that do not connect, runs at the last column that never end, moments half a pixel off.
+// Mutations: the pixels after a grey stretch passed over; a run that does not end where grey begins.
 TEST(Blobs, AreThoseOfFloodFilling) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const cv::Mat image = random_picture(seed, 37, 53);
     const std::vector<Blob> expected = flood_filled(image);
-    const std::vector<Blob> blobs = find_blobs(image, 1);
+    const auto blobs = find_blobs(image, 1);
     ASSERT_EQ(blobs.size(), expected.size());
     for (std::size_t i = 0; i < blobs.size(); ++i) {
       ASSERT_EQ(blobs[i].colour, expected[i].colour);
