@@ -1,14 +1,13 @@
 #include "renderer/texture_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/core.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "renderer/picture_reader.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -31,25 +30,21 @@ Bytes read_bytes(const std::string& name, const std::filesystem::path& folder,
   if (!std::filesystem::is_regular_file(file)) refuse(name, "does not exist");
   if (std::filesystem::file_size(file) > static_cast<std::uintmax_t>(limits.file_mib) << 20U)
     refuse(name, fmt::format("is larger than {} MiB", limits.file_mib));
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return picture_bytes(file);
 }
 
-cv::Mat decoded(const std::string& name, const Bytes& bytes) {
-  if (bytes.empty()) refuse(name, "is empty");
-  cv::Mat picture;
+cv::Mat decoded(const std::string& name, PictureBytes bytes) {
   try {
-    picture = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // larger than OpenCV takes
+    return decode_picture(bytes);
+  } catch (const std::runtime_error& error) {
+    refuse(name, error.what());
   }
-  if (picture.empty()) refuse(name, "is not a picture that can be read");
-  return picture;
 }
 
 /// A picture within the file: as the bytes of a picture file, or texel by texel.
 cv::Mat embedded(const std::string& name, const aiTexture& texture) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(texture.pcData);
-  if (texture.mHeight == 0) return decoded(name, Bytes(bytes, bytes + texture.mWidth));
+  if (texture.mHeight == 0) return decoded(name, {bytes, texture.mWidth});
   cv::Mat picture(static_cast<int>(texture.mHeight), static_cast<int>(texture.mWidth), CV_8UC3);
   for (std::size_t i = 0; i < picture.total(); ++i) {
     const aiTexel& texel = texture.pcData[i];
@@ -66,7 +61,7 @@ bool repeats(const aiMaterial& material, aiTextureType type, const char* key) {
 }
 
 Texture textured(cv::Mat picture) {
-  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
+  cv::cvtColor(picture, picture, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
   return {picture.cols, picture.rows, {true, true}, Bytes(picture.datastart, picture.dataend)};
 }
 
