@@ -113,6 +113,7 @@ struct Renderer::Parts {
         balls(gl, world),
         edges(world, meshes) {
     set_state(gl);
+    gl.ReleaseShaderCompiler();  // 5 MB of Mesa's, which the pictures need more
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
