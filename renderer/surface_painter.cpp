@@ -106,7 +106,8 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
   for (const SurfacePolygon& polygon : polygons) {
     const PolygonTexture& texture = texture_of(polygon);
     for (SurfaceVertex corner : polygon.corners) {
-      if (texture.index >= 0) std::ranges::copy(texture.texel(corner.along_m), corner.along_m);
+      if (texture.index >= 0)
+        std::ranges::copy(texture.texel(corner.along_m, polygon.runs_left), corner.along_m);
       vertices.push_back(corner);
     }
   }

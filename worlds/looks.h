@@ -15,8 +15,8 @@ enum class Material {
   kFile    ///< of meshes, the diffuse colours of their file; of walls and the floor, a picture
 };
 
-/// A picture that a wall or the floor shows, again and again: its lower left corner lies where the wall
-/// begins, or in the world's origin, with east to the right.
+/// A picture that a wall shows again and again, from where it begins, the right way round from either side;
+/// or the floor, from the world's origin, with east to the right.
 struct SurfaceTexture {
   std::string file;       ///< absolute after reading
   double tile_m = 1.0;    ///< width of the picture; its texels are square

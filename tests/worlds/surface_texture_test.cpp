@@ -75,7 +75,7 @@ TEST_F(TexturedScenario, SaysWhereItIsWrong) {
   EXPECT_THAT(complaint("floor: bricks", "floor: bricks\n  floor_texture: {file: a.png}"),
               HasSubstr("world.floor_texture: expected no floor beside it"));
   EXPECT_THAT(complaint("placement_jitter_m: 0.01", "randomise: {walls: {textures: [{file: c.png}]}}"),
-              HasSubstr("19: randomise.walls.textures[0].file: expected a picture that exists (got c.png)"));
+              HasSubstr("18: randomise.walls.textures[0].file: expected a picture that exists (got c.png)"));
   EXPECT_THAT(complaint("placement_jitter_m: 0.01", "randomise: {clutter: {textures: [{file: a.png}]}}"),
               HasSubstr("randomise.clutter.textures: unknown key"));
 }
@@ -93,7 +93,7 @@ std::map<std::string, int> floors(const Scenario& scenario, int seeds) {
   return count;
 }
 
-// 300 seeds: within 5 standard deviations of a third or a half. Mutation: materials in any case.
+// 300 seeds: within 5 standard deviations of a third or a half. Meant to catch: materials in any case.
 TEST_F(TexturedScenario, DrawsFromTexturesAndMaterials) {
   const std::string textures = "textures: [{file: a.png}, {file: more/b.jpg, tile_m: 3}]";
   auto count =
@@ -109,7 +109,7 @@ TEST_F(TexturedScenario, DrawsFromTexturesAndMaterials) {
 }
 
 // What a seed has drawn, written out and read again from another folder, is the same world.
-// Mutations: tile_m left out; the scenario's own floor kept beside the texture.
+// Meant to catch: tile_m left out; the scenario's own floor kept beside the texture.
 TEST_F(TexturedScenario, IsTheSameOnceWrittenOut) {
   const auto file = write("placement_jitter_m: 0.01",
                           "randomise: {walls: {textures: [{file: a.png}, {file: more/b.jpg, tile_m: 3}]}, "
@@ -130,7 +130,7 @@ TEST_F(TexturedScenario, IsTheSameOnceWrittenOut) {
   }
 }
 
-// Whatever is not drawn keeps its names. Mutation: those of walls left as they are.
+// Whatever is not drawn keeps its names. Meant to catch: those of walls left as they are.
 TEST_F(TexturedScenario, FindsItsPicturesFromAnotherFolder) {
   const auto file = write("material: wood", "texture: {file: more/b.jpg}",
                           "randomise: {floor: {textures: [{file: a.png}]}}\n");

@@ -68,7 +68,7 @@ std::string write_blocks(const ScratchFolder& folder, const char* name, int seed
   return file;
 }
 
-// The same with pictures on walls and floor. Mutation: the first texture for all walls once written.
+// The same with pictures on walls and floor. Meant to catch: the first texture for all walls once written.
 TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
   const ScratchFolder folder;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
