@@ -138,8 +138,8 @@ Eigen::Vector3d seen_point(const EyeView& view, const EyeFrame& frame, int u, in
 }
 
 // Each pixel by its own depth: upright on walls and the right way round whichever side is seen, east to the
-// right on the floor, tiles as wide as they are said to be. Meant to catch: rows from below; tile_m as
-// height; mirrored on one side.
+// right on the floor, tiles as wide as they are said to be. Mutations: rows from below; the picture's height
+// for its width; mirrored on one side.
 TEST(SurfaceTexture, ShowsEachPlaceItsTexel) {
   const Folder folder;
   const std::string file = folder.write("p.png", blocks());

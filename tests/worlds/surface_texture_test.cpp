@@ -93,7 +93,7 @@ std::map<std::string, int> floors(const Scenario& scenario, int seeds) {
   return count;
 }
 
-// 300 seeds: within 5 standard deviations of a third or a half. Meant to catch: materials in any case.
+// 300 seeds: within 5 standard deviations of a third or a half. Mutation: materials in any case.
 TEST_F(TexturedScenario, DrawsFromTexturesAndMaterials) {
   const std::string textures = "textures: [{file: a.png}, {file: more/b.jpg, tile_m: 3}]";
   auto count =
@@ -109,7 +109,7 @@ TEST_F(TexturedScenario, DrawsFromTexturesAndMaterials) {
 }
 
 // What a seed has drawn, written out and read again from another folder, is the same world.
-// Meant to catch: tile_m left out; the scenario's own floor kept beside the texture.
+// Mutations: tile_m left out; the scenario's own floor kept beside the texture.
 TEST_F(TexturedScenario, IsTheSameOnceWrittenOut) {
   const auto file = write("placement_jitter_m: 0.01",
                           "randomise: {walls: {textures: [{file: a.png}, {file: more/b.jpg, tile_m: 3}]}, "
