@@ -4,11 +4,48 @@
 #include <stdexcept>
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
+#include <fmt/core.h>
 
 namespace stereobench::renderer {
 namespace {
 
 constexpr int kWindow_px = 4;  // OSMesa demands a window to draw to; pictures go to framebuffer objects
+
+/// The functions of OSMesa that are called, named as there without their "OSMesa". The library is never
+/// unloaded.
+struct Osmesa {
+  /// @throws std::runtime_error when there is no OSMesa, or one that lacks a function
+  Osmesa();
+
+  decltype(&OSMesaCreateContextAttribs) CreateContextAttribs;
+  decltype(&OSMesaDestroyContext) DestroyContext;
+  decltype(&OSMesaMakeCurrent) MakeCurrent;
+  decltype(&OSMesaGetProcAddress) GetProcAddress;
+};
+
+template <typename Function>
+void fetch(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(::dlsym(library, name));
+  if (function == nullptr) throw std::runtime_error(fmt::format("renderer: this OSMesa has no {}", name));
+}
+
+Osmesa::Osmesa() {
+  void* const library = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    throw std::runtime_error(fmt::format(
+        "renderer: there is no OSMesa here: {}; install libosmesa6 or render with egl", ::dlerror()));
+  }
+  fetch(library, "OSMesaCreateContextAttribs", CreateContextAttribs);
+  fetch(library, "OSMesaDestroyContext", DestroyContext);
+  fetch(library, "OSMesaMakeCurrent", MakeCurrent);
+  fetch(library, "OSMesaGetProcAddress", GetProcAddress);
+}
+
+const Osmesa& osmesa() {
+  static const Osmesa functions;
+  return functions;
+}
 
 OSMesaContext create_handle() {
   constexpr std::array<int, 13> kAttributes = {OSMESA_FORMAT,
@@ -24,7 +61,7 @@ OSMesaContext create_handle() {
                                                0,
                                                0,
                                                0};
-  return OSMesaCreateContextAttribs(kAttributes.data(), nullptr);
+  return osmesa().CreateContextAttribs(kAttributes.data(), nullptr);
 }
 
 class OsmesaContext final : public Context {
@@ -37,15 +74,15 @@ class OsmesaContext final : public Context {
   }
   ~OsmesaContext() override {
     leave();
-    OSMesaDestroyContext(handle_);
+    osmesa().DestroyContext(handle_);
   }
 
  private:
   bool bind() const override {
-    return OSMesaMakeCurrent(handle_, window_.data(), GL_UNSIGNED_BYTE, kWindow_px, kWindow_px) == GL_TRUE;
+    return osmesa().MakeCurrent(handle_, window_.data(), GL_UNSIGNED_BYTE, kWindow_px, kWindow_px) == GL_TRUE;
   }
-  void unbind() const override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
-  Procedure find(const char* name) const override { return OSMesaGetProcAddress(name); }
+  void unbind() const override { osmesa().MakeCurrent(nullptr, nullptr, 0, 0, 0); }
+  Procedure find(const char* name) const override { return osmesa().GetProcAddress(name); }
 
   OSMesaContext handle_;
   mutable std::array<unsigned char, std::size_t{kWindow_px} * kWindow_px * 4> window_{};

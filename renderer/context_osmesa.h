@@ -1,4 +1,4 @@
-/// OpenGL by OSMesa: Mesa's software rasteriser as a library that the program is linked with.
+/// OpenGL by OSMesa: Mesa's software rasteriser as a library, which is opened once somebody renders.
 #pragma once
 
 #include <memory>

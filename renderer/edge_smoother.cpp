@@ -99,9 +99,7 @@ Line line_of(const SurfaceEdge& edge, const EyeView& view) {
 class Mixer {
  public:
   explicit Mixer(EyeFrame& frame)
-      : frame_(frame),
-        picture_({0, 0}, frame.colour.size()),
-        done_(frame.colour.size(), CV_8UC1, cv::Scalar(0)) {
+      : frame_(frame), picture_({0, 0}, frame.colour.size()), done_(2 * frame.colour.total()) {
     changes_.reserve(kUsualChanges);
   }
 
@@ -135,10 +133,9 @@ class Mixer {
     const auto pixel = [&](int j) { return line.major == 0 ? cv::Point(k, j) : cv::Point(j, k); };
     const cv::Point lower = pixel(low), higher = pixel(low + 1);
     if (!picture_.contains(lower) || !picture_.contains(higher) || !divides(line, lower, higher)) return;
-    auto& done = done_.at<std::uint8_t>(lower);
-    const auto bit = static_cast<std::uint8_t>(1 << line.major);
-    if ((done & bit) != 0) return;  // edges that lie on each other are one
-    done = static_cast<std::uint8_t>(done | bit);
+    const auto done = done_.begin() + 2 * (std::ptrdiff_t{picture_.width} * lower.y + lower.x) + line.major;
+    if (*done) return;  // edges that lie on each other are one
+    *done = true;
     const cv::Vec3f step =
         cv::Vec3f(frame_.colour.at<cv::Vec3b>(higher)) - cv::Vec3f(frame_.colour.at<cv::Vec3b>(lower));
     const double at = line.minor_at(k);
@@ -159,7 +156,7 @@ class Mixer {
 
   EyeFrame& frame_;
   cv::Rect picture_;
-  cv::Mat done_;  // bits by axis: pairs that are mixed already, by their lower pixel
+  std::vector<bool> done_;  // pairs that are mixed already, by their lower pixel and their axis
   std::vector<Change> changes_;
 };
 

@@ -40,12 +40,14 @@ void fetch_programs(const Context& context, Gl& gl) {
   fetch(context, "glCreateShader", gl.CreateShader);
   fetch(context, "glDeleteProgram", gl.DeleteProgram);
   fetch(context, "glDeleteShader", gl.DeleteShader);
+  fetch(context, "glDetachShader", gl.DetachShader);
   fetch(context, "glGetProgramInfoLog", gl.GetProgramInfoLog);
   fetch(context, "glGetProgramiv", gl.GetProgramiv);
   fetch(context, "glGetShaderInfoLog", gl.GetShaderInfoLog);
   fetch(context, "glGetShaderiv", gl.GetShaderiv);
   fetch(context, "glGetUniformLocation", gl.GetUniformLocation);
   fetch(context, "glLinkProgram", gl.LinkProgram);
+  fetch(context, "glReleaseShaderCompiler", gl.ReleaseShaderCompiler);
   fetch(context, "glShaderSource", gl.ShaderSource);
   fetch(context, "glUniform1f", gl.Uniform1f);
   fetch(context, "glUniform1iv", gl.Uniform1iv);

@@ -91,6 +91,7 @@ Program::Program(const Gl& gl, const std::string& vertex_source, const std::stri
   gl.AttachShader(program_.get(), fragment.get());
   gl.LinkProgram(program_.get());
   check_linked(gl, program_.get());
+  for (const GlName* shader : {&vertex, &fragment}) gl.DetachShader(program_.get(), shader->get());
 }
 
 VertexArray::VertexArray(const Gl& gl, std::span<const int> widths, GLuint divisor)

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "renderer/opposite_faces.h"
+#include "renderer/texture_file.h"
 #include "renderer/texture_pyramid.h"
 #include "renderer/unit_shapes.h"
 
@@ -110,9 +111,7 @@ Shape read_shape(const worlds::World& world, const worlds::MeshInstance& mesh,
   Shape shape{std::move(form.triangles), {}, static_cast<int>(textures.size())};
   shape.one_sided = have_opposites(shape.triangles);
   std::move(form.textures.begin(), form.textures.end(), std::back_inserter(textures));
-  std::size_t texels = 0;
-  for (const Texture& texture : textures) texels += pyramid_size(texture);
-  if (texels > static_cast<std::size_t>(world.mesh_limits.texture_mib) << 18U)  // of four bytes each
+  if (exceed(textures, world.mesh_limits))
     throw std::runtime_error(fmt::format("{}: with it the world's textures are more than {} MiB", mesh.file,
                                          world.mesh_limits.texture_mib));
   return shape;

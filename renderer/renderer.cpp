@@ -11,6 +11,7 @@
 #include "renderer/lens.h"
 #include "renderer/readback.h"
 #include "renderer/surface_painter.h"
+#include "renderer/surface_textures.h"
 #include "vision/palette.h"
 
 namespace stereobench::renderer {
@@ -100,19 +101,19 @@ struct Renderer::Parts {
   EdgeSmoother edges;
   PicturePool pictures;
 
-  /// @param meshes read before there is a context, as reading them forks
-  Parts(const worlds::World& world, const MeshSurfaces& meshes, const vision::StereoRig& asked,
-        Backend backend)
+  /// @param placed read before there is a context, as reading meshes forks
+  Parts(const worlds::World& world, const Surfaces& placed, const vision::StereoRig& asked, Backend backend)
       : lens(lens_of(checked(asked))),
         rig(lens ? lens->pinhole_rig() : asked),
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
         framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
-        surfaces(gl, world, meshes),
+        surfaces(gl, world, placed),
         balls(gl, world),
-        edges(world, meshes) {
+        edges(world, placed.meshes) {
     set_state(gl);
+    gl.ReleaseShaderCompiler();  // 5 MB of Mesa's, which the pictures need more
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -155,7 +156,7 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
-    : parts_(std::make_unique<Parts>(world, place_meshes(checked(world)), rig, backend)) {}
+    : parts_(std::make_unique<Parts>(world, place_surfaces(checked(world)), rig, backend)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;

@@ -1,5 +1,7 @@
 #include "renderer/surface_painter.h"
 
+#include <algorithm>
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include "renderer/facet_shader.h"
@@ -16,8 +18,9 @@ std::span<const float> floats(const std::vector<SurfaceVertex>& vertices) {
   return {vertices.front().position, vertices.size() * kSurfaceVertexFloats};
 }
 
+/// Of walls and the floor, whose files are textures.
 SurfacePaint paint_of(worlds::Material material) {
-  return static_cast<SurfacePaint>(material);
+  return material == worlds::Material::kFile ? SurfacePaint::kTexture : static_cast<SurfacePaint>(material);
 }
 
 SurfacePaint paint_of(const MeshRun& run) {
@@ -28,12 +31,14 @@ SurfacePaint paint_of(const MeshRun& run) {
 
 }  // namespace
 
-SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& meshes)
+SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const Surfaces& surfaces)
     : gl_(&gl),
       world_(world),
-      mesh_runs_(meshes.runs),
+      mesh_runs_(surfaces.meshes.runs),
+      polygon_textures_(surfaces.polygons),
       meshes_(gl, kVertexWidths, 0),
       polygons_(gl, kVertexWidths, 0) {
+  const MeshSurfaces& meshes = surfaces.meshes;
   compile(paint_of(world.floor));
   for (const worlds::Wall& wall : world.walls) compile(paint_of(wall.material));
   for (const MeshRun& run : meshes.runs) compile(paint_of(run));
@@ -49,27 +54,27 @@ void SurfacePainter::compile(SurfacePaint paint) {
   if (slot) return;
   Program program(*gl_, surface_vertex_shader(), surface_fragment_shader(paint));
   const GLint matrix = program.uniform("u_clip_from_position");
-  const GLint tint = program.uniform("u_tint");
-  slot.emplace(PaintProgram{std::move(program), matrix, tint});
+  const GLint tint = program.uniform("u_tint"), shape = program.uniform("u_shape");
+  const GLint first = program.uniform("u_first"), last_level = program.uniform("u_last_level");
+  slot.emplace(PaintProgram{std::move(program), matrix, tint, shape, first, last_level});
 }
 
-const Program& SurfacePainter::use(SurfacePaint paint, const Eigen::Vector3f& tint_rgb,
-                                   const glm::mat4& clip_from_position) const {
+void SurfacePainter::use(SurfacePaint paint, int texture, const Eigen::Vector3f& tint_rgb,
+                         const glm::mat4& clip_from_position) const {
   const PaintProgram& chosen = *programs_[static_cast<std::size_t>(paint)];
   chosen.program.use();
   gl_->UniformMatrix4fv(chosen.clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
   gl_->Uniform3f(chosen.tint, tint_rgb.x(), tint_rgb.y(), tint_rgb.z());
-  return chosen.program;
+  if (paint != SurfacePaint::kTexture) return;
+  const PyramidPlace& place = textures_[static_cast<std::size_t>(texture)];
+  texels_->bind();
+  gl_->Uniform1iv(chosen.shape, 4, place.shape.data());
+  gl_->Uniform1iv(chosen.first, kMostLevels, place.first.data());
+  gl_->Uniform1iv(chosen.last_level, 1, &place.last_level);
 }
 
-void SurfacePainter::use(const MeshRun& run, const glm::mat4& clip_from_position) const {
-  const Program& program = use(paint_of(run), run.tint_rgb, clip_from_position);
-  if (run.texture < 0) return;
-  const PyramidPlace& place = textures_[static_cast<std::size_t>(run.texture)];
-  texels_->bind();
-  gl_->Uniform1iv(program.uniform("u_shape"), 4, place.shape.data());
-  gl_->Uniform1iv(program.uniform("u_first"), kMostLevels, place.first.data());
-  gl_->Uniform1iv(program.uniform("u_last_level"), 1, &place.last_level);
+const PolygonTexture& SurfacePainter::texture_of(const SurfacePolygon& polygon) const {
+  return polygon_textures_[static_cast<std::size_t>(polygon.facet - kFloorFacet)];
 }
 
 void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
@@ -99,7 +104,12 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
   const std::vector<SurfacePolygon> polygons = visible_polygons(view, world_);
   std::vector<SurfaceVertex> vertices;
   for (const SurfacePolygon& polygon : polygons) {
-    vertices.insert(vertices.end(), polygon.corners.begin(), polygon.corners.end());
+    const PolygonTexture& texture = texture_of(polygon);
+    for (SurfaceVertex corner : polygon.corners) {
+      if (texture.index >= 0)
+        std::ranges::copy(texture.texel(corner.along_m, polygon.runs_left), corner.along_m);
+      vertices.push_back(corner);
+    }
   }
   polygons_.bind();
   polygons_.upload(floats(vertices));
@@ -114,9 +124,12 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
 
 void SurfacePainter::draw(const EyeView& view) {
   draw(
-      view, [this, matrix = clip_from_world(view)](const MeshRun& run) { use(run, matrix); },
+      view,
+      [this, matrix = clip_from_world(view)](const MeshRun& run) {
+        use(paint_of(run), run.texture, run.tint_rgb, matrix);
+      },
       [this](const SurfacePolygon& polygon) {
-        use(paint_of(polygon.material), polygon.tint_rgb, glm::mat4(1.0F));
+        use(paint_of(polygon.material), texture_of(polygon).index, polygon.tint_rgb, glm::mat4(1.0F));
       });
 }
 

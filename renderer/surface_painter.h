@@ -6,7 +6,7 @@
 
 #include "renderer/gl_objects.h"
 #include "renderer/material_shader.h"
-#include "renderer/mesh_surfaces.h"
+#include "renderer/surface_textures.h"
 #include "renderer/texture_pyramid.h"
 
 namespace stereobench::renderer {
@@ -14,8 +14,8 @@ namespace stereobench::renderer {
 /// Owns the programs of the materials in use, the meshes and the stream of polygons.
 class SurfacePainter {
  public:
-  /// @param meshes of the world
-  SurfacePainter(const Gl& gl, const worlds::World& world, const MeshSurfaces& meshes);
+  /// @param surfaces of the world
+  SurfacePainter(const Gl& gl, const worlds::World& world, const Surfaces& surfaces);
 
   /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
   void draw(const EyeView& view);
@@ -28,6 +28,7 @@ class SurfacePainter {
     Program program;
     GLint clip_from_position;
     GLint tint;
+    GLint shape, first, last_level;  // of textures alone
   };
   struct FacetProgram {
     Program program;
@@ -35,9 +36,10 @@ class SurfacePainter {
     GLint facet;
   };
   void compile(SurfacePaint paint);
-  const Program& use(SurfacePaint paint, const Eigen::Vector3f& tint_rgb,
-                     const glm::mat4& clip_from_position) const;
-  void use(const MeshRun& run, const glm::mat4& clip_from_position) const;
+  /// @param texture of kTexture
+  void use(SurfacePaint paint, int texture, const Eigen::Vector3f& tint_rgb,
+           const glm::mat4& clip_from_position) const;
+  const PolygonTexture& texture_of(const SurfacePolygon& polygon) const;
   void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
   template <typename UseMesh, typename UsePolygon>
   void draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon);
@@ -49,6 +51,7 @@ class SurfacePainter {
   std::vector<MeshRun> mesh_runs_;
   std::optional<NumberList> texels_;  // where there are textures
   std::vector<PyramidPlace> textures_;
+  std::vector<PolygonTexture> polygon_textures_;  // by facet
   VertexArray meshes_;
   VertexArray polygons_;
 };

@@ -54,11 +54,15 @@ SurfacePolygon wall_polygon(const EyeView& view, const worlds::Wall& wall, const
   };
   Eigen::Vector3d normal(-run.y(), run.x(), 0.0);
   const Eigen::Vector3d foot(wall.from_m.x(), wall.from_m.y(), 0.0);
-  if (normal.dot(view.centre_in_world() - foot) < 0.0) normal = -normal;  // both sides can be seen
-  return polygon(view,
-                 {corner(wall.from_m, 0.0, 0.0), corner(wall.to_m, length_m, 0.0),
-                  corner(wall.to_m, length_m, wall.height_m), corner(wall.from_m, 0.0, wall.height_m)},
-                 wall.material, lit(light, normal.stableNormalized()));
+  const bool runs_left = normal.dot(view.centre_in_world() - foot) >= 0.0;
+  if (!runs_left) normal = -normal;  // both sides can be seen
+  SurfacePolygon seen =
+      polygon(view,
+              {corner(wall.from_m, 0.0, 0.0), corner(wall.to_m, length_m, 0.0),
+               corner(wall.to_m, length_m, wall.height_m), corner(wall.from_m, 0.0, wall.height_m)},
+              wall.material, lit(light, normal.stableNormalized()));
+  seen.runs_left = runs_left;
+  return seen;
 }
 
 SurfacePolygon floor_polygon(const EyeView& view, const worlds::World& world) {

@@ -32,6 +32,7 @@ struct SurfacePolygon {
   int facet = kNoFacet;
   std::vector<SurfaceVertex> corners;  ///< in order around it; none when the eye does not see it
   double nearest_m = 0.0;              ///< smallest Z of the corners
+  bool runs_left = false;              ///< a wall whose first corner is on the right, as the eye sees it
 };
 
 /// How brightly a surface with this outward unit normal (world frame) is lit.

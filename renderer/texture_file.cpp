@@ -1,23 +1,17 @@
 #include "renderer/texture_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/core.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "renderer/picture_reader.h"
+#include "renderer/texture_pyramid.h"
 
 namespace stereobench::renderer {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-[[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw std::runtime_error(fmt::format("its texture {} {}", name, why));
-}
 
 /// A file's name as people write it: from this folder, with either slash.
 std::filesystem::path located(std::string name, const std::filesystem::path& folder) {
@@ -25,31 +19,19 @@ std::filesystem::path located(std::string name, const std::filesystem::path& fol
   return folder / name;  // an absolute name stays
 }
 
-Bytes read_bytes(const std::string& name, const std::filesystem::path& folder,
-                 const worlds::MeshLimits& limits) {
-  const std::filesystem::path file = located(name, folder);
-  if (!std::filesystem::is_regular_file(file)) refuse(name, "does not exist");
-  if (std::filesystem::file_size(file) > static_cast<std::uintmax_t>(limits.file_mib) << 20U)
-    refuse(name, fmt::format("is larger than {} MiB", limits.file_mib));
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-cv::Mat decoded(const std::string& name, const Bytes& bytes) {
-  if (bytes.empty()) refuse(name, "is empty");
-  cv::Mat picture;
-  try {
-    picture = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // larger than OpenCV takes
-  }
-  if (picture.empty()) refuse(name, "is not a picture that can be read");
-  return picture;
+Texture as_texture(const cv::Mat& picture, const worlds::MeshLimits& limits) {
+  if (std::max(picture.cols, picture.rows) > limits.texture_px)
+    throw std::runtime_error(
+        fmt::format("is {} x {}, more than {} pixels", picture.cols, picture.rows, limits.texture_px));
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  return {rgb.cols, rgb.rows, {true, true}, {rgb.datastart, rgb.dataend}};
 }
 
 /// A picture within the file: as the bytes of a picture file, or texel by texel.
-cv::Mat embedded(const std::string& name, const aiTexture& texture) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(texture.pcData);
-  if (texture.mHeight == 0) return decoded(name, Bytes(bytes, bytes + texture.mWidth));
+cv::Mat embedded(const aiTexture& texture) {
+  if (texture.mHeight == 0)
+    return decode_picture({reinterpret_cast<const std::uint8_t*>(texture.pcData), texture.mWidth});
   cv::Mat picture(static_cast<int>(texture.mHeight), static_cast<int>(texture.mWidth), CV_8UC3);
   for (std::size_t i = 0; i < picture.total(); ++i) {
     const aiTexel& texel = texture.pcData[i];
@@ -65,12 +47,14 @@ bool repeats(const aiMaterial& material, aiTextureType type, const char* key) {
   return mode != aiTextureMapMode_Clamp && mode != aiTextureMapMode_Decal;
 }
 
-Texture textured(cv::Mat picture) {
-  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
-  return {picture.cols, picture.rows, {true, true}, Bytes(picture.datastart, picture.dataend)};
-}
-
 }  // namespace
+
+Texture read_texture(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
+  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("does not exist");
+  if (std::filesystem::file_size(file) > static_cast<std::uintmax_t>(limits.file_mib) << 20U)
+    throw std::runtime_error(fmt::format("is larger than {} MiB", limits.file_mib));
+  return as_texture(decode_picture(picture_bytes(file)), limits);
+}
 
 std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& material,
                                     const std::filesystem::path& folder, const worlds::MeshLimits& limits) {
@@ -79,17 +63,23 @@ std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& mate
     if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS) continue;
     const std::string name = path.C_Str();
     const aiTexture* inside = scene.GetEmbeddedTexture(name.c_str());
-    const cv::Mat picture =
-        inside != nullptr ? embedded(name, *inside) : decoded(name, read_bytes(name, folder, limits));
-    if (std::max(picture.cols, picture.rows) > limits.texture_px)
-      refuse(name,
-             fmt::format("is {} x {}, more than {} pixels", picture.cols, picture.rows, limits.texture_px));
-    Texture texture = textured(picture);
-    texture.repeats = {repeats(material, type, _AI_MATKEY_MAPPINGMODE_U_BASE),
-                       repeats(material, type, _AI_MATKEY_MAPPINGMODE_V_BASE)};
-    return texture;
+    try {
+      Texture texture = inside != nullptr ? as_texture(embedded(*inside), limits)
+                                          : read_texture(located(name, folder), limits);
+      texture.repeats = {repeats(material, type, _AI_MATKEY_MAPPINGMODE_U_BASE),
+                         repeats(material, type, _AI_MATKEY_MAPPINGMODE_V_BASE)};
+      return texture;
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("its texture {} {}", name, error.what()));
+    }
   }
   return std::nullopt;
+}
+
+bool exceed(const std::vector<Texture>& textures, const worlds::MeshLimits& limits) {
+  std::size_t texels = 0;
+  for (const Texture& texture : textures) texels += pyramid_size(texture);
+  return texels > static_cast<std::size_t>(limits.texture_mib) << 18U;  // of four bytes each
 }
 
 }  // namespace stereobench::renderer

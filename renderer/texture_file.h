@@ -1,8 +1,9 @@
-/// The pictures that a mesh file's materials name or hold.
+/// Textures from files: pictures, and those that a mesh file's materials name or hold.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include <assimp/scene.h>
 
@@ -11,6 +12,11 @@
 
 namespace stereobench::renderer {
 
+/// A picture as a texture that is repeated.
+/// @throws std::runtime_error that says of the file, in one line, "does not exist", "is 5000 x 2, more than
+/// ..."
+Texture read_texture(const std::filesystem::path& file, const worlds::MeshLimits& limits);
+
 /// The picture of a material's diffuse (or base) colour: beside the mesh file, or within it. Transparency is
 /// passed over, and what the file would mirror is repeated.
 /// @param folder of the mesh file
@@ -18,5 +24,8 @@ namespace stereobench::renderer {
 /// @throws std::runtime_error when it does not exist, is no picture, or is larger than a limit
 std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& material,
                                     const std::filesystem::path& folder, const worlds::MeshLimits& limits);
+
+/// Whether these are more than a world may have.
+bool exceed(const std::vector<Texture>& textures, const worlds::MeshLimits& limits);
 
 }  // namespace stereobench::renderer

@@ -1,6 +1,8 @@
 /// What surfaces are made of, and the shapes there are without a file.
 #pragma once
 
+#include <string>
+
 namespace stereobench::worlds {
 
 enum class Material {
@@ -10,7 +12,15 @@ enum class Material {
   kBricks,
   kWood,
   kPaint,  ///< white: its tint is its colour
-  kFile    ///< of meshes alone: the diffuse colours of their file
+  kFile    ///< of meshes, the diffuse colours of their file; of walls and the floor, a picture
+};
+
+/// A picture that a wall shows again and again, from where it begins, the right way round from either side;
+/// or the floor, from the world's origin, with east to the right.
+struct SurfaceTexture {
+  std::string file;       ///< absolute after reading
+  double tile_m = 1.0;    ///< width of the picture; its texels are square
+  std::string stated_at;  ///< the line of the scenario that asks for it
 };
 
 /// What stands where no file says it: shapes of unit size, on the floor around their origin.

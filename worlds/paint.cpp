@@ -10,6 +10,18 @@ namespace {
 
 constexpr std::array<const char*, 3> kChannels = {".red", ".green", ".blue"};
 
+std::vector<std::string_view> names_of(const std::vector<Material>& materials) {
+  std::vector<std::string_view> names;
+  for (const Material material : materials)
+    names.push_back(kMaterialNames[static_cast<std::size_t>(material)]);
+  return names;
+}
+
+/// What stands behind the last slash.
+std::string_view file_name(std::string_view path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
 }  // namespace
 
 Eigen::Vector3d palette_rgb(int colour) {
@@ -36,10 +48,17 @@ Eigen::Vector3d draw_tint(Draws& draws, const std::string& name, const SurfaceLo
 }
 
 Material draw_material(Draws& draws, const std::string& name, const SurfaceLooks& looks) {
-  std::vector<std::string_view> names;
-  for (const Material material : looks.materials)
-    names.push_back(kMaterialNames[static_cast<std::size_t>(material)]);
-  return looks.materials[draws.choice(name + ".material", names)];
+  return looks.materials[draws.choice(name + ".material", names_of(looks.materials))];
+}
+
+void draw_surface(Draws& draws, const std::string& name, const SurfaceLooks& looks, Material& material,
+                  SurfaceTexture& texture) {
+  std::vector<std::string_view> names = names_of(looks.materials);
+  for (const SurfaceTexture& other : looks.textures) names.push_back(file_name(other.file));
+  const std::size_t drawn = draws.choice(name + ".material", names);
+  const bool has_texture = drawn >= looks.materials.size();
+  material = has_texture ? Material::kFile : looks.materials[drawn];
+  texture = has_texture ? looks.textures[drawn - looks.materials.size()] : SurfaceTexture{};
 }
 
 MeshShape draw_shape(Draws& draws, const std::string& key, const std::vector<MeshShape>& shapes) {

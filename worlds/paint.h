@@ -21,8 +21,12 @@ Eigen::Vector3d draw_paint(Draws& draws, const std::string& name, int colour, co
 /// shade x (1 + tint) in each channel. Draws name.shade, .red, .green, .blue.
 Eigen::Vector3d draw_tint(Draws& draws, const std::string& name, const SurfaceLooks& looks);
 
-/// Draws name.material.
+/// Draws name.material, one of those that have no texture.
 Material draw_material(Draws& draws, const std::string& name, const SurfaceLooks& looks);
+
+/// Draws name.material: a material, or a texture by the name of its file.
+void draw_surface(Draws& draws, const std::string& name, const SurfaceLooks& looks, Material& material,
+                  SurfaceTexture& texture);
 
 /// One of these. @param key of the draw
 MeshShape draw_shape(Draws& draws, const std::string& key, const std::vector<MeshShape>& shapes);

@@ -21,10 +21,11 @@ struct BallColours {
   Range tint = {0.0, 0.05};  ///< of full light, drawn for each channel
 };
 
-/// Walls, the floor, clutter: a material, its colours times shade x (1 + tint) in each channel.
+/// Walls, the floor, clutter: a material or a texture, its colours times shade x (1 + tint) in each channel.
 struct SurfaceLooks {
   std::vector<Material> materials = {Material::kPlain, Material::kPlaster, Material::kBricks, Material::kWood,
                                      Material::kTiles};
+  std::vector<SurfaceTexture> textures = {};  ///< not of clutter
   Range shade = {0.7, 1.1};
   Range tint = {-0.1, 0.1};
 };

@@ -64,11 +64,11 @@ void relight(const LightRanges& rules, Light& light, Draws& draws) {
 void resurface(const Randomisation& rules, World& world, Draws& draws) {
   for (std::size_t i = 0; rules.walls && i < world.walls.size(); ++i) {
     const std::string name = fmt::format("walls[{}]", i);
-    world.walls[i].material = draw_material(draws, name, *rules.walls);
+    draw_surface(draws, name, *rules.walls, world.walls[i].material, world.walls[i].texture);
     world.walls[i].tint_rgb = draw_tint(draws, name, *rules.walls);
   }
   if (!rules.floor) return;
-  world.floor = draw_material(draws, "floor", *rules.floor);
+  draw_surface(draws, "floor", *rules.floor, world.floor, world.floor_texture);
   world.floor_tint_rgb = draw_tint(draws, "floor", *rules.floor);
 }
 

@@ -55,9 +55,16 @@ void read_looks(const YamlMap& map, SurfaceLooks& looks) {
   read_range(map, "tint", kTintOffset, looks.tint);
 }
 
-SurfaceLooks read_surface(const YamlValue& value) {
+/// Where textures are named and materials are not, there are textures alone.
+SurfaceLooks read_surface(const YamlValue& value, const std::filesystem::path& folder) {
+  const YamlMap map(value, {"materials", "textures", "shade", "tint"});
   SurfaceLooks looks;
-  read_looks(YamlMap(value, {"materials", "shade", "tint"}), looks);
+  if (const auto textures = map.find("textures")) {
+    looks.materials.clear();
+    for (const YamlValue& texture : textures->list(1, 100))
+      looks.textures.push_back(read_surface_texture(texture, folder));
+  }
+  read_looks(map, looks);
   return looks;
 }
 
@@ -110,13 +117,14 @@ Distractors read_distractors(const YamlValue& value) {
 
 }  // namespace
 
-Randomisation read_randomisation(const YamlValue& value, int balls_in_view) {
+Randomisation read_randomisation(const YamlValue& value, int balls_in_view,
+                                 const std::filesystem::path& folder) {
   const YamlMap map(value,
                     {"ball_colours", "walls", "floor", "light", "clutter", "distractors", "balls_in_view"});
   Randomisation randomise{.balls_in_view = balls_in_view};
   if (const auto colours = map.find("ball_colours")) randomise.ball_colours = read_ball_colours(*colours);
-  if (const auto walls = map.find("walls")) randomise.walls = read_surface(*walls);
-  if (const auto floor = map.find("floor")) randomise.floor = read_surface(*floor);
+  if (const auto walls = map.find("walls")) randomise.walls = read_surface(*walls, folder);
+  if (const auto floor = map.find("floor")) randomise.floor = read_surface(*floor, folder);
   if (const auto light = map.find("light")) randomise.light = read_light_ranges(*light);
   if (const auto clutter = map.find("clutter")) randomise.clutter = read_clutter(*clutter);
   if (const auto things = map.find("distractors")) randomise.distractors = read_distractors(*things);

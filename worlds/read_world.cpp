@@ -27,6 +27,20 @@ Eigen::Vector3d read_tint(const YamlMap& map, std::string_view key) {
   return value ? read_vector<3>(*value, kTint) : Eigen::Vector3d(Eigen::Vector3d::Ones());
 }
 
+struct TextureKeys {
+  std::string_view texture;
+  std::string_view material;  ///< whose place it takes
+};
+
+void read_texture(const YamlMap& map, const TextureKeys& keys, const std::filesystem::path& folder,
+                  Material& material, SurfaceTexture& texture) {
+  const auto value = map.find(keys.texture);
+  if (!value) return;
+  if (map.find(keys.material)) value->refuse(fmt::format("expected no {} beside it", keys.material));
+  material = Material::kFile;
+  texture = read_surface_texture(*value, folder);
+}
+
 Ball read_ball(const YamlValue& value, double usual_radius_m) {
   const YamlMap map(value, {"colour", "at_m", "radius_m", "paint_rgb"});
   Ball ball;
@@ -50,8 +64,8 @@ std::vector<Ball> read_balls(const YamlMap& world) {
 }
 
 /// One line of corners is a wall from each corner to the next.
-void append_walls(const YamlValue& value, std::vector<Wall>& walls) {
-  const YamlMap map(value, {"corners_m", "closed", "height_m", "material", "tint_rgb"});
+void append_walls(const YamlValue& value, const std::filesystem::path& folder, std::vector<Wall>& walls) {
+  const YamlMap map(value, {"corners_m", "closed", "height_m", "material", "tint_rgb", "texture"});
   std::vector<Eigen::Vector2d> corners_m;
   for (const YamlValue& corner : map.at("corners_m").list(2, kMostWalls)) {
     corners_m.push_back(read_vector<2>(corner, kPlace_m));
@@ -61,9 +75,14 @@ void append_walls(const YamlValue& value, std::vector<Wall>& walls) {
   }
   const auto closed = map.find("closed");
   if (closed && closed->flag()) corners_m.push_back(corners_m.front());
+  Wall wall{.height_m = map.number("height_m", kSize_m, 2.5),
+            .material = read_material(map, "material", Material::kPlaster),
+            .tint_rgb = read_tint(map, "tint_rgb")};
+  read_texture(map, {"texture", "material"}, folder, wall.material, wall.texture);
   for (std::size_t i = 0; i + 1 < corners_m.size(); ++i) {
-    walls.push_back({corners_m[i], corners_m[i + 1], map.number("height_m", kSize_m, 2.5),
-                     read_material(map, "material", Material::kPlaster), read_tint(map, "tint_rgb")});
+    wall.from_m = corners_m[i];
+    wall.to_m = corners_m[i + 1];
+    walls.push_back(wall);
   }
 }
 
@@ -94,7 +113,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
     world.balls = read_balls(map);
   }
   if (const auto walls = map.find("walls")) {
-    for (const YamlValue& wall : walls->list(0, kMostWalls)) append_walls(wall, world.walls);
+    for (const YamlValue& wall : walls->list(0, kMostWalls)) append_walls(wall, folder, world.walls);
   }
   if (const auto meshes = map.find("meshes")) {
     for (const YamlValue& mesh : meshes->list(0, kMostWalls))
@@ -102,6 +121,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   }
   if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
   world.floor = read_material(map, "floor", world.floor);
+  read_texture(map, {"floor_texture", "floor"}, folder, world.floor, world.floor_texture);
   world.floor_tint_rgb = read_tint(map, "floor_tint_rgb");
   if (const auto light = map.find("light")) world.light = read_light(*light);
   if (const auto sky = map.find("sky_rgb")) world.sky_rgb = read_vector<3>(*sky, kShare);

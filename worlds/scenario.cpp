@@ -105,7 +105,7 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   if (made) generator = read_generator(*made, read_ball_radius_m(world));
   if (const auto randomise = map.find("randomise")) {
     if (scenario.sensor == SensorKind::kOracle) randomise->refuse("the oracle has no pictures to vary");
-    scenario.randomise = read_randomisation(*randomise, generator ? generator->rules.in_view : 2);
+    scenario.randomise = read_randomisation(*randomise, generator ? generator->rules.in_view : 2, folder);
   }
   scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr, folder);
   scenario.world = read_world(world, folder);

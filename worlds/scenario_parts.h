@@ -12,11 +12,11 @@
 
 namespace stereobench::worlds {
 
-inline constexpr std::array<std::string_view, 10> kWorldKeys = {
-    "generator",   "ball_radius_m", "balls",          "walls", "meshes",
-    "mesh_limits", "floor",         "floor_tint_rgb", "light", "sky_rgb"};
+inline constexpr std::array<std::string_view, 11> kWorldKeys = {
+    "generator", "ball_radius_m",  "balls", "walls",   "meshes",       "mesh_limits",
+    "floor",     "floor_tint_rgb", "light", "sky_rgb", "floor_texture"};
 
-/// What materials are called, by Material; the last is for meshes alone.
+/// What materials are called, by Material; the last is for meshes alone: walls and the floor name a texture.
 inline constexpr std::array<std::string_view, 7> kMaterialNames = {"plain", "tiles", "plaster", "bricks",
                                                                    "wood",  "paint", "file"};
 /// What shapes are called, by MeshShape, but for that of a file.
@@ -27,7 +27,12 @@ inline constexpr Interval kTint = {0.0, 4.0};
 
 /// `randomise:` what each seed draws anew.
 /// @param balls_in_view that the world's generator promises, unless said otherwise
-Randomisation read_randomisation(const YamlValue& value, int balls_in_view);
+/// @param folder that textures are relative to
+Randomisation read_randomisation(const YamlValue& value, int balls_in_view,
+                                 const std::filesystem::path& folder);
+
+/// A texture of a wall or of the floor, whose file must exist.
+SurfaceTexture read_surface_texture(const YamlValue& value, const std::filesystem::path& folder);
 
 /// `world.ball_radius_m`, of balls that do not say theirs.
 double read_ball_radius_m(const YamlMap& world);

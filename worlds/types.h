@@ -37,6 +37,7 @@ struct Wall {
   double height_m = 2.5;
   Material material = Material::kPlaster;
   Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
+  SurfaceTexture texture = {};                         ///< of kFile
 };
 
 /// Which axis of a mesh file points up.
@@ -60,7 +61,7 @@ struct MeshInstance {
   Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
 };
 
-/// What a mesh file may cost: it comes from anywhere.
+/// What a mesh file, and a texture, may cost: they come from anywhere.
 struct MeshLimits {
   int triangles = 2000000;  ///< of a file, and of all instances in the world together
   int file_mib = 64;
@@ -83,6 +84,7 @@ struct World {
   std::vector<MeshInstance> meshes;
   MeshLimits mesh_limits;
   Material floor = Material::kTiles;
+  SurfaceTexture floor_texture;                              ///< of kFile
   Eigen::Vector3d floor_tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
   Light light;
   Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]

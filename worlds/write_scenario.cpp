@@ -34,6 +34,14 @@ bool is_tinted(const Eigen::Vector3d& tint_rgb) {
   return tint_rgb != Eigen::Vector3d::Ones();
 }
 
+YAML::Node lines_of(const SurfaceTexture& texture) {
+  YAML::Node node;
+  node["file"] = texture.file;
+  node["tile_m"] = digits(texture.tile_m);
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
 YAML::Node lines_of(const Ball& ball) {
   YAML::Node node;
   node["colour"] = ball.colour;
@@ -49,7 +57,10 @@ YAML::Node lines_of(const Wall& wall) {
   node["corners_m"].push_back(list_of(wall.from_m));
   node["corners_m"].push_back(list_of(wall.to_m));
   node["height_m"] = digits(wall.height_m);
-  node["material"] = name_of(wall.material);
+  if (wall.material == Material::kFile)
+    node["texture"] = lines_of(wall.texture);
+  else
+    node["material"] = name_of(wall.material);
   if (is_tinted(wall.tint_rgb)) node["tint_rgb"] = list_of(wall.tint_rgb);
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
@@ -106,7 +117,12 @@ void write_drawn(const Randomisation& randomise, const World& world, std::size_t
   lines["balls"] = list_of_lines(world.balls);
   if (randomise.walls && !world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
   if (randomise.floor) {
-    lines["floor"] = name_of(world.floor);
+    lines.remove("floor");
+    lines.remove("floor_texture");
+    if (world.floor == Material::kFile)
+      lines["floor_texture"] = lines_of(world.floor_texture);
+    else
+      lines["floor"] = name_of(world.floor);
     lines["floor_tint_rgb"] = list_of(world.floor_tint_rgb);
   }
   if (randomise.light) {
@@ -118,12 +134,23 @@ void write_drawn(const Randomisation& randomise, const World& world, std::size_t
     lines["meshes"].push_back(lines_of(world.meshes[i]));
 }
 
+void name_file_from_anywhere(const std::filesystem::path& folder, YAML::Node named) {
+  if (named && named.IsMap() && named["file"])
+    named["file"] =
+        std::filesystem::absolute(folder / named["file"].as<std::string>()).lexically_normal().string();
+}
+
 /// What is written may lie in another folder than what was read.
 void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node root) {
-  for (const char* group : {"path", "believed_measurement_noise"}) {
-    YAML::Node named = root[group];
-    if (named && named["file"])
-      named["file"] = std::filesystem::absolute(folder / named["file"].as<std::string>()).string();
+  for (const char* group : {"path", "believed_measurement_noise"})
+    name_file_from_anywhere(folder, root[group]);
+  YAML::Node world = root["world"];
+  name_file_from_anywhere(folder, world["floor_texture"]);
+  for (YAML::Node wall : world["walls"]) name_file_from_anywhere(folder, wall["texture"]);
+  for (const char* surface : {"walls", "floor"}) {
+    if (!root["randomise"] || !root["randomise"][surface]) continue;
+    for (YAML::Node texture : root["randomise"][surface]["textures"])
+      name_file_from_anywhere(folder, texture);
   }
 }
 

@@ -90,12 +90,16 @@ std::vector<YamlValue> YamlValue::list(std::size_t least, std::size_t most) cons
   return entries;
 }
 
+std::string YamlValue::place() const {
+  return blame(*document_, key_, mark_);
+}
+
 void YamlValue::fail(std::string_view expected) const {
   refuse(fmt::format("{} (got {})", expected, describe(node_)));
 }
 
 void YamlValue::refuse(std::string_view reason) const {
-  throw std::runtime_error(fmt::format("{}: {}", blame(*document_, key_, mark_), reason));
+  throw std::runtime_error(fmt::format("{}: {}", place(), reason));
 }
 
 }  // namespace stereobench::worlds

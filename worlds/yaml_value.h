@@ -40,6 +40,9 @@ class YamlValue {
   /// The entries of a list that has between `least` and `most` of them.
   std::vector<YamlValue> list(std::size_t least, std::size_t most) const;
 
+  /// Where the value stands: file, line, key.
+  std::string place() const;
+
   /// Throws a std::runtime_error: where the value stands, what was expected, what is there.
   [[noreturn]] void fail(std::string_view expected) const;
   /// Throws a std::runtime_error: where the value stands and what is wrong with it as a whole.

@@ -13,7 +13,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <unistd.h>
 
 namespace stereobench::harness {
@@ -119,21 +118,6 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   file.write_all(bytes);
   file.move_into_place();
   sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
-}
-
-void write_png(const fs::path& path, const cv::Mat& image) {
-  const int channels = image.channels();
-  const bool suitable = !image.empty() && (image.depth() == CV_8U || image.depth() == CV_16U) &&
-                        (channels == 1 || channels == 3 || channels == 4);
-  if (!suitable) {
-    throw std::invalid_argument(
-        fmt::format("write_png: {}: not a picture of 8 or 16 bits and 1, 3 or 4 channels", path.string()));
-  }
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) {
-    throw std::runtime_error(fmt::format("{}: cannot be encoded as PNG", path.string()));
-  }
-  write_file_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace stereobench::harness

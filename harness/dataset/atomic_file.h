@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include <opencv2/core.hpp>
-
 namespace stereobench::harness {
 
 /// Makes sure that results can be written into a folder, creating it and its parents where needed.
@@ -23,11 +21,5 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 /// Removes what processes that were killed left below a folder under temporary names. Those of processes that
 /// are still alive stay.
 void remove_leftovers(const std::filesystem::path& folder);
-
-/// Writes a picture as PNG, as one whole file (see write_file_atomically).
-/// @param path the file to write or to replace
-/// @param image 8-bit or 16-bit, 1, 3 (BGR) or 4 (BGRA) channels
-/// @throws std::runtime_error when it cannot be written; std::invalid_argument when it is no such picture
-void write_png(const std::filesystem::path& path, const cv::Mat& image);
 
 }  // namespace stereobench::harness

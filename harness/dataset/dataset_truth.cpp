@@ -6,10 +6,10 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/number_table.h"
+#include "harness/dataset/picture_reader.h"
 
 namespace stereobench::harness {
 namespace {
@@ -31,7 +31,7 @@ std::vector<std::size_t> frames_in(const fs::path& folder) {
 }
 
 cv::Mat read_ids(const fs::path& file, const vision::Intrinsics& camera) {
-  const cv::Mat ids = fs::exists(file) ? cv::imread(file.string(), cv::IMREAD_UNCHANGED) : cv::Mat();
+  const cv::Mat ids = read_levels(file);
   if (ids.type() != CV_8UC1 || ids.cols != camera.width_px || ids.rows != camera.height_px)
     throw std::runtime_error(fmt::format("{}: expected a grey picture of {} x {} pixels", file.string(),
                                          camera.width_px, camera.height_px));

@@ -1,24 +1,43 @@
 #include "harness/dataset/picture_file.h"
 
+#include <bit>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "harness/dataset/atomic_file.h"
+#include "renderer/png_picture.h"
 
 namespace stereobench::harness {
+namespace {
 
-std::string encoded(const char* extension, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(extension, picture, bytes))
-    throw std::runtime_error(fmt::format("cannot encode a picture as {}", extension));
-  return {bytes.begin(), bytes.end()};
+/// Portable float map: the lowest row first, a negative scale for numbers with their lowest byte first.
+std::string pfm(const cv::Mat& picture) {
+  static_assert(std::endian::native == std::endian::little);
+  const bool colour = picture.channels() == 3;
+  cv::Mat rows;
+  cv::flip(picture, rows, 0);
+  if (colour) cv::cvtColor(rows, rows, cv::COLOR_BGR2RGB);
+  std::string bytes = fmt::format("{}\n{} {}\n-1\n", colour ? "PF" : "Pf", rows.cols, rows.rows);
+  return bytes.append(rows.datastart, rows.dataend);
+}
+
+}  // namespace
+
+std::string encoded(std::string_view extension, const cv::Mat& picture) {
+  if (extension == ".png") {
+    const std::vector<std::uint8_t> bytes = renderer::encode_png(picture);
+    return {bytes.begin(), bytes.end()};
+  }
+  if (extension == ".pfm" && (picture.type() == CV_32FC1 || picture.type() == CV_32FC3)) return pfm(picture);
+  throw std::invalid_argument(fmt::format("a picture that a file {} does not hold", extension));
 }
 
 void write_once(const std::filesystem::path& path, const cv::Mat& picture) {
-  if (!std::filesystem::exists(path)) write_file_atomically(path, encoded(path.extension().c_str(), picture));
+  if (!std::filesystem::exists(path))
+    write_file_atomically(path, encoded(path.extension().string(), picture));
 }
 
 }  // namespace stereobench::harness

@@ -3,13 +3,17 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <opencv2/core.hpp>
 
 namespace stereobench::harness {
 
-/// The bytes of a picture's file. @param extension says the format: ".png", ".pfm"
-std::string encoded(const char* extension, const cv::Mat& picture);
+/// The bytes of a picture's file.
+/// @param extension says the format: ".png" (8 or 16 bits; 1, 3 or 4 channels) or ".pfm" (CV_32F; 1 or 3
+/// channels)
+/// @throws std::invalid_argument when the format does not hold such a picture
+std::string encoded(std::string_view extension, const cv::Mat& picture);
 
 /// Writes a picture unless the file is there already.
 /// @throws std::runtime_error as write_file_atomically

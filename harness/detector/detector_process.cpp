@@ -5,15 +5,16 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <sys/wait.h>
 
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/json_line.h"
 #include "harness/detector/protocol.h"
+#include "renderer/png_picture.h"
 
 namespace stereobench::harness {
 namespace {
@@ -33,8 +34,10 @@ fs::path make_scratch_folder() {
 
 void write_picture(const fs::path& path, const cv::Mat& picture) {
   // It is read once: packing it well would take longer than all that is done with it.
-  if (!cv::imwrite(path.string(), picture, {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY}))
-    throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+  const std::vector<std::uint8_t> bytes = renderer::encode_png(picture, renderer::PngPacking::kLetters);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+  if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
 }
 
 /// A frame's pictures, for as long as they are asked about.

@@ -74,6 +74,7 @@ STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls())->DenseRange(0, 
 STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, behind_a_lens, behind_a_lens())->DenseRange(0, 0);
 STEREOBENCH_STAGE(render_pair, textured, textured_scene())->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair, image_textured, image_textured_scene())->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), plain_noise());
 STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle"), noise_and_vignette());

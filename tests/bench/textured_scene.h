@@ -1,4 +1,4 @@
-/// A room whose walls, floor and ceiling are pictures.
+/// Rooms whose walls and floor are pictures: of their own, or a mesh's.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,14 +8,33 @@
 
 namespace stereobench {
 
+/// 1024 x 1024 texels of grain.
+inline std::string write_grain(const renderer::test::Folder& folder) {
+  cv::Mat grain(1024, 1024, CV_8UC3);
+  cv::RNG random(1);
+  random.fill(grain, cv::RNG::UNIFORM, 90, 200);
+  return folder.write("grain.png", grain);
+}
+
+/// ball_circle with its walls and floor under grain, 2 m a tile.
+inline Scene image_textured_scene() {
+  static const renderer::test::Folder folder;
+  const worlds::SurfaceTexture grain{write_grain(folder), 2.0};
+  Scene scene = scenario_scene("ball_circle");
+  scene.world.floor = worlds::Material::kFile;
+  scene.world.floor_texture = grain;
+  for (worlds::Wall& wall : scene.world.walls) {
+    wall.material = worlds::Material::kFile;
+    wall.texture = grain;
+  }
+  return scene;
+}
+
 /// ball_circle's balls in a textured box, 1024 texels of grain on each 2 m, in files that last as long as the
 /// process.
 inline Scene textured_scene() {
   static const renderer::test::Folder folder;
-  cv::Mat grain(1024, 1024, CV_8UC3);
-  cv::RNG random(1);
-  random.fill(grain, cv::RNG::UNIFORM, 90, 200);
-  folder.write("grain.png", grain);
+  write_grain(folder);
   folder.write("room.mtl", "newmtl grain\nKd 1 1 1\nmap_Kd grain.png\n");
   const std::string file = folder.write(
       "room.obj",

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <opencv2/imgcodecs.hpp>
+#include "renderer/png_picture.h"
 
 namespace stereobench::renderer::test {
 
@@ -28,9 +28,10 @@ class Folder {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return (path_ / name).string();
   }
+  /// As PNG.
   std::string write(const std::string& name, const cv::Mat& picture) const {
-    cv::imwrite((path_ / name).string(), picture);
-    return (path_ / name).string();
+    const std::vector<std::uint8_t> png = encode_png(picture);
+    return write(name, std::string(png.begin(), png.end()));
   }
   const std::filesystem::path& path() const { return path_; }
 

@@ -223,7 +223,8 @@ TEST(Texture, OneThatIsMissingBrokenOrTooLargeIsOneLine) {
   folder.write("square.mtl", "newmtl shown\nmap_Kd gone.png\n");
   EXPECT_EQ(complaint(world), file + ": its texture gone.png does not exist");
   folder.write("gone.png", std::string("\x89PNG\r\n, or so"));
-  EXPECT_EQ(complaint(world), file + ": its texture gone.png is not a picture that can be read");
+  EXPECT_EQ(complaint(world),
+            file + ": its texture gone.png is no whole picture: PNG file corrupted by ASCII conversion");
   folder.write("gone.png", picture(32, 8));
   EXPECT_EQ(complaint(world), "no complaint");
   world.mesh_limits.texture_px = 31;

@@ -204,8 +204,8 @@ TEST_F(Dataset, OddInputsAreOneLine) {
   const OddCall calls[] = {
       {"NoPicture", {}, "expected LEFT"},
       {"Missing", {place + "none.png"}, "none.png: no such file"},
-      {"Empty", {place + "empty.png"}, "empty.png: is no whole picture"},
-      {"Text", {place + "text.png"}, "is no whole picture"},
+      {"Empty", {place + "empty.png"}, "empty.png: is empty"},
+      {"Text", {place + "text.png"}, "is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)"},
       {"Truncated", {place + "truncated.png"}, "is no whole picture"},
       {"HeaderAlone", {place + "header.png"}, "is no whole picture"},
       {"TruncatedJpeg", {place + "truncated.jpg"}, "is no whole picture"},

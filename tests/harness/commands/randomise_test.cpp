@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/harness/commands/program.h"
 
@@ -54,6 +55,51 @@ TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
       run_stereobench(with_world({"render", scenario, "--seed", "5", "--out", path("other")})).exit_code, 0);
   EXPECT_NE(bytes_of(folder.path() / "drawn/left/000000.png"),
             bytes_of(folder.path() / "other/left/000000.png"));
+}
+
+/// A picture of random blocks, as a file.
+std::string write_blocks(const ScratchFolder& folder, const char* name, int seed) {
+  cv::RNG random(static_cast<std::uint64_t>(seed));
+  cv::Mat small(8, 8, CV_8UC3), large;
+  random.fill(small, cv::RNG::UNIFORM, 0, 255);
+  cv::resize(small, large, {64, 64}, 0.0, 0.0, cv::INTER_NEAREST);
+  const std::string file = (folder.path() / name).string();
+  cv::imwrite(file, large);
+  return file;
+}
+
+// The same with pictures on walls and floor. Meant to catch: the first texture for all walls once written.
+TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
+  const ScratchFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string textures = "textures: [{file: " + write_blocks(folder, "a.png", 1) +
+                               ", tile_m: 0.8}, {file: " + write_blocks(folder, "b.jpg", 2) + "}]";
+  const auto with_textures = [&](std::vector<std::string> arguments) {
+    for (const std::string line :
+         {"path.laps=0.04", "rig.width_px=512", "rig.height_px=384", "rig.focal_px=443"})
+      arguments.insert(arguments.end(), {"--set", line});
+    arguments.insert(arguments.end(),
+                     {"--set", "randomise={walls: {" + textures + "}, floor: {" + textures + "}}"});
+    return arguments;
+  };
+  const std::string scenario = scenario_path("ball_circle");
+  ASSERT_EQ(
+      run_stereobench(with_textures({"render", scenario, "--seed", "3", "--out", path("drawn")})).exit_code,
+      0);
+  ASSERT_EQ(run_stereobench(with_textures({"world", scenario, "--seed", "3", "--write", path("plain.yaml"),
+                                           "--draws", path("draws.jsonl")}))
+                .exit_code,
+            0);
+  ASSERT_EQ(run_stereobench({"render", path("plain.yaml"), "--seed", "3", "--out", path("again")}).exit_code,
+            0);
+  for (const char* file :
+       {"left/000000.png", "right/000001.png", "left_depth/000001.pfm", "left_id/000001.png"})
+    EXPECT_EQ(bytes_of(folder.path() / "drawn" / file), bytes_of(folder.path() / "again" / file)) << file;
+  EXPECT_EQ(bytes_of(folder.path() / "drawn/draws.jsonl"), bytes_of(path("draws.jsonl")));
+  std::set<std::string> drawn;
+  for (const nlohmann::json& line : lines_of(path("draws.jsonl")))
+    if (line["key"].get<std::string>().ends_with(".material")) drawn.insert(line["value"].get<std::string>());
+  EXPECT_EQ(drawn, (std::set<std::string>{"a.png", "b.jpg"}));
 }
 
 // What looks like a ball is a surface in truth. Mutation: shapes numbered among the balls.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -115,25 +114,6 @@ TEST(OutputFolder, NamesWhatIsWrong) {
   EXPECT_THAT([] { prepare_output_folder("/dev/null"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("/dev/null: is a file, not a folder")));
   EXPECT_THROW(prepare_output_folder(""), std::runtime_error);
-}
-
-TEST(Png, RoundTripsWithEveryBit) {
-  const TestFolder folder;
-  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1}) {
-    cv::Mat image(7, 5, type);
-    for (int i = 0; i < 35 * static_cast<int>(image.elemSize()); ++i)
-      image.data[i] = static_cast<uchar>(i * 37);
-    write_png(folder.path() / "image.png", image);
-    const cv::Mat back = cv::imread((folder.path() / "image.png").string(), cv::IMREAD_UNCHANGED);
-    ASSERT_EQ(back.type(), type);
-    EXPECT_EQ(cv::norm(image, back, cv::NORM_INF), 0.0);
-  }
-}
-
-TEST(Png, RefusesWhatIsNoPicture) {
-  EXPECT_THROW(write_png("x.png", cv::Mat()), std::invalid_argument);
-  EXPECT_THROW(write_png("x.png", cv::Mat(2, 2, CV_32FC1)), std::invalid_argument);
-  EXPECT_THROW(write_png("x.png", cv::Mat(2, 2, CV_8UC2)), std::invalid_argument);
 }
 
 }  // namespace

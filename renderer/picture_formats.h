@@ -1,0 +1,23 @@
+/// What decode_picture (picture_reader.h) chooses from, a file each; all throw as it does.
+#pragma once
+
+#include "renderer/picture_reader.h"
+
+namespace stereobench::renderer {
+
+cv::Mat decode_png(PictureBytes bytes);
+cv::Mat decode_jpeg(PictureBytes bytes);
+cv::Mat decode_tiff(PictureBytes bytes);
+/// Uncompressed, of 8 (a palette), 24 or 32 bits a pixel.
+cv::Mat decode_bmp(PictureBytes bytes);
+/// P2, P3, P5 and P6: shades or colours, in figures or in bytes.
+cv::Mat decode_pnm(PictureBytes bytes);
+
+/// That a file ends before its picture does, or is damaged. @param library what the library of its format
+/// says
+[[noreturn]] void refuse_broken(const std::string& library);
+
+/// @throws std::runtime_error for a picture without pixels, or with more than a camera's
+void check_size(std::int64_t width_px, std::int64_t height_px);
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,28 @@
+/// Pictures of files, whoever made them: the one place where they are read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace stereobench::renderer {
+
+/// What a file says, byte for byte.
+using PictureBytes = std::span<const std::uint8_t>;
+
+/// The picture of a PNG, JPEG, TIFF, BMP or PNM file, told apart by how it begins. 16 bits become 8
+/// (rounded), palettes become colours, transparency is left out; a JPEG's note of how the camera was held
+/// turns nothing.
+/// @return CV_8UC1 for shades of grey, CV_8UC3 (BGR) for colours
+/// @throws std::runtime_error that says of the file, in one line, "is cut short: ...", "is 8000 x 9 ..."
+cv::Mat decode_picture(PictureBytes bytes);
+
+/// All of a file, whatever it holds.
+/// @throws std::runtime_error where it cannot be read
+std::vector<std::uint8_t> picture_bytes(const std::filesystem::path& file);
+
+}  // namespace stereobench::renderer

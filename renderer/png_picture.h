@@ -1,0 +1,22 @@
+/// Pictures as PNG files.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace stereobench::renderer {
+
+/// How hard a PNG is packed.
+enum class PngPacking {
+  kRuns,    ///< runs of equal differences between neighbours: for what is kept
+  kLetters  ///< frequent differences are short (Huffman), the fastest: for what is read once
+};
+
+/// The bytes of a picture's PNG file.
+/// @param picture 8 or 16 bits a channel; 1, 3 (BGR) or 4 (BGRA) channels
+/// @throws std::invalid_argument when it is no such picture, or empty
+std::vector<std::uint8_t> encode_png(const cv::Mat& picture, PngPacking packing = PngPacking::kRuns);
+
+}  // namespace stereobench::renderer
