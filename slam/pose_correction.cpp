@@ -111,8 +111,7 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
     if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
-    const Surprise surprise(model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation, repairs),
-                            observation, repairs);
+    const Surprise surprise(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
     const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
     const double log_likelihood = -0.5 * (squared_length + surprise.factor.log_det_2_pi());
     if (report_) expected_[k] = expectation(surprise.expected, log_likelihood);
