@@ -17,7 +17,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       proposal_(proposal),
       model_(config.unscented),
       reader_(config),
-      correction_(config, updates),
+      correction_(config, proposal == Proposal::kMotion ? Updates::kToJudge : updates),
       upkeep_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
