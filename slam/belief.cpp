@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "slam/elementary.h"
 #include "slam/motion.h"
 
 namespace stereobench::slam {
@@ -39,7 +38,10 @@ Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point
 }
 
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now) {
-  const SineCosine heading = sine_cosine(world_from_start.heading_rad);
+  return follow(world_from_start, sine_cosine(world_from_start.heading_rad), start_from_now);
+}
+
+PoseBelief follow(const Pose& world_from_start, const SineCosine& heading, const PoseBelief& start_from_now) {
   return {compose(world_from_start, heading, start_from_now.mean),
           turned(start_from_now.covariance, heading)};
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "slam/elementary.h"
 #include "slam/types.h"
 
 namespace stereobench::slam {
@@ -50,6 +51,9 @@ Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point
 /// Rotating and shifting a Gaussian is linear, so this loses nothing: motion in the plane does not depend on
 /// where it happens, and the motion since the last update can be predicted once for all particles.
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now);
+
+/// The same where the sine and cosine of the pose's heading are at hand.
+PoseBelief follow(const Pose& world_from_start, const SineCosine& heading, const PoseBelief& start_from_now);
 
 /// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now);

@@ -17,12 +17,13 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       proposal_(proposal),
       model_(config.unscented),
       reader_(config),
-      correction_(config, updates),
+      correction_(config, proposal == Proposal::kMotion ? Updates::kToJudge : updates),
       upkeep_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size()),
       weights_(particles_.size()),
+      headings_(particles_.size()),
       posteriors_(particles_.size()),
       belief_{start, Eigen::Matrix3d::Zero()},
       effective_(static_cast<double>(config.particles)) {
@@ -80,7 +81,8 @@ template <class Model>
 bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
   targets_.resize(particles_.size() * frame.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const PoseBelief predicted = follow(particles_[i].pose, motion_);
+    headings_[i] = sine_cosine(particles_[i].pose.heading_rad);
+    const PoseBelief predicted = follow(particles_[i].pose, headings_[i], motion_);
     posteriors_[i] = correction_.correct(particles_[i], predicted, frame, targets_of(i), counters_);
     if (config_.report_updates) keep_expected(i);
   }
@@ -96,7 +98,7 @@ void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
   const Eigen::Matrix3d root = semidefinite_root<3>(motion_.covariance, repairs);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     if (posteriors_[i].pulled) continue;
-    const Pose drawn = compose(particles_[i].pose, displace(motion_.mean, root * normals()));
+    const Pose drawn = compose(particles_[i].pose, headings_[i], displace(motion_.mean, root * normals()));
     posteriors_[i] = {{drawn, Eigen::Matrix3d::Zero()},
                       correction_.log_likelihood(particles_[i], drawn, frame, targets_of(i), repairs)};
     if (config_.report_updates) keep_expected(i);

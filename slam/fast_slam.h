@@ -84,6 +84,7 @@ class FastSlam {
   std::vector<Particle> particles_;
   std::vector<double> log_weights_;         ///< normalised
   std::vector<double> weights_;             ///< the same, not as logarithms
+  std::vector<SineCosine> headings_;        ///< before the update in progress, by particle
   std::vector<Posterior> posteriors_;       ///< of the update in progress, by particle
   std::vector<Target> targets_;             ///< of the update in progress, particle by particle
   std::vector<ExpectedSighting> expected_;  ///< the same, for a report

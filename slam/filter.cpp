@@ -32,6 +32,7 @@ void check(const SensorSector& sector) {
 void check(const FilterConfig& config) {
   check(config.odometry_noise);
   require(config.particles >= 1, "particles must be >= 1");
+  require(config.draw_every >= 1, "draw_every must be >= 1");
   require(is_sd(config.range_floor_m) && is_sd(config.bearing_floor_rad),
           "noise floors must be finite and >= 0");
   require(config.resample_below >= 0.0 && config.resample_below <= 1.0, "resample_below must be in [0, 1]");
@@ -59,6 +60,7 @@ Filter make_filter(const std::string& name, const FilterConfig& config, const Po
   if (name == "dead_reckoning") return DeadReckoning(config, start);
   if (name == "ekf") return EkfSlam(config, start);
   if (name == "fastslam1") return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
+  if (name == "fastslam2" && config.draw_every > 1) return BlockSlam(config, start, seed);
   if (name == "fastslam2") return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
   if (name == "ufastslam") return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
   if (name == "ufastslam_kim")

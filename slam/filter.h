@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "slam/block_slam.h"
 #include "slam/dead_reckoning.h"
 #include "slam/decisions.h"
 #include "slam/ekf_slam.h"
@@ -18,7 +19,7 @@
 namespace stereobench::slam {
 
 /// A filter is a value: a copy goes its own way and shares nothing with the original.
-using Filter = std::variant<DeadReckoning, EkfSlam, LinearisedFastSlam, UnscentedFastSlam>;
+using Filter = std::variant<DeadReckoning, EkfSlam, LinearisedFastSlam, UnscentedFastSlam, BlockSlam>;
 
 /// Starts a filter at a known pose with an empty map.
 ///

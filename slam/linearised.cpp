@@ -53,6 +53,18 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
   return innovation;
 }
 
+Innovation Linearised::expect(const Pose& robot, const LandmarkBelief& landmark,
+                              const Observation& observation, long&) const {
+  const LinearSighting linear = linearise_sighting(robot, landmark.mean);
+  Innovation innovation;
+  innovation.expected = linear.expected;
+  Eigen::Matrix2d from_landmark;
+  from_landmark.noalias() = linear.by_landmark * landmark.covariance;
+  innovation.covariance.noalias() = from_landmark * linear.by_landmark.transpose();
+  innovation.covariance += noise_at(observation, innovation.expected);
+  return innovation;
+}
+
 LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
                                   const Observation& observation, long& repairs) const {
   const auto [expected, slope] = linearise_sighting(robot, landmark.mean);

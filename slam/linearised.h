@@ -19,6 +19,10 @@ class Linearised {
   Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
                     long& repairs) const;
 
+  /// The same from a pose that is known: S = Hm Sigma Hm' + R, and nothing to correct.
+  Innovation expect(const Pose& robot, const LandmarkBelief& landmark, const Observation& observation,
+                    long& repairs) const;
+
   /// The landmark after a sighting from a known pose: the extended Kalman update.
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,
                         long& repairs) const;

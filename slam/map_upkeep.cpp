@@ -101,7 +101,7 @@ int MapUpkeep::lookalike(const Particle& particle, const Sighting& sighting) con
   visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
     if (contains(claimed_, j)) return;
     long mended = 0;  // for a comparison only
-    const Innovation seen = Linearised().expect(known, landmark.belief, observation, mended);
+    const Innovation seen = Linearised().expect(particle.pose, landmark.belief, observation, mended);
     const double squared_length =
         Factor2(seen.covariance, mended)
             .squared_length(sighting_residual(observation.range_bearing, seen.expected));

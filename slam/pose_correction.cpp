@@ -81,7 +81,9 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   for (const std::size_t k : updates_ == Updates::kAtOnce ? late_ : order_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
     const double before = posterior.log_likelihood;
-    targets[k].fate = use(landmark, frame[k], posterior, counters, expected_of(k));
+    const bool contradicted = counters.gated_measurements > gated_before;
+    const bool read = updates_ != Updates::kToJudge || k != order_.back() || contradicted;
+    targets[k].fate = use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
     if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
   }
   if (counters.gated_measurements > gated_before) {
@@ -111,8 +113,7 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
     if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
-    const Surprise surprise(model_.expect({drawn, Eigen::Matrix3d::Zero()}, landmark, observation, repairs),
-                            observation, repairs);
+    const Surprise surprise(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
     const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
     const double log_likelihood = -0.5 * (squared_length + surprise.factor.log_det_2_pi());
     if (report_) expected_[k] = expectation(surprise.expected, log_likelihood);
@@ -256,15 +257,16 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
 
 template <class Model>
 Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
-                                FilterCounters& counters, ExpectedSighting* expected) const {
+                                FilterCounters& counters, const Wanted& wanted) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
   const long before = repairs;
   const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
                           repairs);
-  if (expected != nullptr) *expected = expectation(surprise.expected, 0.0);
+  if (wanted.expected != nullptr) *wanted.expected = expectation(surprise.expected, 0.0);
   if (surprise.squared_length <= gate_) {
-    if (repairs == before) apply(surprise, posterior);  // else all is certain: nothing is learnt
+    const bool teaches = repairs == before;  // else all is certain
+    if (wanted.pose && teaches) apply(surprise, posterior);
     return Fate::kUse;
   }
   ++counters.gated_measurements;

@@ -20,7 +20,8 @@ namespace stereobench::slam {
 /// From where the landmarks of a frame are looked at.
 enum class Updates {
   kOneByOne,  ///< each from where the one before left the pose: the paper's refreshed sigma points (eq. 24)
-  kAtOnce,  ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
+  kAtOnce,   ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
+  kToJudge,  ///< one by one, but for their fates alone: the pose is drawn without them (FastSLAM 1.0)
 };
 
 /// Corrects the predicted pose of a particle by the landmarks it knows, one after the other, oldest first.
@@ -31,6 +32,9 @@ enum class Updates {
 ///
 /// With Updates::kAtOnce the sightings within the gate of the prediction are used together (correct_at_once),
 /// and those beyond it one after the other, from where that leaves the pose.
+///
+/// With Updates::kToJudge nobody reads the pose that a frame without contradictions leaves, so that what its
+/// last landmark would make of the pose is not worked out.
 ///
 /// **Second look.** When a sighting falls beyond the gate, the frame is looked at as a whole (fit_frame).
 /// After coarse odometry a precise sensor may be refused for what first order leaves out, and that is
@@ -75,6 +79,12 @@ class PoseCorrection {
   std::span<const ExpectedSighting> expected() const { return expected_; }
 
  private:
+  /// What one sighting is looked at for, besides its fate.
+  struct Wanted {
+    ExpectedSighting* expected = nullptr;  ///< receives what was expected; null where nobody asks
+    bool pose = true;                      ///< whether anything reads the pose that the sighting leaves
+  };
+
   void associate(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
                  std::span<Target> targets, FilterCounters& counters);
   void find_candidates(const Particle& particle, const PoseBelief& predicted, const Sighting& sighting,
@@ -88,8 +98,7 @@ class PoseCorrection {
   void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
                    Posterior& posterior, FilterCounters& counters);
   Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior, FilterCounters& counters,
-           ExpectedSighting* expected) const;
-  ExpectedSighting* expected_of(std::size_t k) { return report_ ? &expected_[k] : nullptr; }
+           const Wanted& wanted) const;
 
   Model model_;
   Updates updates_;

@@ -26,6 +26,12 @@ class Unscented {
   Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
                     long& repairs) const;
 
+  /// The same from a pose that is known.
+  Innovation expect(const Pose& robot, const LandmarkBelief& landmark, const Observation& observation,
+                    long& repairs) const {
+    return expect(PoseBelief{robot}, landmark, observation, repairs);
+  }
+
   /// The landmark after a sighting from a known pose: sigma points over the landmark (eq. 28-34).
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,
                         long& repairs) const;

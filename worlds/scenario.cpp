@@ -61,6 +61,11 @@ void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scena
   scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
   if (const auto association = map.find("association"))
     scenario.association = static_cast<slam::Association>(association->choice(kAssociations));
+  if (const auto draw_every = map.find("draw_every")) {
+    scenario.draw_every = draw_every->integer(1, 100000);
+    if (scenario.draw_every > 1 && scenario.identity != Identity::kKnown)
+      draw_every->refuse("poses are drawn together only where identities are known");
+  }
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
   const auto believed = map.find("believed_rig");
@@ -124,6 +129,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "description",
                      "filters",
                      "particles",
+                     "draw_every",
                      "seeds",
                      "gates",
                      "sensor",

@@ -35,6 +35,7 @@ References replay_references(const Recording& recording, const worlds::Scenario&
 slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
   slam::FilterConfig config;
   config.particles = scenario.particles;
+  config.draw_every = scenario.draw_every;
   config.odometry_noise = scenario.believed_odometry_noise;
   config.noise_law = scenario.believed_measurement_noise;
   config.stated_sd_scale = scenario.stated_sd_scale;

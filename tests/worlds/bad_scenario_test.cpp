@@ -228,6 +228,15 @@ TEST(BadColours, DoNotMatterWhereNobodySeesThem) {
               EndsWith("expected ball 0 at least 3.99 m away (got 3.577 m)"));
 }
 
+// Poses that are drawn together know no association.
+TEST(BadFilters, DrawPosesTogetherOnlyWhereIdentitiesAreKnown) {
+  const ScenarioFolder folder;
+  const auto file =
+      folder.write("bad.yaml", small_scenario_with("identity: known", "identity: none\ndraw_every: 5"));
+  EXPECT_THAT(complaint_about(file), EndsWith("poses are drawn together only where identities are known"));
+  EXPECT_EQ(complaint_about(file, {"draw_every=1"}), "no complaint");
+}
+
 TEST(BadBalls, AreAtMost254) {
   std::string balls;
   for (int i = 0; i < 255; ++i) balls += "    - {colour: 0, at_m: [" + std::to_string(i) + ", 9, 1]}\n";

@@ -1,0 +1,116 @@
+/// FastSLAM 2.0 that draws the poses of many frames together.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam/block_path.h"
+#include "slam/decisions.h"
+#include "slam/filter_config.h"
+#include "slam/frame_reader.h"
+#include "slam/joint_belief.h"
+#include "slam/linearised.h"
+#include "slam/particle.h"
+#include "slam/predictive_mixture.h"
+#include "slam/random.h"
+#include "slam/update_report.h"
+
+namespace stereobench::slam {
+
+/// Block sampling (Doucet, Briers and Senecal 2006; Beevers and Huang, ICRA 2007, for SLAM) with the block's
+/// poses and landmarks as one Gaussian.
+///
+/// FastSLAM 2.0 draws a pose at each frame, knowing nothing of what is seen next; most of these draws turn
+/// out wrong a few frames later, the weights scatter, and resampling leaves few paths. Here a block of K
+/// frames (FilterConfig::draw_every) goes by before anything is drawn. With s the block's first instant, a
+/// particle is a path x_0..s and the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
+///
+/// **Within a block** each particle is an EKF over its pose and the landmarks it has seen in this block,
+///     p(x_t, m | x_0..s, z_1..t),
+/// which starts from the pose x_s without uncertainty and landmarks that are independent of each other. A
+/// sighting is worth
+///     log w += log N(z; z^, S),  S = [Hx Hm] P [Hx Hm]' + R,
+/// so that after K frames the weight has grown by p(z_s+1..t | x_0..s, z_1..s): the poses since s are
+/// integrated out, and nothing that is drawn later makes weights scatter. The estimate is the mixture of
+/// these Gaussians. Resampling copies them.
+///
+/// **At its end** x_s+1..t is drawn from p(x_s+1..t | x_0..s, z_1..t), in two steps: landmarks from their
+/// joint Gaussian, m ~ N, and then the path given them (draw_path). The landmarks that were drawn are
+/// forgotten, and those of the map at s are refined by the block's sightings from the poses drawn, as in
+/// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
+/// for any K. Bearings in blocks that are long for their noise are not: the EKF's linearisation is what a
+/// block costs.
+///
+/// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
+/// nothing and costs its particle the likelihood at the gate; there is no second look, and contradictions are
+/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map.
+class BlockSlam {
+ public:
+  BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed);
+
+  void predict(const Control& control);
+  void update(std::span<const RangeBearing> sightings);
+  Estimate estimate() const;
+  Estimate estimate_without_map() const;
+  const UpdateReport& last_update() const { return report_; }
+  int particle_count() const { return static_cast<int>(hypotheses_.size()); }
+
+  /// @return what the particle that the last frame left heaviest made of it
+  Decisions last_decisions() const;
+
+ private:
+  /// A particle: where its path and map stood when the block began, and what has been learnt since.
+  struct Hypothesis {
+    Particle start;
+    JointBelief now;
+    std::vector<int> place_in_block;  ///< by slot: index among the block's landmarks, or -1
+    std::vector<Fate> fates;          ///< of all sightings of the block
+
+    Hypothesis descendant() const { return {start.descendant(), now, place_in_block, fates}; }
+    int& in_block(int slot);
+    LandmarkBelief landmark(std::size_t slot) const;
+  };
+  struct Frame {
+    PoseBelief motion;
+    std::vector<Sighting> sightings;
+  };
+
+  bool is_mapped(int slot) const { return static_cast<std::size_t>(slot) < origins_.size(); }
+  std::vector<double> absorb(const Frame& frame);
+  double correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
+                 std::span<ExpectedSighting> expected);
+  ExpectedSighting use(Hypothesis& mine, const Sighting& sighting, Target& target);
+  void take_up(Hypothesis& mine, int slot);
+  void add_new(Hypothesis& mine, const Frame& frame);
+  void reweigh(std::span<const double> worth);
+  std::size_t heaviest() const;
+  void note_decisions(std::span<const Sighting> frame);
+  void resample();
+  void close_block(Hypothesis& mine);
+  std::vector<PathStep> seen_by(Hypothesis& mine);
+  std::vector<Eigen::Vector2d> draw_landmarks(const JointBelief& belief);
+  void learn(LandmarkMap& map, const Pose& robot, const Sighting& sighting);
+
+  FilterConfig config_;
+  double gate_;
+  Linearised model_;
+  FrameReader reader_;
+  RandomStream random_;
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<Frame> block_;                ///< since the poses were drawn
+  std::vector<double> log_weights_;         ///< normalised
+  std::vector<double> weights_;             ///< the same, not as logarithms
+  std::vector<Target> targets_;             ///< of the last frame, particle by particle
+  std::vector<ExpectedSighting> expected_;  ///< the same, for a report
+  std::vector<int> origins_;                ///< by slot: the sighting that founded the landmark
+  JointBelief before_;                      ///< of one particle, should a frame end in what is no number
+  PoseBelief motion_;                       ///< since the last frame, in the robot's frame of that time
+  PoseBelief belief_;                       ///< at the last frame, over all particles
+  double effective_;
+  std::vector<Decision> decided_;  ///< what the heaviest particle made of the last frame
+  FilterCounters counters_;
+  UpdateReport report_;  ///< of the last update
+};
+
+}  // namespace stereobench::slam

@@ -1,0 +1,254 @@
+// Poses that are drawn together: the law they are drawn from, and the filter that does so.
+#include "slam/block_slam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "slam/block_path.h"
+#include "slam/filter.h"
+#include "slam/linearised.h"
+#include "tests/slam/checks.h"
+#include "tests/slam/nasty_drive.h"
+
+namespace stereobench::slam {
+namespace {
+
+// A short drive past two landmarks that are known, with noise so small that everything is linear.
+struct KnownLandmarks {
+  Pose start{0.3, -0.2, 0.4};
+  std::vector<PathStep> steps;
+
+  explicit KnownLandmarks(int controls) {
+    const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {1.0, 3.0}};
+    RandomStream random(11, Stream::kWorld);
+    Pose truth = start;
+    for (int k = 0; k < 4; ++k) {
+      PathStep step;
+      for (int i = 0; i < controls; ++i) {
+        const Control control{1.0, 0.4 - 0.3 * k, 0.5};
+        truth = advance(truth, control);
+        long repairs = 0;
+        step.motion = Linearised().move(step.motion, control, {4e-5, 3e-5}, repairs);
+      }
+      for (const Eigen::Vector2d& place : places) {
+        if (k == 1) continue;  // one that sees nothing
+        const Eigen::Vector2d error(5e-5 * random.normal(), 2e-5 * random.normal());
+        step.seen.push_back(
+            {place, {predict_sighting(truth, place) + error, Eigen::Vector2d(2.5e-9, 4e-10).asDiagonal()}});
+      }
+      steps.push_back(step);
+    }
+  }
+
+  // The posterior of all poses at once, from noise to path and from path to sightings: another route.
+  void posterior(Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) const {
+    const auto size = static_cast<Eigen::Index>(3 * steps.size());
+    covariance = Eigen::MatrixXd::Zero(size, size);
+    mean = Eigen::VectorXd::Zero(size);  // off the path without noise
+    std::vector<Pose> path;
+    Eigen::MatrixXd by_noise = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index k = 0; k < size / 3; ++k) {
+      const PathStep& step = steps[static_cast<std::size_t>(k)];
+      const Pose from = k == 0 ? start : path.back();
+      path.push_back(compose(from, step.motion.mean));
+      Eigen::Matrix3d onward = Eigen::Matrix3d::Identity();
+      onward.topRows<2>() = lever(from, {path.back().x_m, path.back().y_m});
+      if (k > 0) by_noise.middleRows<3>(3 * k) = onward * by_noise.middleRows<3>(3 * k - 3);
+      const Eigen::Matrix3d noise = follow(from, step.motion).covariance;
+      long repairs = 0;
+      by_noise.block<3, 3>(3 * k, 3 * k) = semidefinite_root<3>(noise, repairs);
+    }
+    covariance = by_noise * by_noise.transpose();
+    for (Eigen::Index k = 0; k < size / 3; ++k) {
+      for (const PlacedSighting& seen : steps[static_cast<std::size_t>(k)].seen) {
+        const LinearSighting linear = linearise_sighting(path[static_cast<std::size_t>(k)], seen.place);
+        Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(2, size);
+        slope.middleCols<3>(3 * k) = linear.by_pose();
+        const Eigen::MatrixXd s = slope * covariance * slope.transpose() + seen.observation.noise;
+        const Eigen::MatrixXd gain = covariance * slope.transpose() * s.inverse();
+        mean += gain * (sighting_residual(seen.observation.range_bearing, linear.expected) - slope * mean);
+        covariance -= (gain * slope * covariance).eval();
+      }
+    }
+    for (std::size_t k = 0; k < path.size(); ++k)
+      mean.segment<3>(static_cast<Eigen::Index>(3 * k)) +=
+          Eigen::Vector3d(path[k].x_m, path[k].y_m, path[k].heading_rad);
+  }
+};
+
+class DrawnPaths : public ::testing::TestWithParam<int> {};
+
+// Mean and covariance of 20,000 paths against the posterior of all poses as one Gaussian, with motions of
+// rank two (one control a step) and of rank three. Mutations: poses drawn from the filter alone and not given
+// the next one; only the last coordinate of the next one used; sightings of the last step left out.
+TEST_P(DrawnPaths, HaveTheMomentsOfTheExactPosterior) {
+  constexpr int kDraws = 20000;
+  const KnownLandmarks drive(GetParam());
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+  drive.posterior(mean, covariance);
+  RandomStream random(3, Stream::kFilter);
+  long repairs = 0;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(mean.size(), mean.size());
+  for (int i = 0; i < kDraws; ++i) {
+    const std::vector<Pose> path = draw_path(drive.start, drive.steps, random, repairs);
+    Eigen::VectorXd off(mean.size());
+    for (std::size_t k = 0; k < path.size(); ++k)
+      off.segment<3>(static_cast<Eigen::Index>(3 * k)) << path[k].x_m, path[k].y_m, path[k].heading_rad;
+    off -= mean;
+    sum += off;
+    squares += off * off.transpose();
+  }
+  const Eigen::VectorXd by_sd = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
+  EXPECT_LT((by_sd.asDiagonal() * sum / kDraws).cwiseAbs().maxCoeff(), error);
+  const Eigen::MatrixXd difference =
+      by_sd.asDiagonal() * (squares / kDraws - covariance) * by_sd.asDiagonal();
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), std::sqrt(2.0) * error);
+  EXPECT_EQ(repairs, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Controls, DrawnPaths, ::testing::Values(1, 3));
+
+FilterConfig drawing_every(int frames, int particles, const Drive& world) {
+  FilterConfig config;
+  config.particles = particles;
+  config.draw_every = frames;
+  config.gate_probability = 1.0;
+  config.odometry_noise = world.odometry_noise;
+  return config;
+}
+
+// Until something is drawn, a particle is an EKF over what it has seen: the same numbers by other code.
+TEST(BlockSlam, IsAnEkfWhileNothingIsDrawn) {
+  const Drive world;
+  const FilterConfig config = drawing_every(1000, 2, world);
+  const DriveScore block = drive(make_filter("fastslam2", config, {}, 1), world, 5);
+  const DriveScore ekf = drive(make_filter("ekf", config, {}, 1), world, 5);
+  EXPECT_NEAR(block.rms_m, ekf.rms_m, 1e-9);
+  EXPECT_TRUE(near(block.last.pose, ekf.last.pose, 1e-9));
+  EXPECT_TRUE(near(block.last.covariance, ekf.last.covariance, 1e-9));
+  ASSERT_EQ(block.last.landmarks.size(), ekf.last.landmarks.size());
+  for (std::size_t i = 0; i < ekf.last.landmarks.size(); ++i) {
+    EXPECT_TRUE(near(block.last.landmarks[i].position_m, ekf.last.landmarks[i].position_m, 1e-8));
+    EXPECT_TRUE(near(block.last.landmarks[i].covariance, ekf.last.landmarks[i].covariance, 1e-8));
+    EXPECT_EQ(block.last.landmarks[i].origin, ekf.last.landmarks[i].origin);
+  }
+}
+
+// Frames of a block that is drawn leave maps whose landmarks are right: with 300 particles the mixture over
+// many short blocks is the EKF's Gaussian again, as far as 300 particles go and the drive is linear.
+// Mutations: landmarks that are not refined from the path drawn; places of landmarks that are not drawn; a
+// path that is drawn without the landmarks, or each pose without the next; sightings that weigh nothing.
+TEST(BlockSlam, AgreesWithTheEkfAfterManyBlocks) {
+  Drive world;
+  world.side_m = 10.0;
+  const DriveScore ekf = drive(make_filter("ekf", drawing_every(1, 1, world), {}, 1), world, 7);
+  for (const int frames : {5, 10}) {
+    const DriveScore block =
+        drive(make_filter("fastslam2", drawing_every(frames, 300, world), {}, 2), world, 7);
+    const Eigen::Vector3d sd = ekf.last.covariance.diagonal().cwiseSqrt();
+    const Eigen::Vector3d off = displacement(block.last.pose, ekf.last.pose).cwiseQuotient(sd);
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 0.7) << frames << ": " << off.transpose();
+    const Eigen::Vector3d ratio = block.last.covariance.diagonal().cwiseSqrt().cwiseQuotient(sd);
+    EXPECT_GT(ratio.minCoeff(), 0.6) << frames;
+    EXPECT_LT(ratio.maxCoeff(), 1.5) << frames;
+    EXPECT_LT(block.map_rms_m, 1.5 * ekf.map_rms_m + 0.01);
+    EXPECT_GT(block.last.counters.resamplings, 0) << "sightings weigh nothing";
+  }
+}
+
+double squared_length_at_the_end(int frames, const Drive& world, std::uint64_t seed) {
+  const Estimate last =
+      drive(make_filter("fastslam2", drawing_every(frames, 10, world), {}, seed), world, seed).last;
+  Pose truth;
+  for (const Control& control : world.controls()) truth = advance(truth, control);
+  const Eigen::Vector3d off = displacement(truth, last.pose);
+  return off.dot(last.covariance.ldlt().solve(off));
+}
+
+// What blocks are for: after two laps with ten particles, forty seeds. The squared length of the error in
+// claimed deviations is 3 for an honest filter; its median, as its mean has no bound. Ten particles are too
+// few either way, and far fewer where each frame is drawn by itself.
+TEST(BlockSlam, KnowsBetterHowWrongItIs) {
+  Drive world;
+  world.laps = 2;
+  std::vector<double> each, together;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    each.push_back(squared_length_at_the_end(1, world, seed));
+    together.push_back(squared_length_at_the_end(40, world, seed));
+  }
+  std::ranges::sort(each);
+  std::ranges::sort(together);
+  EXPECT_LT(together[20], 15.0);
+  EXPECT_GT(each[20], 2.0 * together[20]);
+}
+
+// One by one is FastSLAM 2.0 as it was, to the last bit, and another seed of the filter is another path.
+TEST(BlockSlam, IsWhatIsAskedForAlone) {
+  const Drive world;
+  FilterConfig usual = drawing_every(1, 5, world);
+  const Filter plain = make_filter("fastslam2", usual, {}, 3);
+  EXPECT_TRUE(std::holds_alternative<LinearisedFastSlam>(plain));
+  usual.draw_every = 4;
+  EXPECT_TRUE(std::holds_alternative<UnscentedFastSlam>(make_filter("ufastslam", usual, {}, 3)));
+  const Filter block = make_filter("fastslam2", usual, {}, 3);
+  ASSERT_TRUE(std::holds_alternative<BlockSlam>(block));
+  const DriveScore one = drive(block, world, 1);
+  EXPECT_EQ(one.rms_m, drive(block, world, 1).rms_m) << "a copy goes its own way";
+  EXPECT_NE(one.rms_m, drive(make_filter("fastslam2", usual, {}, 4), world, 1).rms_m);
+  usual.draw_every = 0;
+  EXPECT_THROW(make_filter("fastslam2", usual, {}, 3), std::invalid_argument);
+}
+
+// A sighting far off is refused and counted, one without an identity counted and passed over. Mutations: no
+// gate; a refused sighting that is used when the block is drawn.
+TEST(BlockSlam, RefusesWhatCannotBe) {
+  const Drive world;
+  FilterConfig config = drawing_every(3, 20, world);
+  config.gate_probability = 0.9999;
+  const Eigen::Vector2d place(4.0, 1.0);
+  Filter filter = make_filter("fastslam2", config, {}, 1);
+  for (int k = 0; k < 9; ++k) {
+    RangeBearing seen = sighting(predict_sighting({}, place), 0.05, 0.01);
+    seen.landmark_id = 7;
+    RangeBearing nameless = seen;
+    nameless.landmark_id = kUnknown;
+    if (k == 4) seen.range_m += 3.0;
+    predict(filter, {0.0, 0.0, 0.5});
+    update(filter, std::vector<RangeBearing>{seen, nameless});
+    const Decisions decisions = last_decisions(filter);
+    ASSERT_EQ(decisions.sightings.size(), 1U);
+    EXPECT_EQ(decisions.sightings[0].fate, k == 0 ? Fate::kAdd : k == 4 ? Fate::kRefuse : Fate::kUse);
+    EXPECT_EQ(decisions.mapped, std::vector<int>{0});
+  }
+  const Estimate last = estimate(filter);
+  EXPECT_EQ(last.counters.gated_measurements, 20);
+  EXPECT_EQ(last.counters.rejected_inputs, 9);
+  EXPECT_TRUE(near(last.landmarks.at(0).position_m, place, 0.05));
+}
+
+// Everything that goes wrong, with blocks that end in the middle of it.
+TEST(BlockSlam, NeitherThrowsNorLosesANumber) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    NastyDrive drive(seed);
+    drive.config.particles = 5;
+    drive.config.draw_every = 2 + static_cast<int>(seed % 7);
+    drive.config.report_updates = true;
+    Filter filter = make_filter("fastslam2", drive.config, {}, seed);
+    for (const NastyStep& step : drive.steps) {
+      for (const Control& control : step.controls) predict(filter, control);
+      for (const std::vector<RangeBearing>& frame : step.frames) {
+        update(filter, frame);
+        ASSERT_TRUE(all_finite(estimate(filter))) << seed;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stereobench::slam
