@@ -158,7 +158,7 @@ TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
 }
 
 // At a direction of 0.1 a lens with k1 = -0.3 is 0.3 % off, and less where the other eye looks: that is a
-// disparity.
+// disparity. Further out outlines are bent so much that their arcs contradict each other.
 TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
   worlds::Scenario scenario = bend();
   scenario.rig.distortion = {.k1 = -0.3, .k2 = 0.05, .p1 = 0.001};
@@ -166,7 +166,7 @@ TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
   scenario.believed_rig = scenario.rig;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
   scenario.believed_rig.distortion = {};
-  EXPECT_GT(std::abs(mean_range_ratio(scenario) - 1.0), 0.005);
+  EXPECT_GT(std::abs(mean_range_ratio(scenario) - 1.0), 0.003);
 }
 
 // Rectified pictures are larger than what was taken, and black there: a ball that the picture's border cuts
