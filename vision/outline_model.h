@@ -41,15 +41,13 @@ class OutlineModel {
     return {(level2 - std::sqrt(level2)) * per_slope, gradient * per_slope};
   }
 
-  /// The distances of several pixels of a row at once, in single precision.
+  /// The distances of four pixels of a row at once.
   /// @param right_px, down_px from the outline's centre
-  template <typename Floats>
-  Floats distances_px(const Floats& right_px, float down_px) const {
-    const Eigen::Matrix2f form = form_.cast<float>();
-    const Floats gradient_x = form(0, 0) * right_px + form(0, 1) * down_px;
-    const Floats gradient_y = form(1, 0) * right_px + form(1, 1) * down_px;
-    const Floats level2 = right_px * gradient_x + down_px * gradient_y;
-    const Floats slope = (gradient_x.square() + gradient_y.square()).sqrt();
+  Eigen::Array4d distances_px(const Eigen::Array4d& right_px, double down_px) const {
+    const Eigen::Array4d gradient_x = form_(0, 0) * right_px + form_(0, 1) * down_px;
+    const Eigen::Array4d gradient_y = form_(1, 0) * right_px + form_(1, 1) * down_px;
+    const Eigen::Array4d level2 = right_px * gradient_x + down_px * gradient_y;
+    const Eigen::Array4d slope = (gradient_x.square() + gradient_y.square()).sqrt();
     return (level2 - level2.sqrt()) / slope;
   }
 

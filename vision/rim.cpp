@@ -14,18 +14,20 @@ constexpr double kRingWidth_px = 2.0;
 constexpr double kNoBall_px = 1.71;  // outside of an outline that may yet move by a pixel
 constexpr double kPi = 3.14159265358979323846;
 
+// Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
+// share.
+using Four = Eigen::Array4d;
 constexpr int kAtOnce = 4;
-using Four = Eigen::Array<float, kAtOnce, 1>;
 
 // Angles in turns, [0, 1], to 0.003 turns, of directions that are all above or all below: arithmetic only, so
 // that every machine agrees on it. A direction's x on the diamond |x| + |y| = 1 falls as it turns, from 1 to
 // -1 in half a turn, a little unevenly.
-Four turns(const Four& x, float y) {
-  constexpr float kUnevenness = 0.363F;  // 1 - 2 / pi
-  const Four on_diamond = x / (x.abs() + std::abs(y)).max(std::numeric_limits<float>::min());
+Four turns(const Four& x, double y) {
+  constexpr double kUnevenness = 0.363;  // 1 - 2 / pi
+  const Four on_diamond = x / (x.abs() + std::abs(y)).max(std::numeric_limits<double>::min());
   const Four size = on_diamond.abs();
-  const Four quarters = 1.0F - on_diamond + kUnevenness * on_diamond * (1.0F - size) * (1.0F - 2.0F * size);
-  return y < 0.0F ? Four(1.0F - 0.25F * quarters) : Four(0.25F * quarters);
+  const Four quarters = 1.0 - on_diamond + kUnevenness * on_diamond * (1.0 - size) * (1.0 - 2.0 * size);
+  return y < 0.0 ? Four(1.0 - 0.25 * quarters) : Four(0.25 * quarters);
 }
 
 // Looks at an image along an outline.
@@ -70,19 +72,18 @@ class RimCollector {
     const int first = std::max(0, columns.first);
     const int last = std::min(image_.cols - 1, columns.last);
     const auto* bgr = image_.ptr<std::uint8_t>(y) + 3 * first;
-    const auto below = static_cast<float>(y - outline_.centre_px().y());
+    const double below = y - outline_.centre_px().y();
     for (int x = first; x <= last; x += kAtOnce) {
-      const Four beside = static_cast<float>(x - outline_.centre_px().x()) + Four(0.0F, 1.0F, 2.0F, 3.0F);
+      const Four beside = x - outline_.centre_px().x() + Four(0.0, 1.0, 2.0, 3.0);
       const Four distances = outline_.distances_px(beside, below);
-      const Four sectors = turns(beside, below) * static_cast<float>(rim_.arcs.size());
+      const Four sectors = turns(beside, below) * static_cast<double>(rim_.arcs.size());
       for (int i = 0; i < kAtOnce && x + i <= last; ++i, bgr += 3) {
-        const double distance_px = static_cast<double>(distances[i]);
-        if (!(std::abs(distance_px) <= reach_px_)) continue;
+        if (!(std::abs(distances[i]) <= reach_px_)) continue;
         const auto sector = static_cast<std::size_t>(sectors[i]);
         add({.position_px = Eigen::Vector2d(x + i, y),
              .colour = Colour(bgr[0], bgr[1], bgr[2], 1.0),
              .shade = Colour(0.0, 0.0, 0.0, 1.0),
-             .distance_px = distance_px,
+             .distance_px = distances[i],
              .sector = sector < rim_.arcs.size() ? sector : 0});
       }
     }
