@@ -3,6 +3,7 @@
 #include "slam/gaussian.h"
 #include "slam/linearised.h"
 #include "slam/measurement.h"
+#include "slam/unscented.h"
 
 namespace stereobench::slam {
 namespace {
@@ -13,9 +14,10 @@ struct FilteredStep {
   PoseBelief after;
 };
 
-void correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) {
+template <class Model>
+void correct(const Model& model, PoseBelief& belief, const PlacedSighting& seen, long& repairs) {
   const LandmarkBelief landmark{seen.place, Eigen::Matrix2d::Zero()};
-  const Innovation expected = Linearised().expect(belief, landmark, seen.observation, repairs);
+  const Innovation expected = model.expect(belief, landmark, seen.observation, repairs);
   const long mended = repairs;
   const Factor2 factor(expected.covariance, repairs);
   if (repairs != mended) return;  // all is certain: nothing is learnt
@@ -30,14 +32,16 @@ void correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) {
   belief.covariance = 0.5 * (covariance + covariance.transpose());
 }
 
-std::vector<FilteredStep> filter(const Pose& start, std::span<const PathStep> steps, long& repairs) {
+template <class Model>
+std::vector<FilteredStep> filter(const Model& model, const Pose& start, std::span<const PathStep> steps,
+                                 long& repairs) {
   std::vector<FilteredStep> filtered;
   filtered.reserve(steps.size());
   PoseBelief now{start};
   for (const PathStep& step : steps) {
     now = follow(now, step.motion);
     const PoseBelief before = now;
-    for (const PlacedSighting& seen : step.seen) correct(now, seen, repairs);
+    for (const PlacedSighting& seen : step.seen) correct(model, now, seen, repairs);
     filtered.push_back({before, now});
   }
   return filtered;
@@ -75,9 +79,10 @@ Pose draw(const PoseBelief& belief, RandomStream& random, long& repairs) {
 
 }  // namespace
 
-std::vector<Pose> draw_path(const Pose& start, std::span<const PathStep> steps, RandomStream& random,
-                            long& repairs) {
-  const std::vector<FilteredStep> filtered = filter(start, steps, repairs);
+template <class Model>
+std::vector<Pose> draw_path(const Model& model, const Pose& start, std::span<const PathStep> steps,
+                            RandomStream& random, long& repairs) {
+  const std::vector<FilteredStep> filtered = filter(model, start, steps, repairs);
   std::vector<Pose> path(steps.size());
   for (std::size_t k = steps.size(); k-- > 0;) {
     const bool last = k + 1 == steps.size();
@@ -86,5 +91,10 @@ std::vector<Pose> draw_path(const Pose& start, std::span<const PathStep> steps, 
   }
   return path;
 }
+
+template std::vector<Pose> draw_path(const Linearised& model, const Pose& start,
+                                     std::span<const PathStep> steps, RandomStream& random, long& repairs);
+template std::vector<Pose> draw_path(const Unscented& model, const Pose& start,
+                                     std::span<const PathStep> steps, RandomStream& random, long& repairs);
 
 }  // namespace stereobench::slam

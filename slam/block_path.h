@@ -21,7 +21,7 @@ struct PathStep {
   std::vector<PlacedSighting> seen;
 };
 
-/// Draws a path from p(x_1..x_K | x_0, landmarks, sightings), to first order.
+/// Draws a path from p(x_1..x_K | x_0, landmarks, sightings).
 ///
 /// Given the landmarks, poses are a Markov chain. A Kalman filter leads through the steps,
 ///     x_k- = f(x_k-1, u_k),  P_k- = F P_k-1 F' + Q,  then K = P_k- H' S^-1 for each sighting,
@@ -30,12 +30,15 @@ struct PathStep {
 ///     [ P_k      P_k F' ]
 ///     [ F P_k    P_k+1- ].
 /// It is conditioned on one coordinate after the other, and one that nothing is uncertain of teaches nothing:
-/// the motion of a single control has rank two, and no P is inverted.
+/// the motion of a single control has rank two, and no P is inverted. Motions are taken to first order in the
+/// heading; sightings as the model says, whose cross covariance stands for P H'.
 ///
+/// @param model Linearised or Unscented
 /// @param start the pose before the first step, known
 /// @param repairs counts covariances that had to be mended
 /// @return the pose at each step
-std::vector<Pose> draw_path(const Pose& start, std::span<const PathStep> steps, RandomStream& random,
-                            long& repairs);
+template <class Model>
+std::vector<Pose> draw_path(const Model& model, const Pose& start, std::span<const PathStep> steps,
+                            RandomStream& random, long& repairs);
 
 }  // namespace stereobench::slam

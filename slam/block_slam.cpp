@@ -8,10 +8,10 @@
 #include <Eigen/Cholesky>
 
 #include "slam/gaussian.h"
+#include "slam/joint_moments.h"
 #include "slam/measurement.h"
 #include "slam/moments.h"
 #include "slam/motion.h"
-#include "slam/noise_law.h"
 #include "slam/resampling.h"
 
 namespace stereobench::slam {
@@ -37,9 +37,11 @@ bool is_finite(const JointBelief& belief) {
 
 }  // namespace
 
-BlockSlam::BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed)
+template <class Model>
+BlockSlam<Model>::BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed)
     : config_(config),
       gate_(chi_square_2_quantile(config.gate_probability)),
+      model_(config.unscented),
       reader_(config),
       random_(seed, Stream::kFilter),
       hypotheses_(static_cast<std::size_t>(config.particles)),
@@ -51,19 +53,22 @@ BlockSlam::BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_
   make_equal(log_weights_, weights_);
 }
 
-int& BlockSlam::Hypothesis::in_block(int slot) {
+template <class Model>
+int& BlockSlam<Model>::Hypothesis::in_block(int slot) {
   const auto index = static_cast<std::size_t>(slot);
   if (place_in_block.size() <= index) place_in_block.resize(index + 1, -1);
   return place_in_block[index];
 }
 
-LandmarkBelief BlockSlam::Hypothesis::landmark(std::size_t slot) const {
+template <class Model>
+LandmarkBelief BlockSlam<Model>::Hypothesis::landmark(std::size_t slot) const {
   const int place = slot < place_in_block.size() ? place_in_block[slot] : -1;
   if (place < 0) return start.known[slot].belief;
   return {now.landmarks[static_cast<std::size_t>(place)], now.covariance.landmark(place)};
 }
 
-void BlockSlam::predict(const Control& control) {
+template <class Model>
+void BlockSlam<Model>::predict(const Control& control) {
   if (!is_valid(control)) {
     ++counters_.rejected_inputs;
     return;
@@ -72,7 +77,8 @@ void BlockSlam::predict(const Control& control) {
   motion_ = model_.move(motion_, control, control_sd, counters_.covariance_repairs);
 }
 
-void BlockSlam::update(std::span<const RangeBearing> sightings) {
+template <class Model>
+void BlockSlam<Model>::update(std::span<const RangeBearing> sightings) {
   report_ = {};
   decided_.clear();
   Frame frame{{}, reader_.read(sightings, counters_.rejected_inputs)};
@@ -96,7 +102,8 @@ void BlockSlam::update(std::span<const RangeBearing> sightings) {
 }
 
 /// @return what a frame is worth to each particle, as logarithms
-std::vector<double> BlockSlam::absorb(const Frame& frame) {
+template <class Model>
+std::vector<double> BlockSlam<Model>::absorb(const Frame& frame) {
   const std::size_t width = frame.sightings.size();
   targets_.assign(hypotheses_.size() * width, {});
   expected_.assign(targets_.size(), {});
@@ -113,8 +120,9 @@ std::vector<double> BlockSlam::absorb(const Frame& frame) {
 
 /// Corrects a particle by the landmarks that it knows.
 /// @return the log likelihood of the frame
-double BlockSlam::correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
-                          std::span<ExpectedSighting> expected) {
+template <class Model>
+double BlockSlam<Model>::correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
+                                 std::span<ExpectedSighting> expected) {
   for (const Sighting& sighting : frame.sightings)
     if (is_mapped(sighting.slot)) take_up(mine, sighting.slot);
   before_ = mine.now;
@@ -132,18 +140,14 @@ double BlockSlam::correct(Hypothesis& mine, const Frame& frame, std::span<Target
 }
 
 /// @return what was expected of the sighting
-ExpectedSighting BlockSlam::use(Hypothesis& mine, const Sighting& sighting, Target& target) {
+template <class Model>
+ExpectedSighting BlockSlam<Model>::use(Hypothesis& mine, const Sighting& sighting, Target& target) {
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
   const int place = mine.in_block(sighting.slot);
-  const JointSurprise seen = surprise(mine.now, mine.now, place, sighting.observation, repairs);
+  const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
   const Eigen::Vector2d expected = sighting.observation.range_bearing - seen.residual;
-  ExpectedSighting expectation{true, expected};
-  if (config_.report_updates) {
-    expectation.covariance =
-        seen.slope * mine.now.covariance.pose_and_landmark(place) * seen.slope.transpose() +
-        noise_at(sighting.observation, expected);
-  }
+  ExpectedSighting expectation{true, expected, seen.covariance};
   const double squared_length = seen.squared_length();
   target = {squared_length <= gate_ ? Fate::kUse : Fate::kRefuse, sighting.slot};
   if (target.fate == Fate::kRefuse) ++counters_.gated_measurements;
@@ -155,7 +159,8 @@ ExpectedSighting BlockSlam::use(Hypothesis& mine, const Sighting& sighting, Targ
 }
 
 /// Puts a landmark of the map among those of the block, where it is independent of all that is there.
-void BlockSlam::take_up(Hypothesis& mine, int slot) {
+template <class Model>
+void BlockSlam<Model>::take_up(Hypothesis& mine, int slot) {
   int& place = mine.in_block(slot);
   if (place >= 0) return;
   const LandmarkBelief& landmark = mine.start.known[static_cast<std::size_t>(slot)].belief;
@@ -167,23 +172,25 @@ void BlockSlam::take_up(Hypothesis& mine, int slot) {
 
 /// Adds the landmarks that nobody has seen before; one that is seen twice by its first sighting, then the
 /// other.
-void BlockSlam::add_new(Hypothesis& mine, const Frame& frame) {
+template <class Model>
+void BlockSlam<Model>::add_new(Hypothesis& mine, const Frame& frame) {
   long& repairs = counters_.covariance_repairs;
   for (const Sighting& sighting : frame.sightings) {
     if (is_mapped(sighting.slot)) continue;
     int& place = mine.in_block(sighting.slot);
     if (place >= 0) {
       const long before = repairs;
-      const JointSurprise seen = surprise(mine.now, mine.now, place, sighting.observation, repairs);
+      const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
       if (repairs == before) slam::correct(mine.now, place, seen, repairs);  // else all is certain
       continue;
     }
     place = static_cast<int>(mine.now.landmarks.size());
-    slam::place(mine.now, place, model_.found(mine.now.pose, sighting.observation, repairs), repairs);
+    find(model_, mine.now, place, sighting.observation, repairs);
   }
 }
 
-void BlockSlam::reweigh(std::span<const double> worth) {
+template <class Model>
+void BlockSlam<Model>::reweigh(std::span<const double> worth) {
   for (std::size_t i = 0; i < worth.size(); ++i) log_weights_[i] += worth[i];
   if (!normalise(log_weights_, weights_)) ++counters_.weight_collapses;
   effective_ = effective_particles(weights_);
@@ -196,11 +203,13 @@ void BlockSlam::reweigh(std::span<const double> worth) {
   belief_ = {displace(reference, moments.mean()), moments.covariance()};
 }
 
-std::size_t BlockSlam::heaviest() const {
+template <class Model>
+std::size_t BlockSlam<Model>::heaviest() const {
   return static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
 }
 
-void BlockSlam::note_decisions(std::span<const Sighting> frame) {
+template <class Model>
+void BlockSlam<Model>::note_decisions(std::span<const Sighting> frame) {
   const std::span<const Target> targets =
       std::span(targets_).subspan(heaviest() * frame.size(), frame.size());
   for (std::size_t k = 0; k < frame.size(); ++k) {
@@ -211,7 +220,8 @@ void BlockSlam::note_decisions(std::span<const Sighting> frame) {
   std::ranges::sort(decided_, {}, &Decision::sighting);
 }
 
-void BlockSlam::resample() {
+template <class Model>
+void BlockSlam<Model>::resample() {
   const std::vector<int> ancestors = ancestors_in_place(systematic_descendants(weights_, random_.uniform()));
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     const auto from = static_cast<std::size_t>(ancestors[i]);
@@ -223,9 +233,11 @@ void BlockSlam::resample() {
 }
 
 /// Draws the block's poses, and makes their end the next block's start.
-void BlockSlam::close_block(Hypothesis& mine) {
+template <class Model>
+void BlockSlam<Model>::close_block(Hypothesis& mine) {
   const std::vector<PathStep> steps = seen_by(mine);
-  const std::vector<Pose> path = draw_path(mine.start.pose, steps, random_, counters_.covariance_repairs);
+  const std::vector<Pose> path =
+      draw_path(model_, mine.start.pose, steps, random_, counters_.covariance_repairs);
   std::size_t next = 0;
   for (std::size_t k = 0; k < block_.size(); ++k) {
     for (const Sighting& sighting : block_[k].sightings)
@@ -238,7 +250,8 @@ void BlockSlam::close_block(Hypothesis& mine) {
 }
 
 /// What a particle believes of the block's sightings, of landmarks whose places are drawn.
-std::vector<PathStep> BlockSlam::seen_by(Hypothesis& mine) {
+template <class Model>
+std::vector<PathStep> BlockSlam<Model>::seen_by(Hypothesis& mine) {
   const std::vector<Eigen::Vector2d> places = draw_landmarks(mine.now);
   std::vector<PathStep> steps;
   std::size_t next = 0;
@@ -253,7 +266,8 @@ std::vector<PathStep> BlockSlam::seen_by(Hypothesis& mine) {
   return steps;
 }
 
-std::vector<Eigen::Vector2d> BlockSlam::draw_landmarks(const JointBelief& belief) {
+template <class Model>
+std::vector<Eigen::Vector2d> BlockSlam<Model>::draw_landmarks(const JointBelief& belief) {
   const auto count = static_cast<int>(belief.landmarks.size());
   Eigen::MatrixXd covariance(2 * count, 2 * count);
   for (int i = 0; i < count; ++i) {
@@ -271,7 +285,8 @@ std::vector<Eigen::Vector2d> BlockSlam::draw_landmarks(const JointBelief& belief
   return places;
 }
 
-void BlockSlam::learn(LandmarkMap& map, const Pose& robot, const Sighting& sighting) {
+template <class Model>
+void BlockSlam<Model>::learn(LandmarkMap& map, const Pose& robot, const Sighting& sighting) {
   long& repairs = counters_.covariance_repairs;
   const auto slot = static_cast<std::size_t>(sighting.slot);
   if (slot == map.size()) {
@@ -283,7 +298,8 @@ void BlockSlam::learn(LandmarkMap& map, const Pose& robot, const Sighting& sight
   map.replace(slot, landmark);
 }
 
-Estimate BlockSlam::estimate() const {
+template <class Model>
+Estimate BlockSlam<Model>::estimate() const {
   Estimate estimate = estimate_without_map();
   for (std::size_t slot = 0; slot < origins_.size(); ++slot) {
     const Eigen::Vector2d reference = hypotheses_.front().landmark(slot).mean;
@@ -299,11 +315,13 @@ Estimate BlockSlam::estimate() const {
   return estimate;
 }
 
-Decisions BlockSlam::last_decisions() const {
+template <class Model>
+Decisions BlockSlam<Model>::last_decisions() const {
   return {decided_, origins_};
 }
 
-Estimate BlockSlam::estimate_without_map() const {
+template <class Model>
+Estimate BlockSlam<Model>::estimate_without_map() const {
   const PoseBelief now = follow(belief_, motion_);
   Estimate estimate;
   estimate.pose = now.mean;
@@ -312,5 +330,8 @@ Estimate BlockSlam::estimate_without_map() const {
   estimate.counters = counters_;
   return estimate;
 }
+
+template class BlockSlam<Linearised>;
+template class BlockSlam<Unscented>;
 
 }  // namespace stereobench::slam

@@ -1,4 +1,4 @@
-/// FastSLAM 2.0 that draws the poses of many frames together.
+/// FastSLAM 2.0 and UFastSLAM that draw the poses of many frames together.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "slam/particle.h"
 #include "slam/predictive_mixture.h"
 #include "slam/random.h"
+#include "slam/unscented.h"
 #include "slam/update_report.h"
 
 namespace stereobench::slam {
@@ -26,7 +27,8 @@ namespace stereobench::slam {
 /// frames (FilterConfig::draw_every) goes by before anything is drawn. With s the block's first instant, a
 /// particle is a path x_0..s and the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
 ///
-/// **Within a block** each particle is an EKF over its pose and the landmarks it has seen in this block,
+/// **Within a block** each particle is a Kalman filter over its pose and the landmarks it has seen in this
+/// block,
 ///     p(x_t, m | x_0..s, z_1..t),
 /// which starts from the pose x_s without uncertainty and landmarks that are independent of each other. A
 /// sighting is worth
@@ -39,12 +41,16 @@ namespace stereobench::slam {
 /// joint Gaussian, m ~ N, and then the path given them (draw_path). The landmarks that were drawn are
 /// forgotten, and those of the map at s are refined by the block's sightings from the poses drawn, as in
 /// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
-/// for any K. Bearings in blocks that are long for their noise are not: the EKF's linearisation is what a
-/// block costs.
+/// for any K. Poor bearings are not: there the moments of the model are what a block costs, those by
+/// Jacobians more than FastSLAM 2.0's own, which are taken anew at each pose drawn, and those by sigma points
+/// less than the draws that they save.
+///
+/// @tparam Model Linearised, an EKF within a block, or Unscented
 ///
 /// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
 /// nothing and costs its particle the likelihood at the gate; there is no second look, and contradictions are
 /// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map.
+template <class Model>
 class BlockSlam {
  public:
   BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed);
@@ -94,7 +100,7 @@ class BlockSlam {
 
   FilterConfig config_;
   double gate_;
-  Linearised model_;
+  Model model_;
   FrameReader reader_;
   RandomStream random_;
   std::vector<Hypothesis> hypotheses_;
@@ -112,5 +118,11 @@ class BlockSlam {
   FilterCounters counters_;
   UpdateReport report_;  ///< of the last update
 };
+
+extern template class BlockSlam<Linearised>;
+extern template class BlockSlam<Unscented>;
+
+using LinearisedBlockSlam = BlockSlam<Linearised>;
+using UnscentedBlockSlam = BlockSlam<Unscented>;
 
 }  // namespace stereobench::slam

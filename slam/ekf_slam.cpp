@@ -6,7 +6,6 @@
 #include "slam/joint_compatibility.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
-#include "slam/noise_law.h"
 
 namespace stereobench::slam {
 
@@ -100,10 +99,7 @@ void EkfSlam::associate_jointly(std::span<const Sighting> frame, std::vector<Can
   for (const Candidate& pair : candidates) {
     const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
     surprises.push_back(surprise(belief_, belief_, pair.landmark, observation, counters_.covariance_repairs));
-    const auto& [slope, factor, residual] = surprises.back();
-    pairings.push_back(
-        {residual, slope * belief_.covariance.pose_and_landmark(pair.landmark) * slope.transpose() +
-                       noise_at(observation, observation.range_bearing - residual)});
+    pairings.push_back({surprises.back().residual, surprises.back().covariance});
   }
   const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
     return surprises[a].slope * belief_.covariance.between(candidates[a].landmark, candidates[b].landmark) *

@@ -19,7 +19,8 @@
 namespace stereobench::slam {
 
 /// A filter is a value: a copy goes its own way and shares nothing with the original.
-using Filter = std::variant<DeadReckoning, EkfSlam, LinearisedFastSlam, UnscentedFastSlam, BlockSlam>;
+using Filter = std::variant<DeadReckoning, EkfSlam, LinearisedFastSlam, UnscentedFastSlam,
+                            LinearisedBlockSlam, UnscentedBlockSlam>;
 
 /// Starts a filter at a known pose with an empty map.
 ///

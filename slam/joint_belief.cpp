@@ -25,7 +25,8 @@ JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int lan
   const Eigen::Matrix2d covariance =
       slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() +
       noise_at(observation, expected);
-  return {slope, Factor2(covariance, repairs), sighting_residual(observation.range_bearing, expected)};
+  return {slope, covariance, Factor2(covariance, repairs),
+          sighting_residual(observation.range_bearing, expected)};
 }
 
 void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs) {

@@ -19,7 +19,8 @@ struct JointBelief {
 /// A sighting held against what its landmark should look like.
 struct JointSurprise {
   Eigen::Matrix<double, 2, 5> slope;  ///< H: of (range, bearing) by (pose, landmark)
-  Factor2 factor;                     ///< of S = H P H' + R
+  Eigen::Matrix2d covariance;         ///< S = H P H' + R
+  Factor2 factor;                     ///< of S
   Eigen::Vector2d residual;           ///< wrapped
 
   double squared_length() const { return factor.squared_length(residual); }

@@ -39,6 +39,8 @@ class Unscented {
   /// A landmark seen for the first time from a known pose: sigma points over the sighting (eq. 25-27).
   LandmarkBelief found(const Pose& robot, const Observation& observation, long& repairs) const;
 
+  const SigmaWeights<5>& weights() const { return five_; }  ///< of points over five dimensions
+
  private:
   SigmaWeights<5> five_;
   SigmaWeights<2> two_;

@@ -1,4 +1,4 @@
-// Poses that are drawn together: the law they are drawn from, and the filter that does so.
+// Poses that are drawn together: the law they are drawn from, and the filters that do so.
 #include "slam/block_slam.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "slam/block_path.h"
 #include "slam/filter.h"
-#include "slam/linearised.h"
+#include "slam/joint_moments.h"
 #include "tests/slam/checks.h"
 #include "tests/slam/nasty_drive.h"
 
@@ -79,40 +79,43 @@ struct KnownLandmarks {
   }
 };
 
-class DrawnPaths : public ::testing::TestWithParam<int> {};
+template <class Model>
+class Blocks : public ::testing::Test {};
+using BothModels = ::testing::Types<Linearised, Unscented>;
+TYPED_TEST_SUITE(Blocks, BothModels);
 
 // Mean and covariance of 20,000 paths against the posterior of all poses as one Gaussian, with motions of
 // rank two (one control a step) and of rank three. Mutations: poses drawn from the filter alone and not given
 // the next one; only the last coordinate of the next one used; sightings of the last step left out.
-TEST_P(DrawnPaths, HaveTheMomentsOfTheExactPosterior) {
+TYPED_TEST(Blocks, DrawPathsWithTheMomentsOfTheExactPosterior) {
   constexpr int kDraws = 20000;
-  const KnownLandmarks drive(GetParam());
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
-  drive.posterior(mean, covariance);
-  RandomStream random(3, Stream::kFilter);
-  long repairs = 0;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(mean.size(), mean.size());
-  for (int i = 0; i < kDraws; ++i) {
-    const std::vector<Pose> path = draw_path(drive.start, drive.steps, random, repairs);
-    Eigen::VectorXd off(mean.size());
-    for (std::size_t k = 0; k < path.size(); ++k)
-      off.segment<3>(static_cast<Eigen::Index>(3 * k)) << path[k].x_m, path[k].y_m, path[k].heading_rad;
-    off -= mean;
-    sum += off;
-    squares += off * off.transpose();
+  for (const int controls : {1, 3}) {
+    const KnownLandmarks drive(controls);
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+    drive.posterior(mean, covariance);
+    RandomStream random(3, Stream::kFilter);
+    long repairs = 0;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
+    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(mean.size(), mean.size());
+    for (int i = 0; i < kDraws; ++i) {
+      const std::vector<Pose> path = draw_path(TypeParam(), drive.start, drive.steps, random, repairs);
+      Eigen::VectorXd off(mean.size());
+      for (std::size_t k = 0; k < path.size(); ++k)
+        off.segment<3>(static_cast<Eigen::Index>(3 * k)) << path[k].x_m, path[k].y_m, path[k].heading_rad;
+      off -= mean;
+      sum += off;
+      squares += off * off.transpose();
+    }
+    const Eigen::VectorXd by_sd = covariance.diagonal().cwiseSqrt().cwiseInverse();
+    const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
+    EXPECT_LT((by_sd.asDiagonal() * sum / kDraws).cwiseAbs().maxCoeff(), error);
+    const Eigen::MatrixXd difference =
+        by_sd.asDiagonal() * (squares / kDraws - covariance) * by_sd.asDiagonal();
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), std::sqrt(2.0) * error);
+    EXPECT_EQ(repairs, 0);
   }
-  const Eigen::VectorXd by_sd = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
-  EXPECT_LT((by_sd.asDiagonal() * sum / kDraws).cwiseAbs().maxCoeff(), error);
-  const Eigen::MatrixXd difference =
-      by_sd.asDiagonal() * (squares / kDraws - covariance) * by_sd.asDiagonal();
-  EXPECT_LT(difference.cwiseAbs().maxCoeff(), std::sqrt(2.0) * error);
-  EXPECT_EQ(repairs, 0);
 }
-
-INSTANTIATE_TEST_SUITE_P(Controls, DrawnPaths, ::testing::Values(1, 3));
 
 FilterConfig drawing_every(int frames, int particles, const Drive& world) {
   FilterConfig config;
@@ -122,6 +125,9 @@ FilterConfig drawing_every(int frames, int particles, const Drive& world) {
   config.odometry_noise = world.odometry_noise;
   return config;
 }
+
+class BlockSlams : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Filters, BlockSlams, ::testing::Values("fastslam2", "ufastslam"));
 
 // Until something is drawn, a particle is an EKF over what it has seen: the same numbers by other code.
 TEST(BlockSlam, IsAnEkfWhileNothingIsDrawn) {
@@ -140,17 +146,37 @@ TEST(BlockSlam, IsAnEkfWhileNothingIsDrawn) {
   }
 }
 
+// With bearings that are off by 14 degrees Jacobians taken at a mean are not the slopes of what is believed.
+// One particle that draws nothing is the joint Gaussian of its model; 20 seeds.
+// Mutation: S without what is off the line (0.83 of the linearised error).
+TEST(BlockSlam, NeedsSigmaPointsWhereBearingsArePoor) {
+  Drive world;
+  world.side_m = 12.0;
+  world.laps = 2;
+  world.max_range_m = 30.0;
+  world.range_sd_m = 0.3;
+  world.bearing_sd_rad = 0.25;
+  world.odometry_noise = {0.3, 0.0, 0.0, 0.05, 0.0, 0.0};
+  double linearised = 0.0, unscented = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const FilterConfig config = drawing_every(1000, 1, world);
+    linearised += drive(make_filter("fastslam2", config, {}, 1), world, seed).rms_m / 20.0;
+    unscented += drive(make_filter("ufastslam", config, {}, 1), world, seed).rms_m / 20.0;
+  }
+  EXPECT_LT(unscented, 0.75 * linearised) << unscented << " m for " << linearised;
+}
+
 // Frames of a block that is drawn leave maps whose landmarks are right: with 300 particles the mixture over
 // many short blocks is the EKF's Gaussian again, as far as 300 particles go and the drive is linear.
 // Mutations: landmarks that are not refined from the path drawn; places of landmarks that are not drawn; a
 // path that is drawn without the landmarks, or each pose without the next; sightings that weigh nothing.
-TEST(BlockSlam, AgreesWithTheEkfAfterManyBlocks) {
+TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   Drive world;
   world.side_m = 10.0;
   const DriveScore ekf = drive(make_filter("ekf", drawing_every(1, 1, world), {}, 1), world, 7);
   for (const int frames : {5, 10}) {
     const DriveScore block =
-        drive(make_filter("fastslam2", drawing_every(frames, 300, world), {}, 2), world, 7);
+        drive(make_filter(GetParam(), drawing_every(frames, 300, world), {}, 2), world, 7);
     const Eigen::Vector3d sd = ekf.last.covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d off = displacement(block.last.pose, ekf.last.pose).cwiseQuotient(sd);
     EXPECT_LT(off.cwiseAbs().maxCoeff(), 0.7) << frames << ": " << off.transpose();
@@ -162,9 +188,9 @@ TEST(BlockSlam, AgreesWithTheEkfAfterManyBlocks) {
   }
 }
 
-double squared_length_at_the_end(int frames, const Drive& world, std::uint64_t seed) {
+double squared_length_at_the_end(const char* name, int frames, const Drive& world, std::uint64_t seed) {
   const Estimate last =
-      drive(make_filter("fastslam2", drawing_every(frames, 10, world), {}, seed), world, seed).last;
+      drive(make_filter(name, drawing_every(frames, 10, world), {}, seed), world, seed).last;
   Pose truth;
   for (const Control& control : world.controls()) truth = advance(truth, control);
   const Eigen::Vector3d off = displacement(truth, last.pose);
@@ -174,13 +200,13 @@ double squared_length_at_the_end(int frames, const Drive& world, std::uint64_t s
 // What blocks are for: after two laps with ten particles, forty seeds. The squared length of the error in
 // claimed deviations is 3 for an honest filter; its median, as its mean has no bound. Ten particles are too
 // few either way, and far fewer where each frame is drawn by itself.
-TEST(BlockSlam, KnowsBetterHowWrongItIs) {
+TEST_P(BlockSlams, KnowsBetterHowWrongItIs) {
   Drive world;
   world.laps = 2;
   std::vector<double> each, together;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    each.push_back(squared_length_at_the_end(1, world, seed));
-    together.push_back(squared_length_at_the_end(40, world, seed));
+    each.push_back(squared_length_at_the_end(GetParam(), 1, world, seed));
+    together.push_back(squared_length_at_the_end(GetParam(), 40, world, seed));
   }
   std::ranges::sort(each);
   std::ranges::sort(together);
@@ -195,9 +221,10 @@ TEST(BlockSlam, IsWhatIsAskedForAlone) {
   const Filter plain = make_filter("fastslam2", usual, {}, 3);
   EXPECT_TRUE(std::holds_alternative<LinearisedFastSlam>(plain));
   usual.draw_every = 4;
-  EXPECT_TRUE(std::holds_alternative<UnscentedFastSlam>(make_filter("ufastslam", usual, {}, 3)));
+  EXPECT_TRUE(std::holds_alternative<UnscentedBlockSlam>(make_filter("ufastslam", usual, {}, 3)));
+  EXPECT_TRUE(std::holds_alternative<UnscentedFastSlam>(make_filter("ufastslam_kim", usual, {}, 3)));
   const Filter block = make_filter("fastslam2", usual, {}, 3);
-  ASSERT_TRUE(std::holds_alternative<BlockSlam>(block));
+  ASSERT_TRUE(std::holds_alternative<LinearisedBlockSlam>(block));
   const DriveScore one = drive(block, world, 1);
   EXPECT_EQ(one.rms_m, drive(block, world, 1).rms_m) << "a copy goes its own way";
   EXPECT_NE(one.rms_m, drive(make_filter("fastslam2", usual, {}, 4), world, 1).rms_m);
@@ -207,12 +234,12 @@ TEST(BlockSlam, IsWhatIsAskedForAlone) {
 
 // A sighting far off is refused and counted, one without an identity counted and passed over. Mutations: no
 // gate; a refused sighting that is used when the block is drawn.
-TEST(BlockSlam, RefusesWhatCannotBe) {
+TEST_P(BlockSlams, RefusesWhatCannotBe) {
   const Drive world;
   FilterConfig config = drawing_every(3, 20, world);
   config.gate_probability = 0.9999;
   const Eigen::Vector2d place(4.0, 1.0);
-  Filter filter = make_filter("fastslam2", config, {}, 1);
+  Filter filter = make_filter(GetParam(), config, {}, 1);
   for (int k = 0; k < 9; ++k) {
     RangeBearing seen = sighting(predict_sighting({}, place), 0.05, 0.01);
     seen.landmark_id = 7;
@@ -233,13 +260,13 @@ TEST(BlockSlam, RefusesWhatCannotBe) {
 }
 
 // Everything that goes wrong, with blocks that end in the middle of it.
-TEST(BlockSlam, NeitherThrowsNorLosesANumber) {
+TEST_P(BlockSlams, NeitherThrowsNorLosesANumber) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     NastyDrive drive(seed);
     drive.config.particles = 5;
     drive.config.draw_every = 2 + static_cast<int>(seed % 7);
     drive.config.report_updates = true;
-    Filter filter = make_filter("fastslam2", drive.config, {}, seed);
+    Filter filter = make_filter(GetParam(), drive.config, {}, seed);
     for (const NastyStep& step : drive.steps) {
       for (const Control& control : step.controls) predict(filter, control);
       for (const std::vector<RangeBearing>& frame : step.frames) {

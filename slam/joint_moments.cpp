@@ -1,0 +1,89 @@
+#include "slam/joint_moments.h"
+
+#include <Eigen/QR>
+
+#include "slam/gaussian.h"
+#include "slam/measurement.h"
+#include "slam/motion.h"
+#include "slam/noise_law.h"
+
+namespace stereobench::slam {
+namespace {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+/// What two numbers are that depend on five, and how, to those who take it for a straight line.
+struct Line {
+  Eigen::Vector2d mean;  ///< from the value at the input's mean
+  Eigen::Matrix2d covariance;
+  Eigen::Matrix<double, 2, 5> slope;  ///< zero where nothing is uncertain
+};
+
+/// @param off of the value at the input's mean, by the step of the input
+template <class Function>
+Line line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, const Function& off,
+                  long& repairs) {
+  const Matrix5 root = semidefinite_root<5>(covariance, repairs);
+  SigmaResiduals<2, 5> residuals;
+  for (int i = 0; i < 5; ++i) {
+    const Vector5 step = weights.spread * root.col(i);
+    residuals.col(2 * i) = off(step);
+    residuals.col(2 * i + 1) = off(-step);
+  }
+  Line line;
+  line.mean = sigma_mean<2, 5>(residuals, weights);
+  line.covariance = sigma_covariance<2, 5>(residuals, line.mean, weights);
+  // With P = L L' the covariance with the input is L W', where W is that with independent coordinates:
+  // A L = W, and L may be singular.
+  const Matrix5 independent = Matrix5::Identity();
+  const Eigen::Matrix<double, 5, 2> by_root = sigma_cross<5, 2, 5>(independent, 0, residuals, weights);
+  line.slope = root.transpose().completeOrthogonalDecomposition().solve(by_root).transpose();
+  return line;
+}
+
+}  // namespace
+
+JointSurprise surprise(const Linearised&, const JointBelief& belief, int landmark,
+                       const Observation& observation, long& repairs) {
+  return surprise(belief, belief, landmark, observation, repairs);
+}
+
+JointSurprise surprise(const Unscented& model, const JointBelief& belief, int landmark,
+                       const Observation& observation, long& repairs) {
+  const Eigen::Vector2d& place = belief.landmarks[static_cast<std::size_t>(landmark)];
+  const Eigen::Vector2d centre = predict_sighting(belief.pose, place);
+  const auto off = [&](const Vector5& step) -> Eigen::Vector2d {
+    const Pose from = displace(belief.pose, step.head<3>());
+    return sighting_residual(predict_sighting(from, place + step.tail<2>()), centre);
+  };
+  const Line line =
+      line_through(belief.covariance.pose_and_landmark(landmark), model.weights(), off, repairs);
+  const Eigen::Vector2d expected(centre.x() + line.mean.x(), wrap_angle(centre.y() + line.mean.y()));
+  const Eigen::Matrix2d covariance = line.covariance + noise_at(observation, expected);
+  return {line.slope, covariance, Factor2(covariance, repairs),
+          sighting_residual(observation.range_bearing, expected)};
+}
+
+void find(const Linearised& model, JointBelief& belief, int landmark, const Observation& observation,
+          long& repairs) {
+  place(belief, landmark, model.found(belief.pose, observation, repairs), repairs);
+}
+
+void find(const Unscented& model, JointBelief& belief, int landmark, const Observation& observation,
+          long& repairs) {
+  const Eigen::Matrix3d pose = belief.covariance.pose();
+  Matrix5 covariance = Matrix5::Zero();
+  covariance.topLeftCorner<3, 3>() = pose;
+  covariance.bottomRightCorner<2, 2>() = noise_at(observation, observation.range_bearing);
+  const Eigen::Vector2d centre = locate(belief.pose, observation.range_bearing);
+  const auto off = [&](const Vector5& step) -> Eigen::Vector2d {
+    return locate(displace(belief.pose, step.head<3>()), observation.range_bearing + step.tail<2>()) - centre;
+  };
+  const Line line = line_through(covariance, model.weights(), off, repairs);
+  const Eigen::Matrix<double, 2, 3> by_pose = line.slope.leftCols<3>();
+  belief.landmarks.push_back(centre + line.mean);
+  belief.covariance.place(landmark, by_pose, line.covariance - by_pose * pose * by_pose.transpose(), repairs);
+}
+
+}  // namespace stereobench::slam
