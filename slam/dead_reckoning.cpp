@@ -22,11 +22,7 @@ void DeadReckoning::update(std::span<const RangeBearing> sightings) {
 }
 
 Estimate DeadReckoning::estimate() const {
-  Estimate estimate;
-  estimate.pose = belief_.mean;
-  estimate.covariance = belief_.covariance;
-  estimate.counters = counters_;
-  return estimate;
+  return {.pose = belief_.mean, .covariance = belief_.covariance, .counters = counters_};
 }
 
 }  // namespace stereobench::slam

@@ -286,11 +286,7 @@ Decisions EkfSlam::last_decisions() const {
 
 Estimate EkfSlam::estimate_without_map() const {
   const PoseBelief now = follow(PoseBelief{belief_.pose, belief_.covariance.pose()}, motion_);
-  Estimate estimate;
-  estimate.pose = now.mean;
-  estimate.covariance = now.covariance;
-  estimate.counters = counters_;
-  return estimate;
+  return {.pose = now.mean, .covariance = now.covariance, .counters = counters_};
 }
 
 }  // namespace stereobench::slam

@@ -249,12 +249,10 @@ Decisions FastSlam<Model>::last_decisions() const {
 template <class Model>
 Estimate FastSlam<Model>::estimate_without_map() const {
   const PoseBelief now = follow(belief_, motion_);
-  Estimate estimate;
-  estimate.pose = now.mean;
-  estimate.covariance = now.covariance;
-  estimate.effective_particles = effective_;
-  estimate.counters = counters_;
-  return estimate;
+  return {.pose = now.mean,
+          .covariance = now.covariance,
+          .effective_particles = effective_,
+          .counters = counters_};
 }
 
 template class FastSlam<Linearised>;
