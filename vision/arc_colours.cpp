@@ -68,16 +68,22 @@ Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double n
 }
 
 // Beside all arcs, each about its own mean. An edge in the background may lie under the rim and be seen
-// nowhere.
+// nowhere; deviations are averaged, not variances, so that one edge beside a few arcs says little of all.
 Eigen::Matrix3d texture_everywhere(const ScratchVector<RimArc>& arcs, double noise_variance) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  double freedom = 0.0;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double deviations = 0.0;
+  double count = 0.0;
   for (const RimArc& arc : arcs) {
     if (arc.outside.count() < 2.0) continue;
-    scatter += arc.outside.scatter();
-    freedom += arc.outside.count() - 1.0;
+    count += 1.0;
+    const Eigen::Matrix3d beside = texture(arc.outside.scatter(), arc.outside.count() - 1.0, noise_variance);
+    const double variance = beside.trace();
+    if (!(variance > 0.0)) continue;
+    const double deviation = std::sqrt(variance);
+    sum += beside / deviation;
+    deviations += deviation;
   }
-  return texture(scatter, freedom, noise_variance);
+  return sum * (count > 0.0 ? deviations / (count * count) : 0.0);
 }
 
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.

@@ -15,7 +15,7 @@ namespace {
 // share.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kNoiseFactor = 1.1;           // k of a large ball
-constexpr double kNoiseFactorPerRadius = 3.0;  // px: k of a ball of one pixel's radius less that
+constexpr double kNoiseFactorPerRadius = 1.2;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 
 constexpr double kContradictionSigmas = 3.0;

@@ -1,7 +1,9 @@
 #include "vision/observe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -23,7 +25,8 @@ namespace {
 constexpr double kMinPatch = 0.3;           // of the smallest outline's area that shows its colour clearly
 constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
 constexpr double kMostContradiction = 4.0;  // arcs that scatter twice as far as they should are of two things
-constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
+constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding to levels
+constexpr double kSamePlace = 0.5;            // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -80,6 +83,27 @@ Outlines outlines_in(const cv::Mat& image, const Intrinsics& camera, const Obser
   return without_duplicates(std::move(outlines));
 }
 
+// What was found in one eye's picture.
+struct Found {
+  const cv::Mat& image;
+  Outlines outlines;
+};
+
+// Balls share their lamp: each is measured once more by what the others tell of it, seen by either eye.
+void share_lamp(std::span<Found> eyes, const Intrinsics& camera, const ObserverSettings& settings) {
+  LampPool pool(settings.noise_sd_levels * settings.noise_sd_levels + kQuantisation);
+  for (const Found& eye : eyes) {
+    for (const MeasuredOutline& outline : eye.outlines) pool.add(outline.light);
+  }
+  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
+  for (Found& eye : eyes) {
+    for (MeasuredOutline& outline : eye.outlines) {
+      if (const auto lamp = pool.without(outline.light))
+        outline = refine_outline(eye.image, outline, *lamp, fit_settings);
+    }
+  }
+}
+
 BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   BallObservation ball;
   ball.colour = pair.left.colour;
@@ -107,8 +131,9 @@ bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
 std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
                                            const ObserverSettings& settings) {
   check_image(image, camera, "the");
-  const Outlines outlines = outlines_in(image, camera, settings);
-  return {outlines.begin(), outlines.end()};
+  Found found{image, outlines_in(image, camera, settings)};
+  share_lamp({&found, 1}, camera, settings);
+  return {found.outlines.begin(), found.outlines.end()};
 }
 
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
@@ -117,9 +142,10 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
     throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   check_image(pair.left, rig.camera, "left");
   check_image(pair.right, rig.camera, "right");
-  const Outlines left = outlines_in(pair.left, rig.camera, settings);
-  const Outlines right = outlines_in(pair.right, rig.camera, settings);
-  const auto pairs = match_outlines(left, right, rig, settings);
+  std::array<Found, 2> eyes = {Found{pair.left, outlines_in(pair.left, rig.camera, settings)},
+                               Found{pair.right, outlines_in(pair.right, rig.camera, settings)}};
+  share_lamp(eyes, rig.camera, settings);
+  const auto pairs = match_outlines(eyes[0].outlines, eyes[1].outlines, rig, settings);
   std::vector<BallObservation> balls;
   balls.reserve(pairs.size());
   for (const OutlinePair& outlines : pairs) balls.push_back(measure(outlines, rig));

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFinestRamp_px = 1.5;
-constexpr double kGap_px = 0.9;           // between a sharp edge and the colours beside it
 constexpr double kLostRim_px = 0.15;      // that boxes lack on average
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
@@ -26,11 +25,12 @@ constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball 
 constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;
-constexpr double kConverged_px = 0.02;  // before the shading is looked at
-constexpr double kTolerance_px = 0.02;  // between arcs of one sharp outline, whatever the noise says
-constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ball's
-constexpr double kRimSd_px = 0.005;     // of all arcs together: what a camera and a lamp make of a rim
-constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
+constexpr double kConverged_px = 0.02;   // before the shading is looked at
+constexpr double kTolerance_px = 0.02;   // between arcs of one sharp outline, whatever the noise says
+constexpr double kRimDepth_px = 1.2;     // inside of it a pixel is wholly the ball's
+constexpr double kRimSd_px = 0.005;      // of all arcs together: what a camera and a lamp make of a rim
+constexpr double kCentreSd_px = 0.0004;  // the same of opposite ones
+constexpr double kMinFill = 0.25;        // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 1000.0;
 constexpr double kRoughness_px = 0.75;  // of a patch's edge, in noise
@@ -50,6 +50,7 @@ struct Fit {
   double moved_px = 0.0;          // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
   double contradiction = 1.0;
+  BallLight light;
 };
 
 bool may_be_ball(const Blob& blob) {
@@ -96,7 +97,7 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
 // Looks again at the image, around where the outline is by now.
 void look(Fit& fit, const cv::Mat& image, const UnmixSettings& settings, double ramp_px,
           const std::optional<Shading>& shading = std::nullopt) {
-  fit.rim = collect_rim(image, fit.outline, std::max(kGap_px, ramp_px), shading);
+  fit.rim = collect_rim(image, fit.outline, std::max(kPure_px, ramp_px), shading);
   fit.colours = arc_colours(fit.rim, settings);
   fit.pixels = unmix(fit.rim, fit.colours);
   compare(fit, ramp_px);
@@ -132,6 +133,18 @@ bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& setting
   return true;
 }
 
+// The last steps, by the shades that the ball must have at its rim.
+bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
+                 const std::optional<SharedLamp>& lamp) {
+  const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
+  const auto shading = fit_shading(image, settings.camera, fit.outline, shades, lamp);
+  if (shading) fit.light = shading->light();
+  look(fit, image, unmix, 0.0, shading);
+  for (int i = 0; i < kShadedSteps; ++i)
+    if (!improve(fit, settings, 0.0, 0.0)) return false;
+  return true;
+}
+
 std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
                             const UnmixSettings& unmix) {
   Fit fit{.outline = start};
@@ -148,10 +161,7 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
   }
   // An outline that the ball's own shades do not suit was pulled aside, and is better looked for from
   // elsewhere.
-  const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
-  look(fit, image, unmix, 0.0, fit_shading(image, settings.camera, fit.outline, shades, kGap_px));
-  for (int i = 0; i < kShadedSteps; ++i)
-    if (!improve(fit, settings, 0.0, 0.0)) return std::nullopt;
+  if (!suit_shades(fit, image, settings, unmix, std::nullopt)) return std::nullopt;
   return fit;
 }
 
@@ -230,6 +240,21 @@ double outside_area(const cv::Mat& image, const OutlineModel& outline) {
   return outside;
 }
 
+MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettings& unmix) {
+  const double radius = fit.outline.radius_px();
+  MeasuredOutline result;
+  result.centre_px = fit.outline.centre_px();
+  result.radius_px = radius;
+  result.covariance_px2 = fit.covariance_px2;
+  result.covariance_px2.diagonal() += Eigen::Vector3d(kCentreSd_px, kCentreSd_px, kRimSd_px).cwiseAbs2();
+  result.contradiction = fit.contradiction;
+  const Shades shades(unmix.ball_bgr, unmix.noise_sd_levels);
+  result.hidden_fraction = hidden_area(image, fit, shades) / (kPi * radius * radius);
+  result.outside_fraction = outside_area(image, fit.outline) / (kPi * radius * radius);
+  result.light = fit.light;
+  return result;
+}
+
 }  // namespace
 
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
@@ -238,18 +263,20 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels};
   const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
   if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
-  const double radius = fit->outline.radius_px();
-  MeasuredOutline result;
+  MeasuredOutline result = measured(*fit, image, unmix);
   result.colour = blob.colour;
-  result.centre_px = fit->outline.centre_px();
-  result.radius_px = radius;
-  result.covariance_px2 = fit->covariance_px2;
-  result.covariance_px2(2, 2) += kRimSd_px * kRimSd_px;
-  result.contradiction = fit->contradiction;
-  const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
-  result.hidden_fraction = hidden_area(image, *fit, shades) / (kPi * radius * radius);
-  result.outside_fraction = outside_area(image, fit->outline) / (kPi * radius * radius);
   result.seen_px = blob.area_px;
+  return result;
+}
+
+MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
+                               const FitSettings& settings) {
+  const UnmixSettings unmix{palette_bgr(outline.colour), settings.noise_sd_levels};
+  Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px}};
+  if (!suit_shades(fit, image, settings, unmix, lamp)) return outline;
+  MeasuredOutline result = measured(fit, image, unmix);
+  result.colour = outline.colour;
+  result.seen_px = outline.seen_px;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/blobs.h"
+#include "vision/lamp.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
@@ -21,6 +22,7 @@ struct MeasuredOutline {
   double hidden_fraction = 0.0;   ///< of the outline's area, hidden by something in front of it, in [0, 1]
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by
+  BallLight light;                ///< on what is seen of the ball
 };
 
 /// What outlines are fitted with.
@@ -41,5 +43,12 @@ struct FitSettings {
 /// @return empty when there is no ball's outline around the patch
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
                                            const FitSettings& settings);
+
+/// Measures an outline once more by what other balls tell of the lamp, which matters where a ball's own
+/// pixels tell little: small ones, and those whose lit part is a sliver at the rim.
+/// @param outline as fit_outline left it
+/// @return `outline` itself where the arcs no longer make one
+MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
+                               const FitSettings& settings);
 
 }  // namespace stereobench::vision

@@ -9,13 +9,11 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMostSamples = 1500.0;  // spread over the ball
+constexpr double kSamplesPerRadius = 60.0;  // px: the noise of so many is small beside that of the rim
 constexpr std::size_t kFewestSamples = 24;
 constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
 constexpr int kMostTurns = 12;
 constexpr double kRidge = 1e-6;  // per sample: a lamp that nothing shows is none
-
-using LampColours = Eigen::Matrix<double, 4, 3>;  // c0 and l, by channel
 
 // A pixel that shows the ball.
 struct Sample {
@@ -29,13 +27,14 @@ Eigen::Vector4d as_light(const Eigen::Vector3d& normal) {
 }
 
 ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface,
-                                  const OutlineModel& outline, const Shades& shades, double gap_px) {
+                                  const OutlineModel& outline, const Shades& shades) {
   ScratchVector<Sample> samples;
-  const double inside = 1.0 - gap_px / outline.semi_minor_px();
+  const double inside = 1.0 - kPure_px / outline.semi_minor_px();
   const double extent = outline.semi_major_px();
   const double area = 3.14 * outline.radius_px() * outline.radius_px();
-  const int row_step = std::max(1, static_cast<int>(std::sqrt(area / kMostSamples)));
-  const int step = std::max(1, static_cast<int>(std::ceil(area / (kMostSamples * row_step))));
+  const double most = kSamplesPerRadius * outline.radius_px();
+  const int row_step = std::max(1, static_cast<int>(std::sqrt(area / most)));
+  const int step = std::max(1, static_cast<int>(std::ceil(area / (most * row_step))));
   const int first_y = std::max(0, static_cast<int>(std::ceil(outline.centre_px().y() - extent)));
   const int last_y = std::min(image.rows - 1, static_cast<int>(std::floor(outline.centre_px().y() + extent)));
   for (int y = first_y; y <= last_y; y += row_step) {
@@ -64,11 +63,13 @@ class LampFit {
     add(lamp, sample);
   }
 
-  LampColours colours() const {
+  BallLight light(const std::optional<SharedLamp>& shared) const {
+    const Eigen::Matrix4d information = squares_.selfadjointView<Eigen::Lower>();
+    if (shared) return {shared->colours(information, products_), information};
     const double ridge = kRidge * squares_(0, 0);
-    return (squares_ + Eigen::Vector4d(0.0, ridge, ridge, ridge).asDiagonal().toDenseMatrix())
-        .ldlt()
-        .solve(products_);
+    const Eigen::Matrix4d ridged =
+        squares_ + Eigen::Vector4d(0.0, ridge, ridge, ridge).asDiagonal().toDenseMatrix();
+    return {ridged.ldlt().solve(products_), information};
   }
 
  private:
@@ -78,24 +79,29 @@ class LampFit {
   }
 
   Eigen::Matrix4d squares_ = Eigen::Matrix4d::Zero();  // lower triangle
-  LampColours products_ = LampColours::Zero();
+  LightColours products_ = LightColours::Zero();
 };
 
-Eigen::Vector3d lamp_of(const LampColours& colours) {
-  return colours.bottomRows<3>().rowwise().sum();
+Eigen::Vector3d lamp_of(const BallLight& light) {
+  return light.colours.bottomRows<3>().rowwise().sum();
 }
 
 bool is_lit_by(const Eigen::Vector3d& lamp, const Sample& sample) {
   return lamp.dot(sample.light.tail<3>()) > 0.0;
 }
 
+void light_by(const Eigen::Vector3d& lamp, ScratchVector<Sample>& samples) {
+  for (Sample& sample : samples) sample.is_lit = is_lit_by(lamp, sample);
+}
+
 // Fits every `stride`-th sample, whose sides towards the lamp are found in turns with the lamp.
-LampColours fit_lamp(ScratchVector<Sample>& samples, std::size_t stride) {
+BallLight fit_lamp(ScratchVector<Sample>& samples, std::size_t stride,
+                   const std::optional<SharedLamp>& shared) {
   LampFit fit;
   for (std::size_t i = 0; i < samples.size(); i += stride) fit.add(samples[i]);
-  LampColours colours = fit.colours();
+  BallLight light = fit.light(shared);
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const Eigen::Vector3d lamp = lamp_of(colours);
+    const Eigen::Vector3d lamp = lamp_of(light);
     bool any_turned = false;
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       Sample& sample = samples[i];
@@ -106,9 +112,9 @@ LampColours fit_lamp(ScratchVector<Sample>& samples, std::size_t stride) {
       any_turned = true;
     }
     if (!any_turned) break;
-    colours = fit.colours();
+    light = fit.light(shared);
   }
-  return colours;
+  return light;
 }
 
 }  // namespace
@@ -123,16 +129,18 @@ BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
 }
 
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
-                                   const OutlineModel& outline, const Shades& shades, double gap_px) {
+                                   const OutlineModel& outline, const Shades& shades,
+                                   const std::optional<SharedLamp>& shared) {
   const BallSurface surface(camera, outline);
-  ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades, gap_px);
+  ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades);
   if (samples.size() < kFewestSamples) return std::nullopt;
   const std::size_t stride = samples.size() / kFirstSamples;
-  if (stride > 1) {
-    const Eigen::Vector3d lamp = lamp_of(fit_lamp(samples, stride));
-    for (Sample& sample : samples) sample.is_lit = is_lit_by(lamp, sample);
+  if (shared) {
+    light_by(shared->direction(), samples);
+  } else if (stride > 1) {
+    light_by(lamp_of(fit_lamp(samples, stride, shared)), samples);
   }
-  return Shading(surface, fit_lamp(samples, 1));
+  return Shading(surface, fit_lamp(samples, 1, shared));
 }
 
 }  // namespace stereobench::vision

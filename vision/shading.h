@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "vision/lamp.h"
 #include "vision/outline_model.h"
 #include "vision/types.h"
 
@@ -36,6 +37,9 @@ class Shades {
   Eigen::Vector3d line_;
   double noise_tolerance_;
 };
+
+/// How far inside or outside of a sharp outline a pixel shows one thing alone.
+inline constexpr double kPure_px = 0.9;
 
 /// The surface of the ball behind an outline.
 class BallSurface {
@@ -68,21 +72,22 @@ class BallSurface {
 /// (Lambert), n the surface's normal.
 class Shading {
  public:
-  /// @param colours the rows c0 and l, by channel, BGR levels
-  Shading(const BallSurface& surface, const Eigen::Matrix<double, 4, 3>& colours)
-      : surface_(surface), colours_(colours), lamp_(colours.bottomRows<3>().rowwise().sum()) {}
+  Shading(const BallSurface& surface, const BallLight& light)
+      : surface_(surface), light_(light), lamp_(light.colours.bottomRows<3>().rowwise().sum()) {}
 
   /// What a pixel of the ball shows, BGR levels; beyond the outline what its nearest point shows.
   Eigen::Vector3d at(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector3d normal = surface_.normal(pixel_px);
-    Eigen::Vector3d colour = colours_.row(0).transpose();
-    if (lamp_.dot(normal) > 0.0) colour.noalias() += colours_.bottomRows<3>().transpose() * normal;
+    Eigen::Vector3d colour = light_.colours.row(0).transpose();
+    if (lamp_.dot(normal) > 0.0) colour.noalias() += light_.colours.bottomRows<3>().transpose() * normal;
     return colour;
   }
 
+  const BallLight& light() const { return light_; }
+
  private:
   BallSurface surface_;
-  Eigen::Matrix<double, 4, 3> colours_;
+  BallLight light_;
   Eigen::Vector3d lamp_;  ///< where it shines from, times its brightness in all channels
 };
 
@@ -90,9 +95,10 @@ class Shading {
 /// lamp is found in turns with it.
 /// @param image CV_8UC3, BGR
 /// @param shades pixels of other colours are not the ball's
-/// @param gap_px how far inside of the outline a pixel shows nothing but the ball
+/// @param shared what other balls tell of the lamp, if anything
 /// @return empty when too little of the ball is seen
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
-                                   const OutlineModel& outline, const Shades& shades, double gap_px);
+                                   const OutlineModel& outline, const Shades& shades,
+                                   const std::optional<SharedLamp>& shared);
 
 }  // namespace stereobench::vision

@@ -108,8 +108,8 @@ TEST(Shading, TellsTheColoursOfTheRim) {
   constexpr int kBalls = 150;
   for (int i = 0; i < kBalls; ++i) {
     const LitBall ball = any_ball(dice);
-    const auto shading =
-        fit_shading(picture(ball, camera, 2.0, dice), camera, ball.outline(camera), Shades(kPaint, 2.0), 0.9);
+    const auto shading = fit_shading(picture(ball, camera, 2.0, dice), camera, ball.outline(camera),
+                                     Shades(kPaint, 2.0), std::nullopt);
     ASSERT_TRUE(shading);
     const double off = off_at_rim(*shading, ball, camera);
     EXPECT_LT(off, 3.0) << "ball " << i;
@@ -130,7 +130,7 @@ TEST(Shading, LooksAtTheBallOnly) {
     const OutlineModel outline = ball.outline(camera);
     const auto edge = static_cast<int>(outline.centre_px().x() + 0.3 * outline.radius_px());
     image.colRange(std::clamp(edge, 0, image.cols - 1), image.cols).setTo(cv::Scalar(90, 90, 90));
-    const auto shading = fit_shading(image, camera, outline, Shades(kPaint, 1.0), 0.9);
+    const auto shading = fit_shading(image, camera, outline, Shades(kPaint, 1.0), std::nullopt);
     ASSERT_TRUE(shading);
     EXPECT_LT(off_at_rim(*shading, ball, camera), 2.0) << "ball " << i;
   }
@@ -142,10 +142,10 @@ TEST(Shading, IsUnknownWhereTooLittleIsSeen) {
   const OutlineModel tiny(camera, {500.0, 300.0}, 2.0);
   const cv::Mat grey(camera.height_px, camera.width_px, CV_8UC3, cv::Scalar(130, 130, 130));
   const Shades shades(kPaint, 1.0);
-  EXPECT_FALSE(fit_shading(grey, camera, {camera, {500.0, 300.0}, 40.0}, shades, 0.9));
-  EXPECT_FALSE(
-      fit_shading(cv::Mat(grey.size(), CV_8UC3, cv::Scalar(40, 120, 220)), camera, tiny, shades, 0.9));
-  EXPECT_FALSE(fit_shading(grey, camera, {camera, {-500.0, 300.0}, 40.0}, shades, 0.9))
+  EXPECT_FALSE(fit_shading(grey, camera, {camera, {500.0, 300.0}, 40.0}, shades, std::nullopt));
+  EXPECT_FALSE(fit_shading(cv::Mat(grey.size(), CV_8UC3, cv::Scalar(40, 120, 220)), camera, tiny, shades,
+                           std::nullopt));
+  EXPECT_FALSE(fit_shading(grey, camera, {camera, {-500.0, 300.0}, 40.0}, shades, std::nullopt))
       << "out of the picture";
 }
 
