@@ -40,12 +40,12 @@ void expect_the_same_bytes_once_written_out(const ScratchFolder& folder, const s
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   };
   const std::string scenario = scenario_path("ball_circle");
-  succeed(with_world({"render", scenario, "--seed", "4", "--truth", "surface", "--out", path("drawn")},
+  succeed(with_world({"render", scenario, "--seed", "3", "--truth", "surface", "--out", path("drawn")},
                      randomise));
   succeed(with_world(
-      {"world", scenario, "--seed", "4", "--write", path("plain.yaml"), "--draws", path("draws.jsonl")},
+      {"world", scenario, "--seed", "3", "--write", path("plain.yaml"), "--draws", path("draws.jsonl")},
       randomise));
-  succeed({"render", path("plain.yaml"), "--seed", "4", "--out", path("again")});
+  succeed({"render", path("plain.yaml"), "--seed", "3", "--out", path("again")});
   for (const char* file : {"left/000000.png", "right/000001.png", "left_depth/000002.pfm",
                            "left_id/000001.png", "balls.csv", "observations.csv"})
     EXPECT_EQ(bytes_of(folder.path() / "drawn" / file), bytes_of(folder.path() / "again" / file)) << file;
