@@ -102,6 +102,7 @@ struct Renderer::Parts {
   BallPainter balls;
   EdgeSmoother edges;
   PicturePool pictures;
+  PicturePool straight_pictures;  ///< those that the lens bends
   bool has_drawn = false;
 
   /// @param placed read before there is a context, as reading meshes forks
@@ -185,9 +186,11 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
   }
   parts_->release_compiler();
   const auto picture = [&](const EyeView& view) {
-    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn, parts_->pictures);
+    const std::optional<Lens>& lens = parts_->lens;
+    EyeFrame frame =
+        read_eye(parts_->gl, columns_of(view), drawn, lens ? parts_->straight_pictures : parts_->pictures);
     parts_->edges.smooth(part_of(view, drawn), frame);
-    return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : part_of(frame, drawn.start, rows);
+    return lens ? lens->bend(frame, drawn.start, rows, parts_->pictures) : part_of(frame, drawn.start, rows);
   };
   return {picture(left), picture(right)};
 }
