@@ -10,8 +10,10 @@
 namespace stereobench::renderer {
 namespace {
 
-/// Whether a part of a library is code as it is in the file: what is written to is nobody else's copy.
-bool is_code(const ElfW(Phdr) & part) {
+using Part = ElfW(Phdr);
+
+/// Whether a part of a library is code that nobody has written to: the file has it, too.
+bool is_code(const Part& part) {
   return part.p_type == PT_LOAD && (part.p_flags & PF_X) != 0U && (part.p_flags & PF_W) == 0U;
 }
 
@@ -19,7 +21,7 @@ std::size_t release(const dl_phdr_info& library) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   std::size_t released = 0;
   for (std::size_t i = 0; i < library.dlpi_phnum; ++i) {
-    const ElfW(Phdr)& part = library.dlpi_phdr[i];
+    const Part& part = library.dlpi_phdr[i];
     if (!is_code(part)) continue;
     const std::uintptr_t begin = (library.dlpi_addr + part.p_vaddr) / page * page;
     const std::uintptr_t end = (library.dlpi_addr + part.p_vaddr + part.p_memsz) / page * page;
