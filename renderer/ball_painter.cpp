@@ -32,6 +32,28 @@ std::vector<BallOutline> visible_outlines(const EyeView& view, const std::vector
   return outlines;
 }
 
+bool overlap(const BallOutline& a, const BallOutline& b) {
+  return a.bounds[0] < b.bounds[2] && b.bounds[0] < a.bounds[2] && a.bounds[1] < b.bounds[3] &&
+         b.bounds[1] < a.bounds[3];
+}
+
+/// Balls that have no pixel in common may be drawn in any order, and thus at once.
+/// @param outlines the farthest first
+/// @return layers of such balls; each ball is in a later one than those behind it
+std::vector<std::vector<BallOutline>> layers_of(const std::vector<BallOutline>& outlines) {
+  std::vector<std::vector<BallOutline>> layers;
+  for (const BallOutline& outline : outlines) {
+    const auto is_behind = [&](const BallOutline& other) { return overlap(other, outline); };
+    const auto last_behind = std::find_if(layers.rbegin(), layers.rend(), [&](const auto& layer) {
+      return std::ranges::any_of(layer, is_behind);
+    });
+    const auto place = static_cast<std::size_t>(layers.rend() - last_behind);
+    if (place == layers.size()) layers.emplace_back();
+    layers[place].push_back(outline);
+  }
+  return layers;
+}
+
 }  // namespace
 
 BallPainter::BallPainter(const Gl& gl, const worlds::World& world)
@@ -59,23 +81,31 @@ void BallPainter::prepare(const Part& part, const EyeView& view) const {
   gl_->Uniform3f(part.towards_light, towards.x(), towards.y(), towards.z());
 }
 
+void BallPainter::upload(const std::vector<BallOutline>& outlines) {
+  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
+}
+
+void BallPainter::draw_boxes(std::size_t count) const {
+  gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), 0);
+}
+
 void BallPainter::draw(const EyeView& view) {
   const std::vector<BallOutline> outlines = visible_outlines(view, balls_);
   if (outlines.empty()) return;
   prepare(core_, view);
   prepare(rim_, view);
   outlines_.bind();
-  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
   gl_->Enable(GL_BLEND);
-  for (GLuint index = 0; index < outlines.size(); ++index) {
+  for (const std::vector<BallOutline>& layer : layers_of(outlines)) {
+    upload(layer);
     core_.program.use();
     gl_->DepthMask(GL_TRUE);
     gl_->BlendFuncSeparate(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR, GL_ONE, GL_ZERO);
-    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, 1, index);
+    draw_boxes(layer.size());
     rim_.program.use();
     gl_->DepthMask(GL_FALSE);
     gl_->BlendFuncSeparate(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR, GL_ZERO, GL_ONE);
-    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, 1, index);
+    draw_boxes(layer.size());
   }
   gl_->DepthMask(GL_TRUE);
   gl_->Disable(GL_BLEND);
@@ -87,8 +117,8 @@ void BallPainter::draw_facets(const EyeView& view) {
   if (!facet_) facet_.emplace(make_part(*gl_, BallPart::kFacet));
   facet_->program.use();
   outlines_.bind();
-  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
-  gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(outlines.size()), 0);
+  upload(outlines);
+  draw_boxes(outlines.size());
 }
 
 }  // namespace stereobench::renderer

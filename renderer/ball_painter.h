@@ -15,7 +15,8 @@ class BallPainter {
  public:
   BallPainter(const Gl& gl, const worlds::World& world);
 
-  /// Draws every ball that the eye can see, far ones first, over a picture whose surfaces are already there.
+  /// Draws every ball that the eye can see, what is behind another first, over a picture whose surfaces are
+  /// already there.
   void draw(const EyeView& view);
 
   /// The same with the numbers of facets (facets.h) in place of colours.
@@ -28,6 +29,8 @@ class BallPainter {
   };
   Part make_part(const Gl& gl, BallPart which) const;
   void prepare(const Part& part, const EyeView& view) const;
+  void upload(const std::vector<BallOutline>& outlines);
+  void draw_boxes(std::size_t count) const;
 
   const Gl* gl_;
   std::vector<worlds::Ball> balls_;

@@ -19,13 +19,13 @@ bool has_an_end(PictureBytes bytes) {
 
 }  // namespace
 
-cv::Mat decode_jpeg(PictureBytes bytes) {
+cv::Mat decode_jpeg(PictureBytes bytes, int longest_px) {
   const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
   const auto size = static_cast<unsigned long>(bytes.size());
   int width = 0, height = 0, sampling = 0, colours = 0;
   if (tjDecompressHeader3(jpeg.get(), bytes.data(), size, &width, &height, &sampling, &colours) != 0)
     refuse_broken(tjGetErrorStr2(jpeg.get()));
-  check_size(width, height);
+  check_size(width, height, longest_px);
   if (colours == TJCS_CMYK || colours == TJCS_YCCK)
     throw std::runtime_error("is a picture in four printing colours, which cannot be read");
   const bool grey = colours == TJCS_GRAY;

@@ -2,63 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "renderer/gather.h"
 #include "vision/distortion.h"
 #include "vision/rig.h"
 
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kOversampling = 2;
+constexpr int kOversampling = 2;   // gather_light gathers four places a pixel
 constexpr int kMargin_px = 2;      // for the interpolation at the border
 constexpr int kLargest_px = 8192;  // of the pinhole's picture
 
-/// Where a grid of `density` by `density` places a pixel looks in the pinhole's picture.
-/// @return CV_64FC2
-cv::Mat places_seen(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int density) {
-  cv::Mat places(density * rig.camera.height_px, density * rig.camera.width_px, CV_64FC2);
-  for (int row = 0; row < places.rows; ++row) {
-    std::optional<Eigen::Vector2d> direction;
-    for (int column = 0; column < places.cols; ++column) {
-      const Eigen::Vector2d pixel((column + 0.5) / density - 0.5, (row + 0.5) / density - 0.5);
-      const Eigen::Vector2d bent = vision::pixel_ray(rig.camera, pixel).head<2>();
-      if (direction)
-        direction = vision::undistort(rig.distortion, bent, *direction);  // its neighbour's is near
-      if (!direction) direction = vision::undistort(rig.distortion, bent);
-      if (!direction) throw std::invalid_argument("Lens: the lens folds its picture");
-      const Eigen::Vector2d at = vision::project(pinhole, direction->homogeneous());
-      places.at<cv::Vec2d>(row, column) = {at.x(), at.y()};
-    }
+/// Where a row of a grid of `density` by `density` places a pixel looks in the pinhole's picture.
+void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int density, int row,
+          std::vector<cv::Vec2d>& places) {
+  Eigen::Vector2d last = Eigen::Vector2d::Zero(), before = last;
+  for (std::size_t column = 0; column < places.size(); ++column) {
+    const Eigen::Vector2d pixel((static_cast<double>(column) + 0.5) / density - 0.5,
+                                (row + 0.5) / density - 0.5);
+    const Eigen::Vector2d bent = vision::pixel_ray(rig.camera, pixel).head<2>();
+    std::optional<Eigen::Vector2d> found;
+    if (column >= 2) found = vision::undistort(rig.distortion, bent, 2.0 * last - before);  // it goes on so
+    if (!found) found = vision::undistort(rig.distortion, bent);
+    if (!found) throw std::invalid_argument("Lens: the lens folds its picture");
+    before = std::exchange(last, *found);
+    const Eigen::Vector2d at = vision::project(pinhole, found->homogeneous());
+    places[column] = {at.x(), at.y()};
   }
-  return places;
 }
 
-cv::Mat rounded(const cv::Mat& places) {
-  cv::Mat pixels(places.size(), CV_32SC2);
-  for (int row = 0; row < places.rows; ++row) {
-    for (int column = 0; column < places.cols; ++column) {
-      const cv::Vec2d& at = places.at<cv::Vec2d>(row, column);
-      pixels.at<cv::Vec2i>(row, column) = {static_cast<int>(std::lround(at[0])),
-                                           static_cast<int>(std::lround(at[1]))};
-    }
-  }
-  return pixels;
+cv::Vec2s rounded(const cv::Vec2d& place) {
+  return {static_cast<short>(std::lround(place[0])), static_cast<short>(std::lround(place[1]))};
 }
 
-template <class Pixel>
-cv::Mat picked(const cv::Mat& straight, const cv::Mat& places) {
-  cv::Mat bent(places.size(), straight.type());
-  for (int row = 0; row < bent.rows; ++row) {
-    for (int column = 0; column < bent.cols; ++column) {
-      const cv::Vec2i& at = places.at<cv::Vec2i>(row, column);
-      bent.at<Pixel>(row, column) = straight.at<Pixel>(at[1], at[0]);
+/// The rows of the pinhole's picture that each row of the bent one has places in.
+std::vector<cv::Range> rows_of(const cv::Mat& places) {
+  std::vector<cv::Range> rows;
+  for (int first = 0; first < places.rows; first += kOversampling) {
+    cv::Range seen(std::numeric_limits<int>::max(), 0);
+    for (int row = first; row < first + kOversampling; ++row) {
+      const auto* at = places.ptr<cv::Vec2s>(row);
+      const auto [low, high] =
+          std::minmax_element(at, at + places.cols, [](const auto& a, const auto& b) { return a[1] < b[1]; });
+      seen = {std::min<int>(seen.start, (*low)[1]), std::max<int>(seen.end, (*high)[1])};
     }
+    rows.push_back(seen);
   }
-  return bent;
+  return rows;
 }
 
 }  // namespace
@@ -82,38 +80,53 @@ vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
   return pinhole;
 }
 
-Lens::Lens(const vision::StereoRig& rig) : pinhole_(pinhole_rig_of(rig)) {
-  cv::Mat light;
-  places_seen(rig, pinhole_.camera, kOversampling).convertTo(light, CV_32F);
-  cv::convertMaps(light, cv::noArray(), light_places_, light_fractions_, CV_16SC2);
-  truth_places_ = rounded(places_seen(rig, pinhole_.camera, 1));
+Lens::Lens(const vision::StereoRig& rig)
+    : pinhole_(pinhole_rig_of(rig)),
+      light_places_(kOversampling * rig.camera.height_px, kOversampling * rig.camera.width_px, CV_16SC2),
+      light_fractions_(light_places_.size(), CV_16UC1),
+      truth_places_(rig.camera.height_px, rig.camera.width_px, CV_16SC2) {
+  std::vector<cv::Vec2d> places(static_cast<std::size_t>(light_places_.cols));
+  for (int row = 0; row < light_places_.rows; ++row) {
+    look(rig, pinhole_.camera, kOversampling, row, places);
+    cv::Mat light, at = light_places_.row(row), fractions = light_fractions_.row(row);
+    cv::Mat(places, false).reshape(2, 1).convertTo(light, CV_32F);
+    cv::convertMaps(light, cv::noArray(), at, fractions, CV_16SC2);
+  }
+  places.resize(static_cast<std::size_t>(truth_places_.cols));
+  for (int row = 0; row < truth_places_.rows; ++row) {
+    look(rig, pinhole_.camera, 1, row, places);
+    std::transform(places.begin(), places.end(), truth_places_.ptr<cv::Vec2s>(row), rounded);
+  }
+  rows_seen_ = rows_of(light_places_);
 }
 
 cv::Range Lens::rows_seen(const cv::Range& rows) const {
-  const cv::Mat places = light_places_.rowRange(rows.start * kOversampling, rows.end * kOversampling);
-  int first = pinhole_.camera.height_px;
-  int last = 0;
-  for (int row = 0; row < places.rows; ++row) {
-    for (int column = 0; column < places.cols; ++column) {
-      const int seen = places.at<cv::Vec2s>(row, column)[1];
-      first = std::min(first, seen);
-      last = std::max(last, seen);
-    }
+  cv::Range seen(pinhole_.camera.height_px, 0);
+  for (int row = rows.start; row < rows.end; ++row) {
+    const cv::Range& of_row = rows_seen_[static_cast<std::size_t>(row)];
+    seen = {std::min(seen.start, of_row.start), std::max(seen.end, of_row.end)};
   }
-  return {std::max(first - kMargin_px, 0), std::min(last + kMargin_px + 1, pinhole_.camera.height_px)};
+  return {std::max(seen.start - kMargin_px, 0),
+          std::min(seen.end + kMargin_px + 1, pinhole_.camera.height_px)};
 }
 
-EyeFrame Lens::bend(const EyeFrame& straight, int first_row, const cv::Range& rows) const {
-  const cv::Range dense_rows(rows.start * kOversampling, rows.end * kOversampling);
-  const cv::Mat light = light_places_.rowRange(dense_rows) - cv::Scalar(0, first_row);
-  const cv::Mat truth = truth_places_.rowRange(rows) - cv::Scalar(0, first_row);
-  cv::Mat dense;
-  cv::remap(straight.colour, dense, light, light_fractions_.rowRange(dense_rows), cv::INTER_LINEAR,
-            cv::BORDER_REPLICATE);
-  EyeFrame bent;
-  cv::resize(dense, bent.colour, truth.size(), 0.0, 0.0, cv::INTER_AREA);
-  bent.ball_id = picked<std::uint8_t>(straight.ball_id, truth);
-  bent.depth_m = picked<float>(straight.depth_m, truth);
+EyeFrame Lens::bend(const EyeFrame& straight, int first_row, const cv::Range& rows, PicturePool& pool) const {
+  const cv::Size size(truth_places_.cols, rows.size());
+  EyeFrame bent{pool.take(size, CV_8UC3), pool.take(size, CV_8UC1), pool.take(size, CV_32FC1)};
+  const auto bend_row = [&](int v) {
+    const int row = rows.start + v;
+    const auto light = [&](int k) {
+      const int dense = kOversampling * row + k;
+      return LightPlaces{light_places_.ptr<cv::Vec2s>(dense), light_fractions_.ptr<std::uint16_t>(dense)};
+    };
+    gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr(v), size.width);
+    const auto* truth = truth_places_.ptr<cv::Vec2s>(row);
+    pick(truth, {straight.ball_id, first_row}, bent.ball_id.ptr(v), size.width);
+    pick(truth, {straight.depth_m, first_row}, bent.depth_m.ptr<float>(v), size.width);
+  };
+  cv::parallel_for_({0, rows.size()}, [&](const cv::Range& part) {
+    for (int v = part.start; v < part.end; ++v) bend_row(v);
+  });
   return bent;
 }
 

@@ -1,8 +1,11 @@
 /// Pictures through lenses that distort.
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
+#include "renderer/picture_pool.h"
 #include "renderer/types.h"
 #include "vision/types.h"
 
@@ -31,12 +34,14 @@ class Lens {
 
   /// @param straight of the pinhole rig, from a row of its picture on
   /// @param rows of the bent picture, all of whose rows_seen() are there
-  EyeFrame bend(const EyeFrame& straight, int first_row, const cv::Range& rows) const;
+  /// @param pool that the bent pictures' memory is of
+  EyeFrame bend(const EyeFrame& straight, int first_row, const cv::Range& rows, PicturePool& pool) const;
 
  private:
   vision::StereoRig pinhole_;
   cv::Mat light_places_, light_fractions_;  ///< OpenCV's fixed-point maps, at twice the resolution
-  cv::Mat truth_places_;                    ///< CV_32SC2, the pixel that each pixel's centre sees
+  cv::Mat truth_places_;                    ///< CV_16SC2, the pixel that each pixel's centre sees
+  std::vector<cv::Range> rows_seen_;        ///< by each row
 };
 
 }  // namespace stereobench::renderer

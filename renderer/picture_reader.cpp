@@ -17,7 +17,7 @@ using namespace std::string_view_literals;
 
 struct Format {
   std::string_view begins_with;
-  cv::Mat (*decode)(PictureBytes bytes);
+  cv::Mat (*decode)(PictureBytes bytes, int longest_px);
 };
 
 constexpr Format kFormats[] = {{"\x89PNG"sv, decode_png}, {"\xFF\xD8\xFF"sv, decode_jpeg},
@@ -38,18 +38,20 @@ void refuse_broken(const std::string& library) {
   throw std::runtime_error("is no whole picture: " + line);
 }
 
-void check_size(std::int64_t width_px, std::int64_t height_px) {
+void check_size(std::int64_t width_px, std::int64_t height_px, int longest_px) {
   if (width_px < 1 || height_px < 1) refuse_broken("it has no pixels");
   if (width_px > kMostPixels / height_px)
     throw std::runtime_error(
         fmt::format("is {} x {} pixels, more than {} in all", width_px, height_px, kMostPixels));
+  if (std::max(width_px, height_px) > longest_px)
+    throw std::runtime_error(fmt::format("is {} x {}, more than {} pixels", width_px, height_px, longest_px));
 }
 
-cv::Mat decode_picture(PictureBytes bytes) {
+cv::Mat decode_picture(PictureBytes bytes, int longest_px) {
   if (bytes.empty()) throw std::runtime_error("is empty");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const Format& format : kFormats)
-    if (text.starts_with(format.begins_with)) return format.decode(bytes);
+    if (text.starts_with(format.begins_with)) return format.decode(bytes, longest_px);
   throw std::runtime_error("is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)");
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +18,11 @@ using PictureBytes = std::span<const std::uint8_t>;
 /// The picture of a PNG, JPEG, TIFF, BMP or PNM file, told apart by how it begins. 16 bits become 8
 /// (rounded), palettes become colours, transparency is left out; a JPEG's note of how the camera was held
 /// turns nothing.
+/// @param longest_px what its longer side may have: a larger one is refused by what the file says of its
+///   size, before anything is made of it
 /// @return CV_8UC1 for shades of grey, CV_8UC3 (BGR) for colours
 /// @throws std::runtime_error that says of the file, in one line, "is cut short: ...", "is 8000 x 9 ..."
-cv::Mat decode_picture(PictureBytes bytes);
+cv::Mat decode_picture(PictureBytes bytes, int longest_px = std::numeric_limits<int>::max());
 
 /// All of a file, whatever it holds.
 /// @throws std::runtime_error where it cannot be read

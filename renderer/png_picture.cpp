@@ -17,6 +17,7 @@ namespace {
 /// outside of the functions that it jumps out of.
 struct Work {
   PictureBytes input;
+  int longest_px = 0;
   std::vector<std::uint8_t> output;
   cv::Mat picture;
   std::vector<png_bytep> rows;
@@ -50,7 +51,7 @@ void pass_over(png_structp, png_const_charp) {}
 void read(png_structp png, png_infop info, Work& work) {
   png_set_read_fn(png, &work, take);
   png_read_info(png, info);
-  check_size(png_get_image_width(png, info), png_get_image_height(png, info));
+  check_size(png_get_image_width(png, info), png_get_image_height(png, info), work.longest_px);
   png_set_expand(png);
   png_set_scale_16(png);
   png_set_strip_alpha(png);
@@ -91,8 +92,8 @@ bool runs(void (*function)(png_structp, png_infop, Work&), png_structp png, png_
 
 }  // namespace
 
-cv::Mat decode_png(PictureBytes bytes) {
-  Work work{.input = bytes};
+cv::Mat decode_png(PictureBytes bytes, int longest_px) {
+  Work work{.input = bytes, .longest_px = longest_px};
   struct Reader {
     explicit Reader(Work& work)
         : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &work, complain, pass_over)),

@@ -55,13 +55,13 @@ class Numbers {
 
 }  // namespace
 
-cv::Mat decode_pnm(PictureBytes bytes) {
+cv::Mat decode_pnm(PictureBytes bytes, int longest_px) {
   const char kind = static_cast<char>(bytes[1]);
   const bool figures = kind < '5', colour = kind == '3' || kind == '6';
   Numbers numbers(bytes.subspan(2));
   const std::uint32_t width = numbers.in_figures(), height = numbers.in_figures(),
                       most = numbers.in_figures();
-  check_size(width, height);
+  check_size(width, height, longest_px);
   if (most < 1 || most > 65535) refuse_broken("its largest number is not between 1 and 65535");
   const std::size_t size = most < 256 ? 1 : 2;
   const std::size_t levels = std::size_t{width} * height * (colour ? 3 : 1);

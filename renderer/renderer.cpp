@@ -5,9 +5,11 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "renderer/ball_painter.h"
 #include "renderer/edge_smoother.h"
+#include "renderer/idle_code.h"
 #include "renderer/lens.h"
 #include "renderer/readback.h"
 #include "renderer/surface_painter.h"
@@ -100,6 +102,8 @@ struct Renderer::Parts {
   BallPainter balls;
   EdgeSmoother edges;
   PicturePool pictures;
+  PicturePool straight_pictures;  ///< those that the lens bends
+  bool has_drawn = false;
 
   /// @param placed read before there is a context, as reading meshes forks
   Parts(const worlds::World& world, const Surfaces& placed, const vision::StereoRig& asked, Backend backend)
@@ -136,6 +140,11 @@ struct Renderer::Parts {
 
   void look_through(const EyeView& view) {
     gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
+  }
+
+  /// What compiled the first pair's shaders makes room for its pictures.
+  void release_compiler() {
+    if (!std::exchange(has_drawn, true)) release_code(kCompiler);
   }
 
   int height_px() const { return lens ? lens->height_px() : rig.camera.height_px; }
@@ -175,10 +184,13 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
     parts_->surfaces.draw(view);
     parts_->balls.draw(view);
   }
+  parts_->release_compiler();
   const auto picture = [&](const EyeView& view) {
-    EyeFrame frame = read_eye(parts_->gl, columns_of(view), drawn, parts_->pictures);
+    const std::optional<Lens>& lens = parts_->lens;
+    EyeFrame frame =
+        read_eye(parts_->gl, columns_of(view), drawn, lens ? parts_->straight_pictures : parts_->pictures);
     parts_->edges.smooth(part_of(view, drawn), frame);
-    return parts_->lens ? parts_->lens->bend(frame, drawn.start, rows) : part_of(frame, drawn.start, rows);
+    return lens ? lens->bend(frame, drawn.start, rows, parts_->pictures) : part_of(frame, drawn.start, rows);
   };
   return {picture(left), picture(right)};
 }

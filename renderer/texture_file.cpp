@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <opencv2/imgproc.hpp>
 
-#include "renderer/picture_reader.h"
+#include "renderer/picture_formats.h"
 #include "renderer/texture_pyramid.h"
 
 namespace stereobench::renderer {
@@ -19,19 +19,18 @@ std::filesystem::path located(std::string name, const std::filesystem::path& fol
   return folder / name;  // an absolute name stays
 }
 
-Texture as_texture(const cv::Mat& picture, const worlds::MeshLimits& limits) {
-  if (std::max(picture.cols, picture.rows) > limits.texture_px)
-    throw std::runtime_error(
-        fmt::format("is {} x {}, more than {} pixels", picture.cols, picture.rows, limits.texture_px));
+Texture as_texture(const cv::Mat& picture) {
   cv::Mat rgb;
   cv::cvtColor(picture, rgb, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
   return {rgb.cols, rgb.rows, {true, true}, {rgb.datastart, rgb.dataend}};
 }
 
 /// A picture within the file: as the bytes of a picture file, or texel by texel.
-cv::Mat embedded(const aiTexture& texture) {
+cv::Mat embedded(const aiTexture& texture, int longest_px) {
   if (texture.mHeight == 0)
-    return decode_picture({reinterpret_cast<const std::uint8_t*>(texture.pcData), texture.mWidth});
+    return decode_picture({reinterpret_cast<const std::uint8_t*>(texture.pcData), texture.mWidth},
+                          longest_px);
+  check_size(texture.mWidth, texture.mHeight, longest_px);
   cv::Mat picture(static_cast<int>(texture.mHeight), static_cast<int>(texture.mWidth), CV_8UC3);
   for (std::size_t i = 0; i < picture.total(); ++i) {
     const aiTexel& texel = texture.pcData[i];
@@ -53,7 +52,7 @@ Texture read_texture(const std::filesystem::path& file, const worlds::MeshLimits
   if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("does not exist");
   if (std::filesystem::file_size(file) > static_cast<std::uintmax_t>(limits.file_mib) << 20U)
     throw std::runtime_error(fmt::format("is larger than {} MiB", limits.file_mib));
-  return as_texture(decode_picture(picture_bytes(file)), limits);
+  return as_texture(decode_picture(picture_bytes(file), limits.texture_px));
 }
 
 std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& material,
@@ -64,7 +63,7 @@ std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& mate
     const std::string name = path.C_Str();
     const aiTexture* inside = scene.GetEmbeddedTexture(name.c_str());
     try {
-      Texture texture = inside != nullptr ? as_texture(embedded(*inside), limits)
+      Texture texture = inside != nullptr ? as_texture(embedded(*inside, limits.texture_px))
                                           : read_texture(located(name, folder), limits);
       texture.repeats = {repeats(material, type, _AI_MATKEY_MAPPINGMODE_U_BASE),
                          repeats(material, type, _AI_MATKEY_MAPPINGMODE_V_BASE)};

@@ -119,13 +119,13 @@ cv::Mat shades_or_colours(TIFF* tiff, int width, int height) {
 
 }  // namespace
 
-cv::Mat decode_tiff(PictureBytes bytes) {
+cv::Mat decode_tiff(PictureBytes bytes, int longest_px) {
   Input input{bytes};
   const OpenTiff tiff = open(input);
   if (tiff == nullptr) refuse_broken(input.complaint);
   const auto width = tag<std::uint32_t>(tiff.get(), TIFFTAG_IMAGEWIDTH);
   const auto height = tag<std::uint32_t>(tiff.get(), TIFFTAG_IMAGELENGTH);
-  check_size(width, height);
+  check_size(width, height, longest_px);
   char why_not[1024] = "";
   if (TIFFRGBAImageOK(tiff.get(), why_not) == 0) refuse_broken(why_not);
   const auto read = is_deep_grey(tiff.get()) ? deep_grey : shades_or_colours;

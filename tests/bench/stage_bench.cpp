@@ -71,6 +71,7 @@ void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_l
   BENCHMARK_CAPTURE(function, __VA_ARGS__)->Unit(benchmark::kMillisecond)->UseManualTime()
 
 STEREOBENCH_STAGE(render_pair, eighteen_balls, eighteen_balls())->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair, hundred_balls, hundred_balls())->DenseRange(0, 0);
 STEREOBENCH_STAGE(render_pair, ball_circle, scenario_scene("ball_circle"))->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, behind_a_lens, behind_a_lens())->DenseRange(0, 0);
 STEREOBENCH_STAGE(render_pair, textured, textured_scene())->DenseRange(0, kLastBackend);

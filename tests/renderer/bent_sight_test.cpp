@@ -146,6 +146,38 @@ TEST(BentSight, OfALensThatDoesNotBendIsThePinholes) {
   EXPECT_LE(cv::countNonZero(bent.facet != straight.facet), 5);
 }
 
+/// Two walls before the sky, with a hair's breadth between them that a column of the rig's rays goes through,
+/// a little beside the middle of the pinhole's pixels.
+worlds::World cracked_wall(const vision::StereoRig& rig, int column) {
+  constexpr double kAhead_m = 3.0, kCrack_m = 1e-6;
+  const double aside_m = 0.5 * rig.baseline_m - kAhead_m * (column - rig.camera.cx_px) / rig.camera.focal_px;
+  worlds::World world;
+  world.walls = {{{kAhead_m, 9.0}, {kAhead_m, aside_m + kCrack_m}, 9.0},
+                 {{kAhead_m, aside_m - kCrack_m}, {kAhead_m, -9.0}, 9.0}};
+  return world;
+}
+
+// The rasteriser closes cracks, as it snaps corners to 1/256 px; rays that pass through one see what is
+// beside it. Mutation: what no ray meets is open.
+TEST(BentSight, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
+  vision::StereoRig rig = test::small_rig();
+  rig.pitch_down_rad = 0.0;
+  const int column = 200;
+  const worlds::World world = cracked_wall(rig, column);
+  const EyeSight straight = Renderer(world, pinhole_rig_of(rig)).sight({}, {}).left;
+  ASSERT_EQ(cv::countNonZero(straight.facet == kNoFacet), 0) << "it is not closed";
+  const SceneGeometry scene(world);
+  const EyeSight bent = bent_sight(scene, straight, rig);
+  const Sightlines lines(bent.view);
+  for (int row = 0; row < 160; ++row) {
+    const Sightline through = lines(column, row);
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet, through))) << "not into the crack";
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet + 1, through))) << "not into the crack";
+    const int seen = bent.facet.at<int>(row, column);
+    EXPECT_TRUE(seen == kFirstWallFacet || seen == kFirstWallFacet + 1) << row << ": " << seen;
+  }
+}
+
 // A lens with k1 alone folds directions beyond 49 degrees back towards the middle of its picture. Mutation:
 // places of directions that the picture does not see.
 TEST(BentSight, HasNoPlaceForWhatTheLensWouldFold) {

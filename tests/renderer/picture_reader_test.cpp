@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <turbojpeg.h>
+#include <zlib.h>
 
 #include "renderer/png_picture.h"
 #include "tests/renderer/odd_png.h"
@@ -42,9 +44,9 @@ cv::Mat by_opencv(const File& file) {
   return picture;
 }
 
-std::string complaint(const File& file) {
+std::string complaint(const File& file, int longest_px = std::numeric_limits<int>::max()) {
   try {
-    decode_picture(file);
+    decode_picture(file, longest_px);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -150,6 +152,53 @@ TEST(PictureReader, ScalesWhatIsNotOf255) {
   ASSERT_EQ(read.size(), cv::Size(2, 1));
   EXPECT_EQ(read.at<cv::Vec3b>(0, 0), cv::Vec3b(85, 0, 255));
   EXPECT_EQ(read.at<cv::Vec3b>(0, 1), cv::Vec3b(255, 34, 17));
+}
+
+/// A number of a file's, of two or four bytes.
+void put(File& file, std::size_t at, std::uint32_t value, std::size_t size, bool highest_first) {
+  for (std::size_t i = 0; i < size; ++i)
+    file[at + (highest_first ? size - 1 - i : i)] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
+/// A number that a TIFF's list of tags gives.
+void put_tag(File& tiff, std::uint8_t tag, std::uint32_t value) {
+  const std::size_t list = tiff[4] + 256U * tiff[5] + 65536U * tiff[6];
+  for (std::size_t at = list + 2; at < list + 2 + 12U * tiff[list]; at += 12)
+    if (tiff[at] == tag && tiff[at + 1] == 1) put(tiff, at + 8, value, 2, false);
+}
+
+constexpr std::uint32_t kClaimed_px = 16000;  // 768 MB, if anybody believed it
+
+/// Small files of each kind that claim to be large.
+std::vector<File> boasters() {
+  const cv::Mat small(4, 4, CV_8UC3, cv::Scalar(1, 2, 3));
+  File png = encode_png(small), jpeg, tiff, bmp;
+  put(png, 16, kClaimed_px, 4, true);
+  put(png, 20, kClaimed_px, 4, true);
+  put(png, 29, static_cast<std::uint32_t>(crc32(0, &png[12], 17)), 4, true);
+  cv::imencode(".jpg", small, jpeg);
+  constexpr std::array<std::uint8_t, 2> kFrame = {0xFF, 0xC0};
+  const auto frame = std::search(jpeg.begin(), jpeg.end(), kFrame.begin(), kFrame.end()) - jpeg.begin();
+  put(jpeg, static_cast<std::size_t>(frame) + 5, kClaimed_px, 2, true);
+  put(jpeg, static_cast<std::size_t>(frame) + 7, kClaimed_px, 2, true);
+  cv::imencode(".tiff", small, tiff);
+  put_tag(tiff, 0, kClaimed_px);
+  put_tag(tiff, 1, kClaimed_px);
+  cv::imencode(".bmp", small, bmp);
+  put(bmp, 18, kClaimed_px, 4, false);
+  put(bmp, 22, kClaimed_px, 4, false);
+  return {png, jpeg, tiff, bmp, bytes_of("P6 16000 16000 255\nabc"), bytes_of("P2 16000 16000 255 1 2")};
+}
+
+// Mutation: sizes looked at once pictures are decoded, which says that they are cut short.
+TEST(PictureReader, RefusesWhatIsTooLargeByWhatItsHeaderClaims) {
+  for (const File& file : boasters()) {
+    EXPECT_EQ(complaint(file, 15999), "is 16000 x 16000, more than 15999 pixels");
+    EXPECT_THAT(complaint(file, 4096), StartsWith("is 16000 x 16000, more than 4096"));
+  }
+  const File fits = encode_png(cv::Mat(3, 9, CV_8UC1, cv::Scalar(0)));
+  EXPECT_EQ(complaint(fits, 9), "no complaint");
+  EXPECT_EQ(complaint(fits, 8), "is 9 x 3, more than 8 pixels");
 }
 
 File four_printing_colours() {

@@ -11,16 +11,14 @@
 #include "tests/renderer/folder.h"
 #include "tests/renderer/frames.h"
 #include "tests/renderer/random_scene.h"
+#include "tests/renderer/textures.h"
 
 namespace stereobench::renderer {
 namespace {
 
+using test::complaint;
 using test::Folder;
-
-double light_of(int level) {
-  const double x = level / 255.0;
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
+using test::light_of;
 
 /// A corner of two walls, with light that falls on all alike.
 worlds::World corner_world() {
@@ -227,15 +225,6 @@ TEST(SurfaceTexture, HasItsCornersWhereTheyProject) {
     sum += found[i] - expected[i];
   }
   EXPECT_LT(cv::norm(sum) / static_cast<double>(found.size()), 0.04);
-}
-
-std::string complaint(const worlds::World& world) {
-  try {
-    Renderer(world, test::small_rig());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 // Meant to catch: the limit of all textures not looked at; the scenario's line left out.

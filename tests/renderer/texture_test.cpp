@@ -13,11 +13,14 @@
 #include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/ray_caster.h"
+#include "tests/renderer/textures.h"
 
 namespace stereobench::renderer {
 namespace {
 
+using test::complaint;
 using test::Folder;
+using test::light_of;
 using testing::HasSubstr;
 
 /// A picture of waves of several lengths and of blocks, no two corners alike.
@@ -44,11 +47,6 @@ worlds::World world_of(const std::string& file, double x_m, double scale = 1.0) 
   world.light = {.towards_light = {0.0, 0.0, 1.0}, .ambient = 1.0, .diffuse = 0.0};
   world.meshes = {{file, {x_m, 0.0, -0.5}, 0.0, {1.0, scale, scale}, worlds::Material::kFile}};
   return world;
-}
-
-double light_of(int level) {
-  const double x = level / 255.0;
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
 /// A second way to filter: in double precision, each texel of a level averaged anew from the picture.
@@ -205,15 +203,6 @@ TEST(Pyramid, EveryLevelAveragesTheLightOfItsTexels) {
     }
   }
   EXPECT_THROW(make_pyramids({Texture{}}), std::invalid_argument);
-}
-
-std::string complaint(const worlds::World& world) {
-  try {
-    Renderer(world, test::small_rig());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 TEST(Texture, OneThatIsMissingBrokenOrTooLargeIsOneLine) {

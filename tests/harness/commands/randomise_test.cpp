@@ -23,36 +23,46 @@ std::vector<nlohmann::json> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-std::vector<std::string> with_world(std::vector<std::string> arguments) {
-  for (const char* line : {"path.laps=0.06", "rig.width_px=512", "rig.height_px=384", "rig.focal_px=443"})
+std::vector<std::string> with_world(std::vector<std::string> arguments, const std::string& randomise = kAll) {
+  for (const std::string& line :
+       {std::string("path.laps=0.06"), std::string("rig.width_px=512"), std::string("rig.height_px=384"),
+        std::string("rig.focal_px=443"), randomise})
     arguments.insert(arguments.end(), {"--set", line});
-  arguments.insert(arguments.end(), {"--set", kAll});
   return arguments;
+}
+
+/// Renders a drawn world to "drawn", writes it to "plain.yaml" and "draws.jsonl", renders that to "again",
+/// and expects the same files.
+void expect_the_same_bytes_once_written_out(const ScratchFolder& folder, const std::string& randomise) {
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto succeed = [](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run_stereobench(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  };
+  const std::string scenario = scenario_path("ball_circle");
+  succeed(with_world({"render", scenario, "--seed", "3", "--truth", "surface", "--out", path("drawn")},
+                     randomise));
+  succeed(with_world(
+      {"world", scenario, "--seed", "3", "--write", path("plain.yaml"), "--draws", path("draws.jsonl")},
+      randomise));
+  succeed({"render", path("plain.yaml"), "--seed", "3", "--out", path("again")});
+  for (const char* file : {"left/000000.png", "right/000001.png", "left_depth/000002.pfm",
+                           "left_id/000001.png", "balls.csv", "observations.csv"})
+    EXPECT_EQ(bytes_of(folder.path() / "drawn" / file), bytes_of(folder.path() / "again" / file)) << file;
+  EXPECT_EQ(bytes_of(folder.path() / "drawn/draws.jsonl"), bytes_of(path("draws.jsonl")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "again/draws.jsonl"));
 }
 
 // The drawn world, written as a plain scenario, gives the same bytes; another seed other ones.
 // Mutation: jitter kept in the written scenario.
 TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
   const ScratchFolder folder;
-  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
-  const std::string scenario = scenario_path("ball_circle");
-  ASSERT_EQ(run_stereobench(
-                with_world({"render", scenario, "--seed", "4", "--truth", "surface", "--out", path("drawn")}))
-                .exit_code,
-            0);
-  ASSERT_EQ(run_stereobench(with_world({"world", scenario, "--seed", "4", "--write", path("plain.yaml"),
-                                        "--draws", path("draws.jsonl")}))
-                .exit_code,
-            0);
-  ASSERT_EQ(run_stereobench({"render", path("plain.yaml"), "--seed", "4", "--out", path("again")}).exit_code,
-            0);
-  for (const char* file : {"left/000000.png", "right/000001.png", "left_depth/000002.pfm",
-                           "left_id/000001.png", "balls.csv", "observations.csv"})
-    EXPECT_EQ(bytes_of(folder.path() / "drawn" / file), bytes_of(folder.path() / "again" / file)) << file;
-  EXPECT_EQ(bytes_of(folder.path() / "drawn/draws.jsonl"), bytes_of(path("draws.jsonl")));
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "again/draws.jsonl"));
+  expect_the_same_bytes_once_written_out(folder, kAll);
+  const std::string other = (folder.path() / "other").string();
   ASSERT_EQ(
-      run_stereobench(with_world({"render", scenario, "--seed", "5", "--out", path("other")})).exit_code, 0);
+      run_stereobench(with_world({"render", scenario_path("ball_circle"), "--seed", "5", "--out", other}))
+          .exit_code,
+      0);
   EXPECT_NE(bytes_of(folder.path() / "drawn/left/000000.png"),
             bytes_of(folder.path() / "other/left/000000.png"));
 }
@@ -71,33 +81,12 @@ std::string write_blocks(const ScratchFolder& folder, const char* name, int seed
 // The same with pictures on walls and floor. Meant to catch: the first texture for all walls once written.
 TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
   const ScratchFolder folder;
-  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   const std::string textures = "textures: [{file: " + write_blocks(folder, "a.png", 1) +
                                ", tile_m: 0.8}, {file: " + write_blocks(folder, "b.jpg", 2) + "}]";
-  const auto with_textures = [&](std::vector<std::string> arguments) {
-    for (const std::string line :
-         {"path.laps=0.04", "rig.width_px=512", "rig.height_px=384", "rig.focal_px=443"})
-      arguments.insert(arguments.end(), {"--set", line});
-    arguments.insert(arguments.end(),
-                     {"--set", "randomise={walls: {" + textures + "}, floor: {" + textures + "}}"});
-    return arguments;
-  };
-  const std::string scenario = scenario_path("ball_circle");
-  ASSERT_EQ(
-      run_stereobench(with_textures({"render", scenario, "--seed", "3", "--out", path("drawn")})).exit_code,
-      0);
-  ASSERT_EQ(run_stereobench(with_textures({"world", scenario, "--seed", "3", "--write", path("plain.yaml"),
-                                           "--draws", path("draws.jsonl")}))
-                .exit_code,
-            0);
-  ASSERT_EQ(run_stereobench({"render", path("plain.yaml"), "--seed", "3", "--out", path("again")}).exit_code,
-            0);
-  for (const char* file :
-       {"left/000000.png", "right/000001.png", "left_depth/000001.pfm", "left_id/000001.png"})
-    EXPECT_EQ(bytes_of(folder.path() / "drawn" / file), bytes_of(folder.path() / "again" / file)) << file;
-  EXPECT_EQ(bytes_of(folder.path() / "drawn/draws.jsonl"), bytes_of(path("draws.jsonl")));
+  expect_the_same_bytes_once_written_out(folder,
+                                         "randomise={walls: {" + textures + "}, floor: {" + textures + "}}");
   std::set<std::string> drawn;
-  for (const nlohmann::json& line : lines_of(path("draws.jsonl")))
+  for (const nlohmann::json& line : lines_of(folder.path() / "draws.jsonl"))
     if (line["key"].get<std::string>().ends_with(".material")) drawn.insert(line["value"].get<std::string>());
   EXPECT_EQ(drawn, (std::set<std::string>{"a.png", "b.jpg"}));
 }

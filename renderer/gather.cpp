@@ -1,0 +1,66 @@
+#include "renderer/gather.h"
+
+#include <opencv2/core/hal/intrin.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr int kWays = cv::INTER_TAB_SIZE;  ///< places from one pixel to the next
+
+/// Weights of two neighbours for each place between them, ready to be multiplied with.
+struct Weights {
+  Weights() {
+    for (short way = 0; way < kWays; ++way) {
+      const auto rest = static_cast<short>(kWays - way);
+      std::fill_n(first[way], 8, rest);
+      std::fill_n(second[way], 8, way);
+      for (int i = 0; i < 8; ++i) in_turns[way][i] = i % 2 == 0 ? rest : way;
+    }
+  }
+  alignas(16) short first[kWays][8];
+  alignas(16) short second[kWays][8];
+  alignas(16) short in_turns[kWays][8];
+};
+
+/// Blue, green and red between four pixels, rounded as cv::remap does; the fourth number is anything.
+/// @param pixel the first of the four; two bytes beyond the second are looked at
+cv::v_int32x4 light_between(const Weights& weights, const std::uint8_t* pixel, std::size_t step,
+                            unsigned fraction) {
+  const unsigned right = fraction % kWays, down = fraction / kWays;
+  const cv::v_int16x8 above = cv::v_reinterpret_as_s16(cv::v_load_expand(pixel));
+  const cv::v_int16x8 below = cv::v_reinterpret_as_s16(cv::v_load_expand(pixel + step));
+  const cv::v_int16x8 between = cv::v_mul_wrap(above, cv::v_load_aligned(weights.first[down])) +
+                                cv::v_mul_wrap(below, cv::v_load_aligned(weights.second[down]));
+  cv::v_int16x8 neighbours, rest;
+  cv::v_zip(between, cv::v_rotate_right<3>(between), neighbours, rest);
+  const cv::v_int32x4 light = cv::v_dotprod(neighbours, cv::v_load_aligned(weights.in_turns[right]));
+  return (light + cv::v_setall_s32(kWays * kWays / 2)) >> 10;
+}
+
+}  // namespace
+
+void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint8_t* bent,
+                  int width) {
+  static_assert(kWays * kWays == 1 << 10);
+  static const Weights weights;
+  const std::size_t step = straight.pixels.step[0];
+  const std::uint8_t* origin = straight.pixels.data - static_cast<std::ptrdiff_t>(step) * straight.first_row;
+  const auto at = [&](const cv::Vec2s& place) {
+    return origin + step * static_cast<std::size_t>(place[1]) + 3 * place[0];
+  };
+  for (int u = 0; u < width; ++u) {
+    const std::uint8_t* soon = at(places[1].pixels[std::min(2 * u + kPlacesAhead, 2 * width - 1)]);
+    __builtin_prefetch(soon);
+    __builtin_prefetch(soon + step);
+    cv::v_int32x4 sum = cv::v_setall_s32(2);
+    for (const LightPlaces& row : places)
+      for (int k = 2 * u; k < 2 * u + 2; ++k)
+        sum += light_between(weights, at(row.pixels[k]), step, row.fractions[k]);
+    int levels[4];
+    cv::v_store(levels, sum >> 2);
+    for (int c = 0; c < 3; ++c) *bent++ = static_cast<std::uint8_t>(levels[c]);
+  }
+}
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,47 @@
+/// Pixels of a bent picture, gathered from a straight one that is larger than a processor's caches.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+
+namespace stereobench::renderer {
+
+/// Some rows of a straight picture.
+struct StraightRows {
+  const cv::Mat& pixels;
+  int first_row = 0;  ///< in the whole picture, in which places are counted
+};
+
+/// How many places ahead what they name is asked for.
+inline constexpr int kPlacesAhead = 64;
+
+/// Places that a row of a bent picture looks at, two for each of its pixels: OpenCV's fixed-point maps.
+struct LightPlaces {
+  const cv::Vec2s* pixels;         ///< columns and rows of the first of four pixels
+  const std::uint16_t* fractions;  ///< of the ways to the next column and row
+};
+
+/// For each pixel the mean light of two places each in two rows of places, each between four pixels: to the
+/// byte what cv::remap makes of the places (INTER_LINEAR) and cv::resize of that (INTER_AREA).
+/// @param straight CV_8UC3, with two columns to the right of every place
+/// @param bent `width` times blue, green, red
+void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint8_t* bent,
+                  int width);
+
+/// For each place its pixel.
+template <class Pixel>
+void pick(const cv::Vec2s* places, const StraightRows& straight, Pixel* picked, int width) {
+  const std::size_t step = straight.pixels.step1();
+  const Pixel* origin = straight.pixels.ptr<Pixel>() - static_cast<std::ptrdiff_t>(step) * straight.first_row;
+  const auto at = [&](const cv::Vec2s& place) {
+    return origin + step * static_cast<std::size_t>(place[1]) + place[0];
+  };
+  for (int u = 0; u < width; ++u) {
+    __builtin_prefetch(at(places[std::min(u + kPlacesAhead, width - 1)]));
+    picked[u] = *at(places[u]);
+  }
+}
+
+}  // namespace stereobench::renderer
