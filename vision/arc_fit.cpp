@@ -14,8 +14,8 @@ namespace {
 // fewer pixels tell its shading, and k grows. Texture in the background is an error that an arc's pixels
 // share.
 constexpr double kQuantisation = 0.004;        // c
-constexpr double kNoiseFactor = 1.1;           // k of a large ball
-constexpr double kNoiseFactorPerRadius = 1.2;  // px: k of a ball of one pixel's radius less that
+constexpr double kNoiseFactor = 1.16;          // k of a large ball
+constexpr double kNoiseFactorPerRadius = 1.5;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 
 constexpr double kContradictionSigmas = 3.0;
