@@ -22,9 +22,11 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;           // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
-constexpr double kMostContradiction = 4.0;  // arcs that scatter twice as far as they should are of two things
+constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
+constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
+constexpr double kMostContradiction =
+    6.0;                            // arcs that scatter so much more than they should are of two things
+constexpr double kVague_px = 0.05;  // sd of a disparity, beyond which arcs that contradict tell nothing
 constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding to levels
 constexpr double kSamePlace = 0.5;            // radii between the centres of two outlines that are one
 
@@ -104,6 +106,15 @@ void share_lamp(std::span<Found> eyes, const Intrinsics& camera, const ObserverS
   }
 }
 
+// Whether the arcs of an outline are of two things, as far as they tell.
+bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
+  const double contradiction = std::max(pair.left.contradiction, pair.right.contradiction);
+  const double depth_m = pair.ball.ball_in_camera.z();
+  const double disparity_sd_px =
+      std::sqrt(pair.ball.covariance_m2(2, 2)) * rig.camera.focal_px * rig.baseline_m / (depth_m * depth_m);
+  return contradiction > kMostContradiction || (contradiction > 1.0 && disparity_sd_px > kVague_px);
+}
+
 BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   BallObservation ball;
   ball.colour = pair.left.colour;
@@ -114,8 +125,7 @@ BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   ball.ball_in_camera = pair.ball.ball_in_camera;
   ball.range_bearing = range_bearing(ball.ball_in_camera, pair.ball.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  const bool contradicts = std::max(pair.left.contradiction, pair.right.contradiction) > kMostContradiction;
-  if (!pair.sizes_agree || contradicts) {
+  if (!pair.sizes_agree || contradicts_itself(pair, rig)) {
     ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
     ball.occluded = !ball.truncated;
   }
