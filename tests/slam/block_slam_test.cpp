@@ -127,13 +127,13 @@ FilterConfig drawing_every(int frames, int particles, const Drive& world) {
 }
 
 class BlockSlams : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Filters, BlockSlams, ::testing::Values("fastslam2", "ufastslam"));
+INSTANTIATE_TEST_SUITE_P(Filters, BlockSlams, ::testing::Values("fastslam2_block", "ufastslam_block"));
 
 // Until something is drawn, a particle is an EKF over what it has seen: the same numbers by other code.
 TEST(BlockSlam, IsAnEkfWhileNothingIsDrawn) {
   const Drive world;
   const FilterConfig config = drawing_every(1000, 2, world);
-  const DriveScore block = drive(make_filter("fastslam2", config, {}, 1), world, 5);
+  const DriveScore block = drive(make_filter("fastslam2_block", config, {}, 1), world, 5);
   const DriveScore ekf = drive(make_filter("ekf", config, {}, 1), world, 5);
   EXPECT_NEAR(block.rms_m, ekf.rms_m, 1e-9);
   EXPECT_TRUE(near(block.last.pose, ekf.last.pose, 1e-9));
@@ -160,8 +160,8 @@ TEST(BlockSlam, NeedsSigmaPointsWhereBearingsArePoor) {
   double linearised = 0.0, unscented = 0.0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const FilterConfig config = drawing_every(1000, 1, world);
-    linearised += drive(make_filter("fastslam2", config, {}, 1), world, seed).rms_m / 20.0;
-    unscented += drive(make_filter("ufastslam", config, {}, 1), world, seed).rms_m / 20.0;
+    linearised += drive(make_filter("fastslam2_block", config, {}, 1), world, seed).rms_m / 20.0;
+    unscented += drive(make_filter("ufastslam_block", config, {}, 1), world, seed).rms_m / 20.0;
   }
   EXPECT_LT(unscented, 0.75 * linearised) << unscented << " m for " << linearised;
 }
@@ -188,9 +188,8 @@ TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   }
 }
 
-double squared_length_at_the_end(const char* name, int frames, const Drive& world, std::uint64_t seed) {
-  const Estimate last =
-      drive(make_filter(name, drawing_every(frames, 10, world), {}, seed), world, seed).last;
+double squared_length_at_the_end(const std::string& name, const Drive& world, std::uint64_t seed) {
+  const Estimate last = drive(make_filter(name, drawing_every(40, 10, world), {}, seed), world, seed).last;
   Pose truth;
   for (const Control& control : world.controls()) truth = advance(truth, control);
   const Eigen::Vector3d off = displacement(truth, last.pose);
@@ -203,10 +202,12 @@ double squared_length_at_the_end(const char* name, int frames, const Drive& worl
 TEST_P(BlockSlams, KnowsBetterHowWrongItIs) {
   Drive world;
   world.laps = 2;
+  const std::string in_blocks = GetParam();
+  const std::string frame_by_frame = in_blocks.substr(0, in_blocks.find("_block"));
   std::vector<double> each, together;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    each.push_back(squared_length_at_the_end(GetParam(), 1, world, seed));
-    together.push_back(squared_length_at_the_end(GetParam(), 40, world, seed));
+    each.push_back(squared_length_at_the_end(frame_by_frame, world, seed));
+    together.push_back(squared_length_at_the_end(in_blocks, world, seed));
   }
   std::ranges::sort(each);
   std::ranges::sort(together);
@@ -214,22 +215,19 @@ TEST_P(BlockSlams, KnowsBetterHowWrongItIs) {
   EXPECT_GT(each[20], 2.0 * together[20]);
 }
 
-// One by one is FastSLAM 2.0 as it was, to the last bit, and another seed of the filter is another path.
-TEST(BlockSlam, IsWhatIsAskedForAlone) {
+// The length of blocks is theirs alone: to filters that go frame by frame it is nothing, and to those in
+// blocks another length is another path.
+TEST(BlockSlam, IsAFilterOfItsOwn) {
   const Drive world;
-  FilterConfig usual = drawing_every(1, 5, world);
-  const Filter plain = make_filter("fastslam2", usual, {}, 3);
-  EXPECT_TRUE(std::holds_alternative<LinearisedFastSlam>(plain));
-  usual.draw_every = 4;
-  EXPECT_TRUE(std::holds_alternative<UnscentedBlockSlam>(make_filter("ufastslam", usual, {}, 3)));
-  EXPECT_TRUE(std::holds_alternative<UnscentedFastSlam>(make_filter("ufastslam_kim", usual, {}, 3)));
-  const Filter block = make_filter("fastslam2", usual, {}, 3);
-  ASSERT_TRUE(std::holds_alternative<LinearisedBlockSlam>(block));
-  const DriveScore one = drive(block, world, 1);
-  EXPECT_EQ(one.rms_m, drive(block, world, 1).rms_m) << "a copy goes its own way";
-  EXPECT_NE(one.rms_m, drive(make_filter("fastslam2", usual, {}, 4), world, 1).rms_m);
-  usual.draw_every = 0;
-  EXPECT_THROW(make_filter("fastslam2", usual, {}, 3), std::invalid_argument);
+  const auto path = [&](const std::string& name, int frames, std::uint64_t seed) {
+    return drive(make_filter(name, drawing_every(frames, 5, world), {}, seed), world, 1).rms_m;
+  };
+  for (const std::string name : {"ekf", "fastslam1", "fastslam2", "ufastslam", "ufastslam_kim"})
+    EXPECT_EQ(path(name, 1, 3), path(name, 4, 3)) << name;
+  for (const std::string name : {"fastslam2_block", "ufastslam_block"}) {
+    EXPECT_NE(path(name, 1, 3), path(name, 4, 3)) << name;
+    EXPECT_NE(path(name, 4, 3), path(name, 4, 4)) << "the seed of " << name;
+  }
 }
 
 // A sighting far off is refused and counted, one without an identity counted and passed over. Mutations: no
