@@ -95,11 +95,12 @@ TYPED_TEST(Blocks, DrawPathsWithTheMomentsOfTheExactPosterior) {
     Eigen::MatrixXd covariance;
     drive.posterior(mean, covariance);
     RandomStream random(3, Stream::kFilter);
+    PathSampler<TypeParam> sampler;
     long repairs = 0;
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(mean.size(), mean.size());
     for (int i = 0; i < kDraws; ++i) {
-      const std::vector<Pose> path = draw_path(TypeParam(), drive.start, drive.steps, random, repairs);
+      const std::span<const Pose> path = sampler.draw(drive.start, drive.steps, random, repairs);
       Eigen::VectorXd off(mean.size());
       for (std::size_t k = 0; k < path.size(); ++k)
         off.segment<3>(static_cast<Eigen::Index>(3 * k)) << path[k].x_m, path[k].y_m, path[k].heading_rad;
