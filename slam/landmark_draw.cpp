@@ -21,6 +21,7 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance, long& repairs) {
 
 std::vector<Eigen::Vector2d> draw_landmarks(const JointBelief& belief, RandomStream& random, long& repairs) {
   std::vector<Eigen::Vector2d> places = belief.landmarks;
+  if (places.empty()) return places;
   const Eigen::MatrixXd covariance = belief.covariance.landmarks();
   Eigen::VectorXd normals(covariance.rows());
   for (double& normal : normals) normal = random.normal();

@@ -66,6 +66,8 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK_CAPTURE(step_in_a_map, fastslam2_known, "fastslam2", true)->Apply(sizes)->Args({1000, 10'000});
 BENCHMARK_CAPTURE(step_in_a_map, ufastslam_known, "ufastslam", true)->Apply(sizes)->Args({1000, 10'000});
+BENCHMARK_CAPTURE(step_in_a_map, fastslam2_block_known, "fastslam2_block", true)->Apply(sizes);
+BENCHMARK_CAPTURE(step_in_a_map, ufastslam_block_known, "ufastslam_block", true)->Apply(sizes);
 BENCHMARK_CAPTURE(step_in_a_map, fastslam2_by_colour, "fastslam2", false)->Apply(sizes);
 BENCHMARK_CAPTURE(step_in_a_map, ufastslam_by_colour, "ufastslam", false)->Apply(sizes);
 
