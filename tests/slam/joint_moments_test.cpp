@@ -73,7 +73,7 @@ TYPED_TEST(JointMoments, AreThoseOfManySightings) {
   long repairs = 0;
   RandomStream random(3, Stream::kWorld);
   const Eigen::Matrix2d noise = Eigen::Vector2d(1e-4, 4e-6).asDiagonal();
-  const JointSurprise seen = surprise(TypeParam(), tied.belief, 0, {{}, noise}, repairs);
+  const JointSurprise seen = surprise(TypeParam(), tied.belief, 0, {Eigen::Vector2d::Zero(), noise}, repairs);
   const Eigen::Matrix<double, 7, 2> shared = shared_with(tied.belief, seen);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
