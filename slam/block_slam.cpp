@@ -80,7 +80,8 @@ void BlockSlam<Model>::update(std::span<const RangeBearing> sightings) {
     if (!is_mapped(seen.slot)) origins_.push_back(seen.number);
   block_.push_back(std::move(frame));
   if (effective_ < config_.resample_below * static_cast<double>(hypotheses_.size())) resample();
-  if (static_cast<int>(block_.size()) == config_.draw_every) close_block();
+  const bool is_full = slots_of_block_.size() >= kMostLandmarks;
+  if (is_full || static_cast<int>(block_.size()) == config_.draw_every) close_block();
 }
 
 /// Gives the landmarks that the block has not seen before their places in it: those of the map first.

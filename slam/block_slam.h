@@ -49,7 +49,8 @@ namespace stereobench::slam {
 ///
 /// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
 /// nothing and costs its particle the likelihood at the gate; there is no second look, and contradictions are
-/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map.
+/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map; a block that
+/// has a hundred of them ends early.
 template <class Model>
 class BlockSlam {
  public:
@@ -74,6 +75,7 @@ class BlockSlam {
 
     void descend_from(const Hypothesis& other);
   };
+  static constexpr std::size_t kMostLandmarks = 100;  ///< of a block
   struct Frame {
     PoseBelief motion;
     std::vector<Sighting> sightings;

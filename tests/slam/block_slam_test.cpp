@@ -171,7 +171,8 @@ TEST(BlockSlam, NeedsSigmaPointsWhereBearingsArePoor) {
 // many blocks is the EKF's Gaussian again, as far as 300 particles go and the drive is linear. Means of
 // six seeds, since paths that are resampled scatter by half a deviation.
 // Mutations: landmarks that are not refined from the path drawn; places of landmarks that are not drawn; a
-// path that is drawn without the landmarks, or each pose without the next; sightings that weigh nothing.
+// path that is drawn without the landmarks, or each pose without the next; sightings that weigh nothing;
+// weights that stay when particles are drawn anew; descendants that keep the block of whom they replace.
 TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   constexpr int kSeeds = 6;
   Drive world;
@@ -193,6 +194,40 @@ TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   EXPECT_GT(ratio.minCoeff(), 0.6) << ratio.transpose();
   EXPECT_LT(ratio.maxCoeff(), 1.5) << ratio.transpose();
   EXPECT_LT(map_rms_m, 2.0 * ekf.map_rms_m + 0.01);
+}
+
+// What a block ends with is a pose that was drawn, and the next starts from it without uncertainty. Mutation:
+// the pose's covariance kept from one block to the next.
+TEST_P(BlockSlams, StartEachBlockFromAPoseThatIsDrawn) {
+  const Drive world;
+  Filter filter = make_filter(GetParam(), drawing_every(2, 1, world), {}, 1);
+  RangeBearing seen = sighting({4.0, 0.3}, 0.1, 0.02);
+  seen.landmark_id = 1;
+  for (int k = 0; k < 2; ++k) {
+    predict(filter, {1.0, 0.2, 0.5});
+    update(filter, std::vector{seen});
+    EXPECT_GT(estimate_without_map(filter).covariance.norm(), 1e-6);
+  }
+  update(filter, std::vector{seen});  // from where it stands
+  EXPECT_LT(estimate_without_map(filter).covariance.norm(), 1e-20);
+}
+
+// However long blocks are asked to be, what they cost is bounded. Mutation: blocks that end by their length
+// alone.
+TEST_P(BlockSlams, EndBlocksThatHaveAHundredLandmarks) {
+  const Drive world;
+  for (const int landmarks : {99, 100}) {
+    Filter filter = make_filter(GetParam(), drawing_every(1000, 1, world), {}, 1);
+    std::vector<RangeBearing> frame;
+    for (int i = 0; i < landmarks; ++i) {
+      frame.push_back(sighting({4.0, 0.03 * i - 1.5}, 0.1, 0.02));
+      frame.back().landmark_id = i;
+    }
+    predict(filter, {1.0, 0.2, 0.5});
+    update(filter, frame);
+    update(filter, std::span(frame).first(1));  // from where it stands
+    EXPECT_EQ(estimate_without_map(filter).covariance.norm() < 1e-20, landmarks == 100);
+  }
 }
 
 double squared_length_at_the_end(const std::string& name, const Drive& world, std::uint64_t seed) {
