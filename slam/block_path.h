@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "slam/belief.h"
+#include "slam/linearised.h"
 #include "slam/random.h"
+#include "slam/unscented.h"
 
 namespace stereobench::slam {
 
@@ -21,7 +23,7 @@ struct PathStep {
   std::vector<PlacedSighting> seen;
 };
 
-/// Draws a path from p(x_1..x_K | x_0, landmarks, sightings).
+/// Draws paths from p(x_1..x_K | x_0, landmarks, sightings).
 ///
 /// Given the landmarks, poses are a Markov chain. A Kalman filter leads through the steps,
 ///     x_k- = f(x_k-1, u_k),  P_k- = F P_k-1 F' + Q,  then K = P_k- H' S^-1 for each sighting,
@@ -33,12 +35,34 @@ struct PathStep {
 /// the motion of a single control has rank two, and no P is inverted. Motions are taken to first order in the
 /// heading; sightings as the model says, whose cross covariance stands for P H'.
 ///
-/// @param model Linearised or Unscented
-/// @param start the pose before the first step, known
-/// @param repairs counts covariances that had to be mended
-/// @return the pose at each step
+/// @tparam Model Linearised or Unscented
 template <class Model>
-std::vector<Pose> draw_path(const Model& model, const Pose& start, std::span<const PathStep> steps,
-                            RandomStream& random, long& repairs);
+class PathSampler {
+ public:
+  explicit PathSampler(const UnscentedParameters& parameters = {}) : model_(parameters) {}
+
+  /// @param start the pose before the first step, known
+  /// @param repairs counts covariances that had to be mended
+  /// @return the pose at each step; valid until the next call
+  std::span<const Pose> draw(const Pose& start, std::span<const PathStep> steps, RandomStream& random,
+                             long& repairs);
+
+ private:
+  /// The filter's belief before and after the sightings of a step.
+  struct FilteredStep {
+    PoseBelief before;
+    PoseBelief after;
+  };
+
+  void filter(const Pose& start, std::span<const PathStep> steps, long& repairs);
+  void correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) const;
+
+  Model model_;
+  std::vector<FilteredStep> filtered_;
+  std::vector<Pose> path_;
+};
+
+extern template class PathSampler<Linearised>;
+extern template class PathSampler<Unscented>;
 
 }  // namespace stereobench::slam

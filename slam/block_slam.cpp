@@ -5,10 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include "slam/gaussian.h"
 #include "slam/joint_moments.h"
+#include "slam/landmark_draw.h"
 #include "slam/measurement.h"
 #include "slam/moments.h"
 #include "slam/motion.h"
@@ -16,18 +15,6 @@
 
 namespace stereobench::slam {
 namespace {
-
-/// A root of a covariance of any size, as far as rounding lets it have one.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance, long& repairs) {
-  constexpr double kIndefinite = -1e-7;
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::VectorXd by_sd = (sd.array() > 0.0).select(sd.cwiseInverse(), 0.0);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(by_sd.asDiagonal() * covariance * by_sd.asDiagonal());
-  if (factor.vectorD().minCoeff() < kIndefinite) ++repairs;
-  const Eigen::VectorXd pivots = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::MatrixXd lower = factor.matrixL();
-  return sd.asDiagonal() * (factor.transpositionsP().transpose() * (lower * pivots.asDiagonal()));
-}
 
 bool is_finite(const JointBelief& belief) {
   const Pose& pose = belief.pose;
@@ -45,26 +32,22 @@ BlockSlam<Model>::BlockSlam(const FilterConfig& config, const Pose& start, std::
       reader_(config),
       random_(seed, Stream::kFilter),
       hypotheses_(static_cast<std::size_t>(config.particles)),
+      worth_(hypotheses_.size()),
       log_weights_(hypotheses_.size()),
       weights_(hypotheses_.size()),
+      sampler_(config.unscented),
       belief_{start, Eigen::Matrix3d::Zero()},
       effective_(static_cast<double>(config.particles)) {
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.start.pose = hypothesis.now.pose = start;
   make_equal(log_weights_, weights_);
 }
 
+/// A copy for a life of its own, in memory that is there already.
 template <class Model>
-int& BlockSlam<Model>::Hypothesis::in_block(int slot) {
-  const auto index = static_cast<std::size_t>(slot);
-  if (place_in_block.size() <= index) place_in_block.resize(index + 1, -1);
-  return place_in_block[index];
-}
-
-template <class Model>
-LandmarkBelief BlockSlam<Model>::Hypothesis::landmark(std::size_t slot) const {
-  const int place = slot < place_in_block.size() ? place_in_block[slot] : -1;
-  if (place < 0) return start.known[slot].belief;
-  return {now.landmarks[static_cast<std::size_t>(place)], now.covariance.landmark(place)};
+void BlockSlam<Model>::Hypothesis::descend_from(const Hypothesis& other) {
+  start = other.start.descendant();
+  now = other.now;
+  fates = other.fates;
 }
 
 template <class Model>
@@ -87,35 +70,50 @@ void BlockSlam<Model>::update(std::span<const RangeBearing> sightings) {
   if (frame.sightings.empty()) return;
   frame.motion = std::exchange(motion_, {});
   std::ranges::stable_sort(frame.sightings, {}, &Sighting::slot);  // oldest landmark first
-  const std::vector<double> worth = absorb(frame);
+  enter(frame);
+  absorb(frame);
   if (config_.report_updates)
     report_.innovations = normalised_innovations(frame.sightings, targets_, expected_, log_weights_);
-  reweigh(worth);
+  reweigh();
   note_decisions(frame.sightings);
   for (const Sighting& seen : frame.sightings)
     if (!is_mapped(seen.slot)) origins_.push_back(seen.number);
   block_.push_back(std::move(frame));
   if (effective_ < config_.resample_below * static_cast<double>(hypotheses_.size())) resample();
-  if (static_cast<int>(block_.size()) < config_.draw_every) return;
-  for (Hypothesis& hypothesis : hypotheses_) close_block(hypothesis);
-  block_.clear();
+  const bool is_full = slots_of_block_.size() >= kMostLandmarks;
+  if (is_full || static_cast<int>(block_.size()) == config_.draw_every) close_block();
 }
 
-/// @return what a frame is worth to each particle, as logarithms
+/// Gives the landmarks that the block has not seen before their places in it: those of the map first.
 template <class Model>
-std::vector<double> BlockSlam<Model>::absorb(const Frame& frame) {
+void BlockSlam<Model>::enter(const Frame& frame) {
+  const auto last = static_cast<std::size_t>(frame.sightings.back().slot);
+  if (place_of_slot_.size() <= last) place_of_slot_.resize(last + 1, -1);
+  const auto enter_those = [&](bool mapped) {
+    for (const Sighting& seen : frame.sightings) {
+      if (place_of(seen.slot) >= 0 || is_mapped(seen.slot) != mapped) continue;
+      place_of(seen.slot) = static_cast<int>(slots_of_block_.size());
+      slots_of_block_.push_back(seen.slot);
+    }
+  };
+  enter_those(true);
+  known_in_block_ = slots_of_block_.size();
+  enter_those(false);
+}
+
+template <class Model>
+void BlockSlam<Model>::absorb(const Frame& frame) {
   const std::size_t width = frame.sightings.size();
   targets_.assign(hypotheses_.size() * width, {});
   expected_.assign(targets_.size(), {});
-  std::vector<double> worth;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    Hypothesis& mine = hypotheses_[i];
     const auto targets = std::span(targets_).subspan(i * width, width);
-    follow(hypotheses_[i].now, frame.motion);
-    worth.push_back(correct(hypotheses_[i], frame, targets, std::span(expected_).subspan(i * width, width)));
-    add_new(hypotheses_[i], frame);
-    for (const Target& target : targets) hypotheses_[i].fates.push_back(target.fate);
+    follow(mine.now, frame.motion);
+    worth_[i] = correct(mine, frame, targets, std::span(expected_).subspan(i * width, width));
+    add_new(mine, frame);
+    for (const Target& target : targets) mine.fates.push_back(target.fate);
   }
-  return worth;
 }
 
 /// Corrects a particle by the landmarks that it knows.
@@ -123,8 +121,8 @@ std::vector<double> BlockSlam<Model>::absorb(const Frame& frame) {
 template <class Model>
 double BlockSlam<Model>::correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
                                  std::span<ExpectedSighting> expected) {
-  for (const Sighting& sighting : frame.sightings)
-    if (is_mapped(sighting.slot)) take_up(mine, sighting.slot);
+  for (std::size_t place = mine.now.landmarks.size(); place < known_in_block_; ++place)
+    take_up(mine, slots_of_block_[place]);
   before_ = mine.now;
   double log_likelihood = 0.0;
   for (std::size_t k = 0; k < targets.size(); ++k) {
@@ -144,7 +142,7 @@ template <class Model>
 ExpectedSighting BlockSlam<Model>::use(Hypothesis& mine, const Sighting& sighting, Target& target) {
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
-  const int place = mine.in_block(sighting.slot);
+  const int place = place_of(sighting.slot);
   const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
   const Eigen::Vector2d expected = sighting.observation.range_bearing - seen.residual;
   ExpectedSighting expectation{true, expected, seen.covariance};
@@ -154,17 +152,15 @@ ExpectedSighting BlockSlam<Model>::use(Hypothesis& mine, const Sighting& sightin
   if (target.fate == Fate::kUse && repairs != before) return expectation;  // all is certain
   const double cost = target.fate == Fate::kUse ? squared_length : gate_;
   expectation.log_likelihood = -0.5 * (cost + seen.factor.log_det_2_pi());
-  if (target.fate == Fate::kUse) slam::correct(mine.now, place, seen, repairs);
+  if (target.fate == Fate::kUse) slam::correct(mine.now, place, seen, whitened_, repairs);
   return expectation;
 }
 
-/// Puts a landmark of the map among those of the block, where it is independent of all that is there.
+/// Puts a landmark of the map behind those of the block, where it is independent of all that is there.
 template <class Model>
 void BlockSlam<Model>::take_up(Hypothesis& mine, int slot) {
-  int& place = mine.in_block(slot);
-  if (place >= 0) return;
   const LandmarkBelief& landmark = mine.start.known[static_cast<std::size_t>(slot)].belief;
-  place = static_cast<int>(mine.now.landmarks.size());
+  const auto place = static_cast<int>(mine.now.landmarks.size());
   mine.now.landmarks.push_back(landmark.mean);
   mine.now.covariance.place(place, Eigen::Matrix<double, 2, 3>::Zero(), landmark.covariance,
                             counters_.covariance_repairs);
@@ -177,21 +173,21 @@ void BlockSlam<Model>::add_new(Hypothesis& mine, const Frame& frame) {
   long& repairs = counters_.covariance_repairs;
   for (const Sighting& sighting : frame.sightings) {
     if (is_mapped(sighting.slot)) continue;
-    int& place = mine.in_block(sighting.slot);
-    if (place >= 0) {
-      const long before = repairs;
-      const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
-      if (repairs == before) slam::correct(mine.now, place, seen, repairs);  // else all is certain
+    const int place = place_of(sighting.slot);
+    if (static_cast<std::size_t>(place) == mine.now.landmarks.size()) {
+      find(model_, mine.now, place, sighting.observation, repairs);
       continue;
     }
-    place = static_cast<int>(mine.now.landmarks.size());
-    find(model_, mine.now, place, sighting.observation, repairs);
+    const long before = repairs;
+    const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
+    if (repairs == before)  // else all is certain
+      slam::correct(mine.now, place, seen, whitened_, repairs);
   }
 }
 
 template <class Model>
-void BlockSlam<Model>::reweigh(std::span<const double> worth) {
-  for (std::size_t i = 0; i < worth.size(); ++i) log_weights_[i] += worth[i];
+void BlockSlam<Model>::reweigh() {
+  for (std::size_t i = 0; i < worth_.size(); ++i) log_weights_[i] += worth_[i];
   if (!normalise(log_weights_, weights_)) ++counters_.weight_collapses;
   effective_ = effective_particles(weights_);
   const Pose reference = hypotheses_[heaviest()].now.pose;
@@ -225,7 +221,7 @@ void BlockSlam<Model>::resample() {
   const std::vector<int> ancestors = ancestors_in_place(systematic_descendants(weights_, random_.uniform()));
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     const auto from = static_cast<std::size_t>(ancestors[i]);
-    if (from != i) hypotheses_[i] = hypotheses_[from].descendant();
+    if (from != i) hypotheses_[i].descend_from(hypotheses_[from]);
   }
   if (config_.report_updates) report_.ancestors = ancestors;
   make_equal(log_weights_, weights_);
@@ -234,78 +230,88 @@ void BlockSlam<Model>::resample() {
 
 /// Draws the block's poses, and makes their end the next block's start.
 template <class Model>
-void BlockSlam<Model>::close_block(Hypothesis& mine) {
-  const std::vector<PathStep> steps = seen_by(mine);
-  const std::vector<Pose> path =
-      draw_path(model_, mine.start.pose, steps, random_, counters_.covariance_repairs);
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < block_.size(); ++k) {
-    for (const Sighting& sighting : block_[k].sightings)
-      if (mine.fates[next++] != Fate::kRefuse) learn(mine.start.known, path[k], sighting);
-  }
-  mine.start.pose = path.back();
-  mine.now = {mine.start.pose, {}, {}};
-  mine.place_in_block.clear();
+void BlockSlam<Model>::close_block() {
+  steps_.resize(block_.size());
+  for (std::size_t k = 0; k < block_.size(); ++k) steps_[k].motion = block_[k].motion;
+  for (Hypothesis& hypothesis : hypotheses_) draw_block(hypothesis);
+  for (const int slot : slots_of_block_) place_of(slot) = -1;
+  slots_of_block_.clear();
+  block_.clear();
+}
+
+template <class Model>
+void BlockSlam<Model>::draw_block(Hypothesis& mine) {
+  place_sightings(mine);
+  const std::span<const Pose> path =
+      sampler_.draw(mine.start.pose, steps_, random_, counters_.covariance_repairs);
+  learn(mine, path);
+  mine.start.pose = mine.now.pose = path.back();
+  mine.now.landmarks.clear();
+  mine.now.covariance.clear();
   mine.fates.clear();
 }
 
 /// What a particle believes of the block's sightings, of landmarks whose places are drawn.
 template <class Model>
-std::vector<PathStep> BlockSlam<Model>::seen_by(Hypothesis& mine) {
-  const std::vector<Eigen::Vector2d> places = draw_landmarks(mine.now);
-  std::vector<PathStep> steps;
+void BlockSlam<Model>::place_sightings(const Hypothesis& mine) {
+  const std::vector<Eigen::Vector2d> places = draw_landmarks(mine.now, random_, counters_.covariance_repairs);
   std::size_t next = 0;
-  for (const Frame& frame : block_) {
-    steps.push_back({frame.motion, {}});
-    for (const Sighting& sighting : frame.sightings) {
+  for (std::size_t k = 0; k < block_.size(); ++k) {
+    steps_[k].seen.clear();
+    for (const Sighting& sighting : block_[k].sightings) {
       if (mine.fates[next++] == Fate::kRefuse) continue;
-      const auto place = static_cast<std::size_t>(mine.in_block(sighting.slot));
-      steps.back().seen.push_back({places[place], sighting.observation});
+      steps_[k].seen.push_back(
+          {places[static_cast<std::size_t>(place_of(sighting.slot))], sighting.observation});
     }
   }
-  return steps;
 }
 
+/// Refines the map by the block's sightings, from the poses that were drawn.
 template <class Model>
-std::vector<Eigen::Vector2d> BlockSlam<Model>::draw_landmarks(const JointBelief& belief) {
-  const auto count = static_cast<int>(belief.landmarks.size());
-  Eigen::MatrixXd covariance(2 * count, 2 * count);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const Eigen::Matrix2d block = belief.covariance.between(i, j).bottomRightCorner<2, 2>();
-      covariance.block<2, 2>(2 * i, 2 * j) = block;
-      covariance.block<2, 2>(2 * j, 2 * i) = block.transpose();
-    }
-  }
-  Eigen::VectorXd normals(2 * count);
-  for (double& normal : normals) normal = random_.normal();
-  const Eigen::VectorXd off = root_of(covariance, counters_.covariance_repairs) * normals;
-  std::vector<Eigen::Vector2d> places = belief.landmarks;
-  for (int i = 0; i < count; ++i) places[static_cast<std::size_t>(i)] += off.segment<2>(2 * i);
-  return places;
-}
-
-template <class Model>
-void BlockSlam<Model>::learn(LandmarkMap& map, const Pose& robot, const Sighting& sighting) {
+void BlockSlam<Model>::learn(Hypothesis& mine, std::span<const Pose> path) {
   long& repairs = counters_.covariance_repairs;
-  const auto slot = static_cast<std::size_t>(sighting.slot);
-  if (slot == map.size()) {
-    map.push_back({model_.found(robot, sighting.observation, repairs), sighting.colour_class});
-    return;
+  LandmarkMap& map = mine.start.known;
+  learnt_.resize(slots_of_block_.size());
+  has_learnt_.assign(slots_of_block_.size(), false);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < block_.size(); ++k) {
+    for (const Sighting& sighting : block_[k].sightings) {
+      if (mine.fates[next++] == Fate::kRefuse) continue;
+      const auto place = static_cast<std::size_t>(place_of(sighting.slot));
+      const auto slot = static_cast<std::size_t>(sighting.slot);
+      Landmark& landmark = learnt_[place];
+      const bool is_new = !has_learnt_[place] && slot >= map.size();
+      if (is_new) landmark = {model_.found(path[k], sighting.observation, repairs), sighting.colour_class};
+      if (!has_learnt_[place] && !is_new) landmark = map[slot];
+      if (!is_new) landmark.belief = model_.refine(landmark.belief, path[k], sighting.observation, repairs);
+      has_learnt_[place] = true;
+    }
   }
-  Landmark landmark = map[slot];
-  landmark.belief = model_.refine(landmark.belief, robot, sighting.observation, repairs);
-  map.replace(slot, landmark);
+  for (std::size_t place = 0; place < slots_of_block_.size(); ++place) {
+    const auto slot = static_cast<std::size_t>(slots_of_block_[place]);
+    if (!has_learnt_[place]) continue;
+    if (slot == map.size())
+      map.push_back(learnt_[place]);
+    else
+      map.replace(slot, learnt_[place]);
+  }
+}
+
+template <class Model>
+LandmarkBelief BlockSlam<Model>::landmark(const Hypothesis& of, std::size_t slot) const {
+  const int place = place_of_slot_[slot];
+  if (place < 0) return of.start.known[slot].belief;
+  return {of.now.landmarks[static_cast<std::size_t>(place)], of.now.covariance.landmark(place)};
 }
 
 template <class Model>
 Estimate BlockSlam<Model>::estimate() const {
   Estimate estimate = estimate_without_map();
   for (std::size_t slot = 0; slot < origins_.size(); ++slot) {
-    const Eigen::Vector2d reference = hypotheses_.front().landmark(slot).mean;
+    const Eigen::Vector2d reference = landmark(hypotheses_.front(), slot).mean;
     Moments<2> moments;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const LandmarkBelief belief = hypotheses_[i].landmark(slot);
+      const LandmarkBelief belief = landmark(hypotheses_[i], slot);
       moments.add(weights_[i], belief.mean - reference, belief.covariance);
     }
     const RangeBearing& first = reader_.first_sighting(slot);

@@ -38,7 +38,7 @@ namespace stereobench::slam {
 /// these Gaussians. Resampling copies them.
 ///
 /// **At its end** x_s+1..t is drawn from p(x_s+1..t | x_0..s, z_1..t), in two steps: landmarks from their
-/// joint Gaussian, m ~ N, and then the path given them (draw_path). The landmarks that were drawn are
+/// joint Gaussian, m ~ N, and then the path given them (PathSampler). The landmarks that were drawn are
 /// forgotten, and those of the map at s are refined by the block's sightings from the poses drawn, as in
 /// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
 /// for any K. Poor bearings are not: there the moments of the model are what a block costs, those by
@@ -49,7 +49,8 @@ namespace stereobench::slam {
 ///
 /// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
 /// nothing and costs its particle the likelihood at the gate; there is no second look, and contradictions are
-/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map.
+/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map; a block that
+/// has a hundred of them ends early.
 template <class Model>
 class BlockSlam {
  public:
@@ -70,33 +71,34 @@ class BlockSlam {
   struct Hypothesis {
     Particle start;
     JointBelief now;
-    std::vector<int> place_in_block;  ///< by slot: index among the block's landmarks, or -1
-    std::vector<Fate> fates;          ///< of all sightings of the block
+    std::vector<Fate> fates;  ///< of all sightings of the block
 
-    Hypothesis descendant() const { return {start.descendant(), now, place_in_block, fates}; }
-    int& in_block(int slot);
-    LandmarkBelief landmark(std::size_t slot) const;
+    void descend_from(const Hypothesis& other);
   };
+  static constexpr std::size_t kMostLandmarks = 100;  ///< of a block
   struct Frame {
     PoseBelief motion;
     std::vector<Sighting> sightings;
   };
 
   bool is_mapped(int slot) const { return static_cast<std::size_t>(slot) < origins_.size(); }
-  std::vector<double> absorb(const Frame& frame);
+  int& place_of(int slot) { return place_of_slot_[static_cast<std::size_t>(slot)]; }
+  void enter(const Frame& frame);
+  void absorb(const Frame& frame);
   double correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
                  std::span<ExpectedSighting> expected);
   ExpectedSighting use(Hypothesis& mine, const Sighting& sighting, Target& target);
   void take_up(Hypothesis& mine, int slot);
   void add_new(Hypothesis& mine, const Frame& frame);
-  void reweigh(std::span<const double> worth);
+  void reweigh();
   std::size_t heaviest() const;
   void note_decisions(std::span<const Sighting> frame);
   void resample();
-  void close_block(Hypothesis& mine);
-  std::vector<PathStep> seen_by(Hypothesis& mine);
-  std::vector<Eigen::Vector2d> draw_landmarks(const JointBelief& belief);
-  void learn(LandmarkMap& map, const Pose& robot, const Sighting& sighting);
+  void close_block();
+  void draw_block(Hypothesis& mine);
+  void place_sightings(const Hypothesis& mine);
+  void learn(Hypothesis& mine, std::span<const Pose> path);
+  LandmarkBelief landmark(const Hypothesis& of, std::size_t slot) const;
 
   FilterConfig config_;
   double gate_;
@@ -104,15 +106,24 @@ class BlockSlam {
   FrameReader reader_;
   RandomStream random_;
   std::vector<Hypothesis> hypotheses_;
-  std::vector<Frame> block_;                ///< since the poses were drawn
-  std::vector<double> log_weights_;         ///< normalised
-  std::vector<double> weights_;             ///< the same, not as logarithms
-  std::vector<Target> targets_;             ///< of the last frame, particle by particle
+  std::vector<Frame> block_;         ///< since the poses were drawn
+  std::vector<int> slots_of_block_;  ///< of the landmarks seen in it, by their place in the joint belief
+  std::size_t known_in_block_ = 0;   ///< how many of them the map has, or had before the last frame
+  std::vector<int> place_of_slot_;   ///< by slot: its index among the block's landmarks, or -1
+  std::vector<double> worth_;        ///< of the last frame to each particle, as logarithms
+  std::vector<double> log_weights_;  ///< normalised
+  std::vector<double> weights_;      ///< the same, not as logarithms
+  std::vector<Target> targets_;      ///< of the last frame, particle by particle
   std::vector<ExpectedSighting> expected_;  ///< the same, for a report
   std::vector<int> origins_;                ///< by slot: the sighting that founded the landmark
   JointBelief before_;                      ///< of one particle, should a frame end in what is no number
-  PoseBelief motion_;                       ///< since the last frame, in the robot's frame of that time
-  PoseBelief belief_;                       ///< at the last frame, over all particles
+  JointCovariance::Columns whitened_;       ///< memory for corrections
+  PathSampler<Model> sampler_;
+  std::vector<PathStep> steps_;   ///< the block as one particle sees it
+  std::vector<Landmark> learnt_;  ///< of one particle, by place in the block
+  std::vector<bool> has_learnt_;  ///< the same
+  PoseBelief motion_;             ///< since the last frame, in the robot's frame of that time
+  PoseBelief belief_;             ///< at the last frame, over all particles
   double effective_;
   std::vector<Decision> decided_;  ///< what the heaviest particle made of the last frame
   FilterCounters counters_;

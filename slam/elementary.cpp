@@ -1,6 +1,9 @@
 #include "slam/elementary.h"
 
 #include <sleef.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace stereobench::slam {
 
@@ -15,6 +18,16 @@ double tangent(double angle_rad) {
 
 double arc_tangent(double y, double x) {
   return Sleef_cinz_atan2d1_u35purec(y, x);
+}
+
+std::array<double, 2> arc_tangents(const std::array<double, 2>& y, const std::array<double, 2>& x) {
+#ifdef __SSE2__
+  std::array<double, 2> both{};
+  _mm_storeu_pd(both.data(), Sleef_cinz_atan2d2_u35sse2(_mm_loadu_pd(y.data()), _mm_loadu_pd(x.data())));
+  return both;
+#else
+  return {arc_tangent(y[0], x[0]), arc_tangent(y[1], x[1])};
+#endif
 }
 
 double exponential(double x) {

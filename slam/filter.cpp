@@ -60,12 +60,12 @@ Filter make_filter(const std::string& name, const FilterConfig& config, const Po
   if (name == "dead_reckoning") return DeadReckoning(config, start);
   if (name == "ekf") return EkfSlam(config, start);
   if (name == "fastslam1") return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
-  if (name == "fastslam2" && config.draw_every > 1) return LinearisedBlockSlam(config, start, seed);
   if (name == "fastslam2") return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
-  if (name == "ufastslam" && config.draw_every > 1) return UnscentedBlockSlam(config, start, seed);
   if (name == "ufastslam") return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
   if (name == "ufastslam_kim")
     return UnscentedFastSlam(config, start, seed, Proposal::kPosterior, Updates::kAtOnce);
+  if (name == "fastslam2_block") return LinearisedBlockSlam(config, start, seed);
+  if (name == "ufastslam_block") return UnscentedBlockSlam(config, start, seed);
   std::string known;
   for (const std::string& filter : filter_names()) known += (known.empty() ? "" : ", ") + filter;
   throw std::invalid_argument("make_filter: no filter '" + name + "'; there are " + known);

@@ -1,6 +1,7 @@
 /// Small Gaussians whose covariance may be singular: square roots, log densities, and their repairs.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,45 +12,78 @@
 
 namespace stereobench::slam {
 
-/// A square root L of a semidefinite matrix, P = L L'.
-///
+/// A square root L of a semidefinite matrix, P = L L'. Row pivots[c] is zero behind column c.
+template <int kSize>
+struct PivotedRoot {
+  Eigen::Matrix<double, kSize, kSize> lower = Eigen::Matrix<double, kSize, kSize>::Zero();
+  std::array<int, static_cast<std::size_t>(kSize)> pivots{};
+  int rank = 0;
+
+  /// @return A with A L = b, where columns of A that nothing depends on are zero
+  template <int kRows>
+  Eigen::Matrix<double, kRows, kSize> divide(const Eigen::Matrix<double, kRows, kSize>& b) const {
+    Eigen::Matrix<double, kRows, kSize> quotient = Eigen::Matrix<double, kRows, kSize>::Zero();
+    for (int column = rank - 1; column >= 0; --column) {
+      Eigen::Matrix<double, kRows, 1> rest = b.col(column);
+      for (int later = column + 1; later < rank; ++later)
+        rest -= quotient.col(pivot(later)) * lower(pivot(later), column);
+      quotient.col(pivot(column)) = rest / lower(pivot(column), column);
+    }
+    return quotient;
+  }
+
+ private:
+  int pivot(int column) const { return pivots[static_cast<std::size_t>(column)]; }
+};
+
 /// A Cholesky factorisation that takes the direction with the largest relative uncertainty first and stops
 /// where nothing is left. Motion noise has rank 2 and a drawn pose has P = 0, so this is normal life. Without
 /// the choice of pivots a pivot that is rounding error would be divided by. L is triangular up to the order
 /// of its rows.
 ///
 /// @param covariance symmetric
+/// @param variances what each coordinate's variance is relative to: its own, or that of which the covariance
+/// is what is left
 /// @param repairs incremented when the matrix was not semidefinite beyond rounding: what is negative becomes
 /// zero
 template <int kSize>
-Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
-                                                      long& repairs) {
+PivotedRoot<kSize> pivoted_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
+                                const Eigen::Matrix<double, kSize, 1>& variances, long& repairs) {
   constexpr double kVanishing = 1e-14;
   constexpr double kIndefinite = -1e-7;
-  Eigen::Matrix<double, kSize, kSize> root = Eigen::Matrix<double, kSize, kSize>::Zero();
+  PivotedRoot<kSize> root;
   Eigen::Matrix<double, kSize, kSize> rest = covariance;
   for (int column = 0; column < kSize; ++column) {
     int pivot = -1;
     double largest = kVanishing;
     for (int j = 0; j < kSize; ++j) {
-      if (rest(j, j) > largest * covariance(j, j) && rest(j, j) > 0.0) {
+      if (rest(j, j) > largest * variances(j) && rest(j, j) > 0.0) {
         pivot = j;
-        largest = rest(j, j) / covariance(j, j);
+        largest = rest(j, j) / variances(j);
       }
     }
     if (pivot < 0) break;
-    root.col(column) = rest.col(pivot) / std::sqrt(rest(pivot, pivot));
-    rest -= root.col(column) * root.col(column).transpose();
+    root.pivots[static_cast<std::size_t>(column)] = pivot;
+    root.rank = column + 1;
+    root.lower.col(column) = rest.col(pivot) / std::sqrt(rest(pivot, pivot));
+    rest -= root.lower.col(column) * root.lower.col(column).transpose();
     rest.row(pivot).setZero();  // exactly, so that the row is not chosen again
     rest.col(pivot).setZero();
   }
   for (int j = 0; j < kSize; ++j) {
-    if (rest(j, j) < kIndefinite * std::abs(covariance(j, j))) {
+    if (rest(j, j) < kIndefinite * std::abs(variances(j))) {
       ++repairs;
       break;
     }
   }
   return root;
+}
+
+/// The root alone, where variances are relative to themselves.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double, kSize, kSize>& covariance,
+                                                      long& repairs) {
+  return pivoted_root<kSize>(covariance, covariance.diagonal(), repairs).lower;
 }
 
 /// Makes a covariance semidefinite that lost more than rounding: a difference of matrices that are sixteen
@@ -107,9 +141,15 @@ class Factor2 {
   /// A'
   template <int kRows>
   Eigen::Matrix<double, kRows, 2> whiten(Eigen::Matrix<double, kRows, 2> a) const {
+    whiten_in_place(a);
+    return a;
+  }
+
+  /// The same where a matrix may be overwritten.
+  template <int kRows>
+  void whiten_in_place(Eigen::Matrix<double, kRows, 2>& a) const {
     a.col(1) = (a.col(1) - slope_ * a.col(0)) / std::sqrt(second_);
     a.col(0) /= std::sqrt(first_);
-    return a;
   }
 
  private:

@@ -1,5 +1,8 @@
 #include "slam/joint_belief.h"
 
+#include <cmath>
+#include <type_traits>
+
 #include "slam/measurement.h"
 #include "slam/noise_law.h"
 
@@ -18,9 +21,11 @@ JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int lan
   const auto j = static_cast<std::size_t>(landmark);
   const LinearSighting linear = linearise_sighting(at.pose, at.landmarks[j]);
   Eigen::Matrix<double, 2, 5> slope;
-  slope << linear.by_pose(), linear.by_landmark;
+  slope.leftCols<3>() = linear.by_pose();
+  slope.rightCols<2>() = linear.by_landmark;
   Eigen::Matrix<double, 5, 1> off;
-  off << displacement(belief.pose, at.pose), belief.landmarks[j] - at.landmarks[j];
+  off.head<3>() = displacement(belief.pose, at.pose);
+  off.tail<2>() = belief.landmarks[j] - at.landmarks[j];
   const Eigen::Vector2d expected = linear.expected + slope * off;
   const Eigen::Matrix2d covariance =
       slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() +
@@ -30,17 +35,27 @@ JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int lan
 }
 
 void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs) {
-  const JointCovariance::Columns whitened =
-      seen.factor.whiten<Eigen::Dynamic>(belief.covariance.with_sighting(landmark, seen.slope));
-  const Eigen::VectorXd shift = whitened * seen.factor.whiten<1>(seen.residual.transpose()).transpose();
-  if (!shift.allFinite()) {
+  JointCovariance::Columns whitened;
+  correct(belief, landmark, seen, whitened, repairs);
+}
+
+void correct(JointBelief& belief, int landmark, const JointSurprise& seen, JointCovariance::Columns& whitened,
+             long& repairs) {
+  belief.covariance.with_sighting(landmark, seen.slope, whitened);
+  seen.factor.whiten_in_place(whitened);
+  const Eigen::Vector2d residual = seen.factor.whiten<1>(seen.residual.transpose()).transpose();
+  if (!std::isfinite(whitened.squaredNorm() * residual.squaredNorm())) {
     ++repairs;
     return;
   }
-  belief.pose = displace(belief.pose, shift.head<3>());
-  for (std::size_t j = 0; j < belief.landmarks.size(); ++j) {
-    belief.landmarks[j] += shift.segment<2>(JointCovariance::row_of(static_cast<int>(j)));
-  }
+  const auto shift = [&]<int kRows>(Eigen::Index row, std::integral_constant<int, kRows>) {
+    return whitened.col(0).segment<kRows>(row) * residual.x() +
+           whitened.col(1).segment<kRows>(row) * residual.y();
+  };
+  belief.pose = displace(belief.pose, shift(0, std::integral_constant<int, 3>()));
+  for (std::size_t j = 0; j < belief.landmarks.size(); ++j)
+    belief.landmarks[j] +=
+        shift(JointCovariance::row_of(static_cast<int>(j)), std::integral_constant<int, 2>());
   belief.covariance.subtract(whitened, repairs);
 }
 

@@ -41,6 +41,10 @@ JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int lan
 /// The Kalman update in gain form, O(n^2): K = P H' S^-1, so a singular P is nothing special.
 void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs);
 
+/// The same with memory that many updates can share.
+void correct(JointBelief& belief, int landmark, const JointSurprise& seen, JointCovariance::Columns& whitened,
+             long& repairs);
+
 /// Takes a landmark for what is seen now: one that is new, or one whose place turned out to be wrong.
 ///
 /// @param landmark index of a landmark, or one more than the last

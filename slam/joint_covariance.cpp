@@ -15,17 +15,18 @@ bool is_definite(const Eigen::Matrix3d& p) {
 }  // namespace
 
 Eigen::Matrix3d JointCovariance::pose() const {
+  const double* p = lower_.data();
   Eigen::Matrix3d block;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) block(i, j) = at(i, j);
-  }
+  block << p[0], p[1], p[3], p[1], p[2], p[4], p[3], p[4], p[5];
   return block;
 }
 
 Eigen::Matrix2d JointCovariance::landmark(int index) const {
   const Eigen::Index first = row_of(index);
+  const double* x = row(first) + first;
+  const double* y = row(first + 1) + first;
   Eigen::Matrix2d block;
-  block << at(first, first), at(first, first + 1), at(first + 1, first), at(first + 1, first + 1);
+  block << x[0], y[0], y[0], y[1];
   return block;
 }
 
@@ -34,9 +35,23 @@ Eigen::Matrix<double, 5, 5> JointCovariance::pose_and_landmark(int index) const 
   block.topLeftCorner<3, 3>() = pose();
   block.bottomRightCorner<2, 2>() = landmark(index);
   for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 3; ++j) block(3 + i, j) = block(j, 3 + i) = at(row_of(index) + i, j);
+    const double* with_pose = row(row_of(index) + i);
+    for (int j = 0; j < 3; ++j) block(3 + i, j) = block(j, 3 + i) = with_pose[j];
   }
   return block;
+}
+
+Eigen::MatrixXd JointCovariance::landmarks() const {
+  Eigen::MatrixXd all(size_ - 3, size_ - 3);
+  for (Eigen::Index i = 3; i < size_; ++i) {
+    for (Eigen::Index j = 3; j <= i; ++j) all(i - 3, j - 3) = all(j - 3, i - 3) = row(i)[j];
+  }
+  return all;
+}
+
+void JointCovariance::clear() {
+  size_ = 3;
+  lower_.assign(6, 0.0);
 }
 
 Eigen::Matrix<double, 5, 5> JointCovariance::between(int one, int other) const {
@@ -79,22 +94,43 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
   at(first + 1, first + 1) = own(1, 1);
 }
 
-JointCovariance::Columns JointCovariance::with_sighting(int index,
-                                                        const Eigen::Matrix<double, 2, 5>& slope) const {
+void JointCovariance::with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope,
+                                    Columns& product) const {
+  const auto along = [&](const double* with_pose, double with_x, double with_y) {
+    const Eigen::Vector2d with_seen = slope.col(0) * with_pose[0] + slope.col(1) * with_pose[1] +
+                                      slope.col(2) * with_pose[2] + slope.col(3) * with_x +
+                                      slope.col(4) * with_y;
+    return Eigen::RowVector2d(with_seen.transpose());
+  };
+  product.resize(size_, 2);
   const Eigen::Index first = row_of(index);
-  Columns product(size_, 2);
-  for (Eigen::Index i = 0; i < size_; ++i) {
-    Eigen::Matrix<double, 5, 1> with_seen;
-    with_seen << at(i, 0), at(i, 1), at(i, 2), at(i, first), at(i, first + 1);
-    product.row(i) = slope * with_seen;
-  }
-  return product;
+  const double* x = row(first);
+  const double* y = row(first + 1);
+  const Eigen::Matrix3d of_pose = pose();
+  for (Eigen::Index i = 0; i < 3; ++i) product.row(i) = along(of_pose.data() + 3 * i, x[i], y[i]);
+  for (Eigen::Index i = 3; i < first; ++i) product.row(i) = along(row(i), x[i], y[i]);
+  product.row(first) = along(x, x[first], y[first]);
+  for (Eigen::Index i = first + 1; i < size_; ++i)
+    product.row(i) = along(row(i), row(i)[first], row(i)[first + 1]);
 }
 
 void JointCovariance::subtract(const Columns& whitened, long& repairs) {
-  for (Eigen::Index i = 0; i < size_; ++i) {
-    Eigen::Map<Eigen::VectorXd>(row(i), i + 1) -=
-        whitened(i, 0) * whitened.col(0).head(i + 1) + whitened(i, 1) * whitened.col(1).head(i + 1);
+  using Pair = Eigen::Map<Eigen::Vector2d>;
+  using Known = Eigen::Map<const Eigen::Vector2d>;
+  const double* a = whitened.col(0).data();
+  const double* b = whitened.col(1).data();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) row(i)[j] -= a[i] * a[j] + b[i] * b[j];
+  }
+  for (Eigen::Index i = 3; i < size_; i += 2) {  // both rows of a landmark in one go, two columns at a time
+    double* x = row(i);
+    double* y = row(i + 1);
+    for (Eigen::Index j = 0; j <= i; j += 2) {
+      const Known with_a(a + j), with_b(b + j);
+      Pair(x + j) -= a[i] * with_a + b[i] * with_b;
+      Pair(y + j) -= a[i + 1] * with_a + b[i + 1] * with_b;
+    }
+    y[i + 1] -= a[i + 1] * a[i + 1] + b[i + 1] * b[i + 1];
   }
   if (!is_definite(pose())) mend_block<3>(0, repairs);
   for (Eigen::Index first = 3; first < size_; first += 2) {

@@ -28,6 +28,12 @@ class JointCovariance {
   /// @return between (pose, one landmark) and (pose, another)
   Eigen::Matrix<double, 5, 5> between(int one, int other) const;
 
+  /// @return of all landmarks, without the pose
+  Eigen::MatrixXd landmarks() const;
+
+  /// Forgets all landmarks and all uncertainty, and keeps the memory for those to come.
+  void clear();
+
   /// The pose becomes by_pose * pose + noise, which no landmark feels: O(n).
   void move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise);
 
@@ -39,7 +45,8 @@ class JointCovariance {
              long& repairs);
 
   /// P H' for a sighting with slopes by (pose, landmark), in O(n).
-  Columns with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope) const;
+  /// @param product receives it; memory is asked for when its size changes alone
+  void with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope, Columns& product) const;
 
   /// P - W W', in O(n^2) / 2.
   ///

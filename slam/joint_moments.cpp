@@ -1,7 +1,5 @@
 #include "slam/joint_moments.h"
 
-#include <Eigen/QR>
-
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 #include "slam/motion.h"
@@ -20,25 +18,24 @@ struct Line {
   Eigen::Matrix<double, 2, 5> slope;  ///< zero where nothing is uncertain
 };
 
-/// @param off of the value at the input's mean, by the step of the input
+/// @param off from the value at the input's mean, of that a step away and that as far on the other side
 template <class Function>
 Line line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, const Function& off,
                   long& repairs) {
-  const Matrix5 root = semidefinite_root<5>(covariance, repairs);
-  SigmaResiduals<2, 5> residuals;
-  for (int i = 0; i < 5; ++i) {
-    const Vector5 step = weights.spread * root.col(i);
-    residuals.col(2 * i) = off(step);
-    residuals.col(2 * i + 1) = off(-step);
-  }
+  const PivotedRoot<5> root = pivoted_root<5>(covariance, covariance.diagonal(), repairs);
+  SigmaResiduals<2, 5> residuals = SigmaResiduals<2, 5>::Zero();
+  for (int i = 0; i < root.rank; ++i)
+    residuals.middleCols<2>(2 * i) = off(weights.spread * root.lower.col(i));
   Line line;
   line.mean = sigma_mean<2, 5>(residuals, weights);
   line.covariance = sigma_covariance<2, 5>(residuals, line.mean, weights);
   // With P = L L' the covariance with the input is L W', where W is that with independent coordinates:
   // A L = W, and L may be singular.
-  const Matrix5 independent = Matrix5::Identity();
-  const Eigen::Matrix<double, 5, 2> by_root = sigma_cross<5, 2, 5>(independent, 0, residuals, weights);
-  line.slope = root.transpose().completeOrthogonalDecomposition().solve(by_root).transpose();
+  Eigen::Matrix<double, 2, 5> with_independent;
+  for (int i = 0; i < 5; ++i)
+    with_independent.col(i) =
+        weights.other * weights.spread * (residuals.col(2 * i) - residuals.col(2 * i + 1));
+  line.slope = root.divide<2>(with_independent);
   return line;
 }
 
@@ -53,9 +50,12 @@ JointSurprise surprise(const Unscented& model, const JointBelief& belief, int la
                        const Observation& observation, long& repairs) {
   const Eigen::Vector2d& place = belief.landmarks[static_cast<std::size_t>(landmark)];
   const Eigen::Vector2d centre = predict_sighting(belief.pose, place);
-  const auto off = [&](const Vector5& step) -> Eigen::Vector2d {
-    const Pose from = displace(belief.pose, step.head<3>());
-    return sighting_residual(predict_sighting(from, place + step.tail<2>()), centre);
+  const auto off = [&](const Vector5& step) {
+    const View above{displace(belief.pose, step.head<3>()), place + step.tail<2>()};
+    const View below{displace(belief.pose, -step.head<3>()), place - step.tail<2>()};
+    Eigen::Matrix2d seen = predict_sightings(above, below);
+    for (int side = 0; side < 2; ++side) seen.col(side) = sighting_residual(seen.col(side), centre);
+    return seen;
   };
   const Line line =
       line_through(belief.covariance.pose_and_landmark(landmark), model.weights(), off, repairs);
@@ -77,8 +77,13 @@ void find(const Unscented& model, JointBelief& belief, int landmark, const Obser
   covariance.topLeftCorner<3, 3>() = pose;
   covariance.bottomRightCorner<2, 2>() = noise_at(observation, observation.range_bearing);
   const Eigen::Vector2d centre = locate(belief.pose, observation.range_bearing);
-  const auto off = [&](const Vector5& step) -> Eigen::Vector2d {
+  const auto found = [&](const Vector5& step) -> Eigen::Vector2d {
     return locate(displace(belief.pose, step.head<3>()), observation.range_bearing + step.tail<2>()) - centre;
+  };
+  const auto off = [&](const Vector5& step) {
+    Eigen::Matrix2d both;
+    both << found(step), found(-step);
+    return both;
   };
   const Line line = line_through(covariance, model.weights(), off, repairs);
   const Eigen::Matrix<double, 2, 3> by_pose = line.slope.leftCols<3>();

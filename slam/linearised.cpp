@@ -53,6 +53,18 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
   return innovation;
 }
 
+Innovation Linearised::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                              const Observation& observation, long&) const {
+  const LinearSighting linear = linearise_sighting(belief.mean, place);
+  const Eigen::Matrix<double, 2, 3> by_pose = linear.by_pose();
+  Innovation innovation;
+  innovation.expected = linear.expected;
+  innovation.cross.noalias() = belief.covariance * by_pose.transpose();
+  innovation.covariance.noalias() = by_pose * innovation.cross;
+  innovation.covariance += noise_at(observation, innovation.expected);
+  return innovation;
+}
+
 Innovation Linearised::expect(const Pose& robot, const LandmarkBelief& landmark,
                               const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(robot, landmark.mean);

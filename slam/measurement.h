@@ -23,6 +23,23 @@ inline Eigen::Vector2d predict_sighting(const Pose& robot, const Eigen::Vector2d
   return {std::sqrt(dx * dx + dy * dy), wrap_angle(arc_tangent(dy, dx) - robot.heading_rad)};
 }
 
+/// A place from which a point is seen.
+struct View {
+  Pose robot;             ///< world_from_robot
+  Eigen::Vector2d point;  ///< in the world, m
+};
+
+/// Range and bearing of two views, to the last bit those of predict_sighting; a column each.
+inline Eigen::Matrix2d predict_sightings(const View& a, const View& b) {
+  const Eigen::Vector2d dx(a.point.x() - a.robot.x_m, b.point.x() - b.robot.x_m);
+  const Eigen::Vector2d dy(a.point.y() - a.robot.y_m, b.point.y() - b.robot.y_m);
+  const auto [to_a, to_b] = arc_tangents({dy[0], dy[1]}, {dx[0], dx[1]});
+  Eigen::Matrix2d seen;
+  seen.row(0) = (dx.cwiseProduct(dx) + dy.cwiseProduct(dy)).cwiseSqrt();
+  seen.row(1) << wrap_angle(to_a - a.robot.heading_rad), wrap_angle(to_b - b.robot.heading_rad);
+  return seen;
+}
+
 /// The point in the world that is seen at a range and bearing: the inverse of predict_sighting.
 inline Eigen::Vector2d locate(const Pose& robot, const Eigen::Vector2d& range_bearing) {
   const double direction_rad = robot.heading_rad + range_bearing.y();

@@ -28,28 +28,41 @@ PoseBelief Unscented::move(const PoseBelief& belief, const Control& control,
 
 Innovation Unscented::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
                              const Observation& observation, long& repairs) const {
-  const Eigen::Matrix3d pose_root = semidefinite_root<3>(belief.covariance, repairs);
-  const Eigen::Matrix2d landmark_root = semidefinite_root<2>(landmark.covariance, repairs);
-  const Eigen::Vector2d centre = predict_sighting(belief.mean, landmark.mean);
-  SigmaResiduals<2, 5> residuals;
-  for (int point = 0; point < 10; ++point) {
-    const int dimension = point / 2;
-    const double reach = point % 2 == 0 ? five_.spread : -five_.spread;
-    Pose from = belief.mean;
-    Eigen::Vector2d to = landmark.mean;
-    if (dimension < 3) {
-      from = displace(from, reach * pose_root.col(dimension));
-    } else {
-      to += reach * landmark_root.col(dimension - 3);
-    }
-    residuals.col(point) = sighting_residual(predict_sighting(from, to), centre);
+  const PivotedRoot<2> root = pivoted_root<2>(landmark.covariance, landmark.covariance.diagonal(), repairs);
+  return expect(belief, landmark.mean, root, observation, repairs);
+}
+
+Innovation Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                             const Observation& observation, long& repairs) const {
+  return expect(belief, place, {}, observation, repairs);
+}
+
+/// @param spread root of the landmark's covariance about its place
+Innovation Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                             const PivotedRoot<2>& spread, const Observation& observation,
+                             long& repairs) const {
+  const PivotedRoot<3> root = pivoted_root<3>(belief.covariance, belief.covariance.diagonal(), repairs);
+  const Eigen::Vector2d centre = predict_sighting(belief.mean, place);
+  SigmaResiduals<2, 5> residuals = SigmaResiduals<2, 5>::Zero();  // beyond a rank points are the centre
+  const auto look = [&](int dimension, const View& above, const View& below) {
+    const Eigen::Matrix2d seen = predict_sightings(above, below);
+    residuals.col(2 * dimension) = sighting_residual(seen.col(0), centre);
+    residuals.col(2 * dimension + 1) = sighting_residual(seen.col(1), centre);
+  };
+  for (int i = 0; i < root.rank; ++i) {
+    const Eigen::Vector3d step = five_.spread * root.lower.col(i);
+    look(i, {displace(belief.mean, step), place}, {displace(belief.mean, -step), place});
+  }
+  for (int i = 0; i < spread.rank; ++i) {
+    const Eigen::Vector2d step = five_.spread * spread.lower.col(i);
+    look(3 + i, {belief.mean, place + step}, {belief.mean, place - step});
   }
   const Eigen::Vector2d mean = sigma_mean<2, 5>(residuals, five_);
   Innovation innovation;
   innovation.expected = {centre.x() + mean.x(), wrap_angle(centre.y() + mean.y())};
   innovation.covariance =
       sigma_covariance<2, 5>(residuals, mean, five_) + noise_at(observation, innovation.expected);
-  innovation.cross = sigma_cross<3, 2, 5>(pose_root, 0, residuals, five_);
+  innovation.cross = sigma_cross<3, 2, 5>(root.lower, 0, residuals, five_);
   return innovation;
 }
 
@@ -60,8 +73,10 @@ LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& rob
   SigmaResiduals<2, 2> residuals;
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d step = two_.spread * root.col(i);
-    residuals.col(2 * i) = sighting_residual(predict_sighting(robot, landmark.mean + step), centre);
-    residuals.col(2 * i + 1) = sighting_residual(predict_sighting(robot, landmark.mean - step), centre);
+    const Eigen::Matrix2d seen =
+        predict_sightings({robot, landmark.mean + step}, {robot, landmark.mean - step});
+    residuals.col(2 * i) = sighting_residual(seen.col(0), centre);
+    residuals.col(2 * i + 1) = sighting_residual(seen.col(1), centre);
   }
   const Eigen::Vector2d mean = sigma_mean<2, 2>(residuals, two_);
   const Eigen::Matrix2d cross = sigma_cross<2, 2, 2>(root, 0, residuals, two_);

@@ -48,6 +48,7 @@ std::vector<std::uint64_t> read_seeds(const YamlValue& value) {
 void read_run(const YamlMap& map, Scenario& scenario) {
   if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
   if (const auto particles = map.find("particles")) scenario.particles = particles->integer(1, 100000);
+  if (const auto draw_every = map.find("draw_every")) scenario.draw_every = draw_every->integer(1, 100000);
   if (const auto seeds = map.find("seeds")) scenario.seeds = read_seeds(*seeds);
   if (const auto gates = map.find("gates")) scenario.gates = read_gates(*gates);
 }
@@ -61,11 +62,6 @@ void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scena
   scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
   if (const auto association = map.find("association"))
     scenario.association = static_cast<slam::Association>(association->choice(kAssociations));
-  if (const auto draw_every = map.find("draw_every")) {
-    scenario.draw_every = draw_every->integer(1, 100000);
-    if (scenario.draw_every > 1 && scenario.identity != Identity::kKnown)
-      draw_every->refuse("poses are drawn together only where identities are known");
-  }
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
   const auto believed = map.find("believed_rig");

@@ -160,7 +160,7 @@ struct Scenario {
   slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
-  int draw_every = 1;  ///< the poses of so many frames are drawn together; beyond 1: kKnown alone
+  int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block, of the filters that have blocks
   std::vector<std::uint64_t> seeds = {0};
   std::vector<Gate> gates;
 };

@@ -28,6 +28,11 @@ inline constexpr const char* kBaselineFilter = "dead_reckoning";
 /// @throws std::runtime_error that names the unknown filter and the ones there are
 std::vector<std::string> parse_filters(const std::string& text);
 
+/// @param known whether every landmark of it is seen with its identity
+/// @param whose what the landmarks are of, for the message
+/// @throws std::runtime_error that names the first filter that needs identities where there are none
+void check_identities(const std::vector<std::string>& filters, bool known, const std::string& whose);
+
 /// Adds --seeds, --jobs and --out to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
 

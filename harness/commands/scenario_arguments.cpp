@@ -39,6 +39,8 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   if (!run.filters.empty()) scenario.filters = run.filters;
   if (std::find(scenario.filters.begin(), scenario.filters.end(), kBaselineFilter) == scenario.filters.end())
     scenario.filters.insert(scenario.filters.begin(), kBaselineFilter);
+  check_identities(scenario.filters, scenario.identity == worlds::Identity::kKnown,
+                   arguments.scenario.string());
   if (run.particles > 0) scenario.particles = run.particles;
   if (!run.seeds.empty()) scenario.seeds = run.seeds;
   if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;

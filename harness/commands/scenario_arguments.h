@@ -26,7 +26,7 @@ void add_eyes_options(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Reads the scenario and lets the command line have the last word on filters, particles and seeds.
-/// @throws std::runtime_error as worlds::read_scenario does
+/// @throws std::runtime_error as worlds::read_scenario and check_identities do
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
                                const std::vector<std::string>& more_overrides = {});
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -71,6 +72,13 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
   return drives;
 }
 
+bool knows_identities(const MeasurementLog& log) {
+  return std::ranges::all_of(log.steps, [](const LogStep& step) {
+    return std::ranges::all_of(
+        step.measurements, [](const slam::RangeBearing& seen) { return seen.landmark_id != slam::kUnknown; });
+  });
+}
+
 int run_slam(SlamArguments arguments) {
   RunArguments& run = arguments.run;
   if (run.filters.empty()) run.filters = slam::usual_filter_names();
@@ -80,6 +88,7 @@ int run_slam(SlamArguments arguments) {
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
     vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
+  check_identities(run.filters, knows_identities(recorded.log), arguments.log.string());
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   prepare_output_folder(out);

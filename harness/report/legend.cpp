@@ -60,6 +60,8 @@ Stroke filter_stroke(const std::string& filter) {
   if (filter == "dead_reckoning") return {kGrey, 1.6, Dash::kDashed};
   if (filter == "fastslam2") return {kVermillion, 1.8};
   if (filter == "ufastslam") return {kBlue, 1.8};
+  if (filter == "fastslam2_block") return {kVermillion, 1.8, Dash::kDashed};
+  if (filter == "ufastslam_block") return {kBlue, 1.8, Dash::kDashed};
   if (filter == "batch") return {kGreen, 1.8};
   return {kOtherColours[hash_of(filter) % kOtherColours.size()], 1.8};
 }
@@ -71,6 +73,8 @@ std::string filter_title(const std::string& filter) {
   if (filter == "fastslam2") return "FastSLAM 2.0";
   if (filter == "ufastslam") return "UFastSLAM";
   if (filter == "ufastslam_kim") return "UFastSLAM, stacked";
+  if (filter == "fastslam2_block") return "FastSLAM 2.0 in blocks";
+  if (filter == "ufastslam_block") return "UFastSLAM in blocks";
   if (filter == "batch") return "whole log at once";
   return filter;
 }

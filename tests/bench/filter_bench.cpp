@@ -60,6 +60,8 @@ void cycle(benchmark::State& state, const std::string& name, int landmarks, bool
 STEREOBENCH_CYCLE(ufastslam, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(fastslam2, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(fastslam1, 1)->Arg(100)->Arg(1000);
+STEREOBENCH_CYCLE(ufastslam_block, 1)->Arg(100)->Arg(1000);
+STEREOBENCH_CYCLE(fastslam2_block, 1)->Arg(100)->Arg(1000);
 STEREOBENCH_CYCLE(ekf, 30)->Arg(1);
 STEREOBENCH_REPORTED_CYCLE(ufastslam, 1)->Arg(100);
 STEREOBENCH_REPORTED_CYCLE(fastslam2, 1)->Arg(100);

@@ -1,5 +1,6 @@
 #include "slam/elementary.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -38,6 +39,21 @@ TEST(Elementary, FunctionsAreThoseOfTheCLibrary) {
     EXPECT_TRUE(close(logarithm(std::abs(x)), std::log(std::abs(x)), 4.5)) << x;
     EXPECT_TRUE(close(power(std::abs(x), 1.0 / 2.2), std::pow(std::abs(x), 1.0 / 2.2), 2.0)) << x;
     EXPECT_TRUE(close(logarithm_of_one_plus(std::abs(x)), std::log1p(std::abs(x)), 2.0)) << x;
+  }
+}
+
+// Two at a time are each by itself, to the last bit, wherever they stand and whatever is beside them.
+TEST(Elementary, TwoArcTangentsAreEachByItself) {
+  RandomStream random(2, Stream::kWorld);
+  const std::array<double, 6> odd = {0.0, -0.0, 1e-310, -1e300, kInfinity, -kInfinity};
+  const auto any = [&] { return random.uniform() < 0.2 ? odd[random.bits() % 6] : any_number(random); };
+  for (int i = 0; i < 100000; ++i) {
+    const std::array<double, 2> y = {any(), any()}, x = {any(), any()};
+    const std::array<double, 2> both = arc_tangents(y, x);
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_EQ(both[k], arc_tangent(y[k], x[k])) << y[k] << ", " << x[k];
+      ASSERT_EQ(std::signbit(both[k]), std::signbit(arc_tangent(y[k], x[k]))) << y[k] << ", " << x[k];
+    }
   }
 }
 

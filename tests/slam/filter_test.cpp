@@ -18,16 +18,19 @@ template <class Name>
 class EveryFilter : public ::testing::Test {
  protected:
   Filter make(const FilterConfig& config, const Pose& start = {}, std::uint64_t seed = 1) const {
-    return make_filter(Name::kName, config, start, seed);
+    return make_filter(Name::kName, in_blocks_of<Name>(config), start, seed);
   }
 };
 using AllNames = ::testing::Types<DeadReckoningName, EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
-                                  UFastSlamKimName>;
+                                  UFastSlamKimName, FastSlam2BlockName, UFastSlamBlockName,
+                                  InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(EveryFilter, AllNames);
 
 template <class Name>
 class MappingFilter : public EveryFilter<Name> {};
-using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName, UFastSlamKimName>;
+using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName, UFastSlamKimName,
+                                      FastSlam2BlockName, UFastSlamBlockName,
+                                      InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(MappingFilter, MappingNames);
 
 FilterConfig config_for(const Drive& world, int particles = 30) {
@@ -285,7 +288,8 @@ TEST(MakeFilter, KnowsItsNamesAndRefusesTheRest) {
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim"));
+                ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim, "
+                                     "fastslam2_block, ufastslam_block"));
   }
 }
 
@@ -301,6 +305,7 @@ TEST(MakeFilter, RefusesSettingsThatCannotBe) {
     return false;
   };
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.particles = 0; }));
+  EXPECT_TRUE(refuses([](FilterConfig& c) { c.draw_every = 0; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.odometry_noise.v_per_v = -1.0; }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.range_floor_m = std::numeric_limits<double>::quiet_NaN(); }));
   EXPECT_TRUE(refuses([](FilterConfig& c) { c.noise_law = {.range_sd_per_m2 = -1.0}; }));

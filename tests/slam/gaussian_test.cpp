@@ -42,6 +42,32 @@ TEST_P(GaussianLaws, RootTimesItsTransposeIsTheCovarianceOfAnyRank) {
   }
 }
 
+// A L = b, of any rank, for b that is in the reach of L. Mutation: columns solved from the first on.
+TEST_P(GaussianLaws, RootIsUndoneWithinItsReach) {
+  for (int rank = 0; rank <= 3; ++rank) {
+    Eigen::Matrix3d spread = any_matrix<3, 3>(random_);
+    for (int j = rank; j < 3; ++j) spread.col(j).setZero();
+    const Eigen::Matrix3d covariance = spread * spread.transpose();
+    long repairs = 0;
+    const PivotedRoot<3> root = pivoted_root<3>(covariance, covariance.diagonal(), repairs);
+    EXPECT_EQ(root.rank, rank);
+    const Eigen::Matrix<double, 2, 3> b = any_matrix<2, 3>(random_) * root.lower;
+    const Eigen::Matrix<double, 2, 3> a = root.divide<2>(b);
+    EXPECT_TRUE(near(a * root.lower, b, 1e-9 * (1.0 + a.cwiseAbs().maxCoeff())));
+  }
+}
+
+// What is left of a variance of 1 is rounding, and no more to be drawn from than to be mended.
+TEST(PivotedRoot, PassesOverTheRoundingOfWhatItWasTakenFrom) {
+  Eigen::Matrix2d left;
+  left << 1e-17, 2e-17, 2e-17, 1e-17;
+  long repairs = 0;
+  EXPECT_EQ(pivoted_root<2>(left, Eigen::Vector2d::Ones(), repairs).rank, 0);
+  EXPECT_EQ(repairs, 0);
+  EXPECT_EQ(pivoted_root<2>(left, left.diagonal(), repairs).rank, 1);
+  EXPECT_EQ(repairs, 1);
+}
+
 TEST(SemidefiniteRoot, CountsWhatItHadToMend) {
   long repairs = 0;
   const Eigen::Matrix3d root = semidefinite_root<3>(Eigen::Vector3d(1.0, -0.5, 4.0).asDiagonal(), repairs);

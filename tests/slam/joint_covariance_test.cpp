@@ -44,7 +44,8 @@ class Twice {
     Eigen::MatrixXd by_all = Eigen::MatrixXd::Zero(2, matrix_.rows());
     by_all.leftCols<3>() = slope.leftCols<3>();
     by_all.middleCols<2>(3 + 2 * landmark) = slope.rightCols<2>();
-    const JointCovariance::Columns columns = triangle_.with_sighting(landmark, slope);
+    JointCovariance::Columns columns;
+    triangle_.with_sighting(landmark, slope, columns);
     EXPECT_TRUE(near(columns, matrix_ * by_all.transpose(), 1e-12 * scale()));
     const Eigen::Matrix2d innovation = by_all * matrix_ * by_all.transpose() + Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d root = innovation.llt().matrixL();

@@ -53,6 +53,13 @@ class Tied {
   Eigen::Matrix<double, 7, 7> root_;
 };
 
+// What a sighting shares with pose and landmarks.
+Eigen::MatrixXd shared_with(const JointBelief& belief, const JointSurprise& seen) {
+  JointCovariance::Columns shared;
+  belief.covariance.with_sighting(0, seen.slope, shared);
+  return shared;
+}
+
 template <class Model>
 class JointMoments : public ::testing::Test {};
 using BothModels = ::testing::Types<Linearised, Unscented>;
@@ -66,8 +73,8 @@ TYPED_TEST(JointMoments, AreThoseOfManySightings) {
   long repairs = 0;
   RandomStream random(3, Stream::kWorld);
   const Eigen::Matrix2d noise = Eigen::Vector2d(1e-4, 4e-6).asDiagonal();
-  const JointSurprise seen = surprise(TypeParam(), tied.belief, 0, {{}, noise}, repairs);
-  const Eigen::Matrix<double, 7, 2> shared = tied.belief.covariance.with_sighting(0, seen.slope);
+  const JointSurprise seen = surprise(TypeParam(), tied.belief, 0, {Eigen::Vector2d::Zero(), noise}, repairs);
+  const Eigen::Matrix<double, 7, 2> shared = shared_with(tied.belief, seen);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 7, 2> cross = Eigen::Matrix<double, 7, 2>::Zero();
@@ -130,8 +137,7 @@ TYPED_TEST(JointMoments, NeedNoInverseOfTheCovariance) {
       surprise(TypeParam(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
   const JointSurprise exact =
       surprise(Linearised(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
-  const Eigen::MatrixXd shared = belief.covariance.with_sighting(0, seen.slope);
-  EXPECT_TRUE(near(shared, belief.covariance.with_sighting(0, exact.slope), 1e-6));
+  EXPECT_TRUE(near(shared_with(belief, seen), shared_with(belief, exact), 1e-6));
   EXPECT_EQ(repairs, 0);
 }
 

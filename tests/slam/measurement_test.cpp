@@ -29,6 +29,20 @@ TEST(PredictSighting, AndLocateUndoEachOther) {
   }
 }
 
+TEST(PredictSighting, OfTwoViewsIsThatOfEach) {
+  RandomStream random(4, Stream::kWorld);
+  const auto any = [&] {
+    return View{{random.normal(), random.normal(), wrap_angle(3.0 * random.normal())},
+                {5.0 * random.normal(), 5.0 * random.normal()}};
+  };
+  for (int i = 0; i < 200; ++i) {
+    const View a = any(), b = any();
+    const Eigen::Matrix2d seen = predict_sightings(a, b);
+    EXPECT_EQ(seen.col(0), predict_sighting(a.robot, a.point));
+    EXPECT_EQ(seen.col(1), predict_sighting(b.robot, b.point));
+  }
+}
+
 TEST(PredictSighting, IsFiniteOnTopOfTheLandmark) {
   EXPECT_TRUE(near(predict_sighting({1.0, 1.0, 0.5}, {1.0, 1.0}), Eigen::Vector2d(0.0, -0.5), 1e-15));
 }

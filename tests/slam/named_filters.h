@@ -1,6 +1,8 @@
 /// The filters' names as types, for typed test suites.
 #pragma once
 
+#include "slam/filter_config.h"
+
 namespace stereobench::slam {
 
 struct DeadReckoningName {
@@ -21,5 +23,25 @@ struct UFastSlamName {
 struct UFastSlamKimName {
   static constexpr const char* kName = "ufastslam_kim";
 };
+
+struct FastSlam2BlockName {
+  static constexpr const char* kName = "fastslam2_block";
+};
+struct UFastSlamBlockName {
+  static constexpr const char* kName = "ufastslam_block";
+};
+
+// A filter in blocks of three frames, so that short drives have many.
+template <class Name>
+struct InShortBlocks : Name {
+  static constexpr int kDrawEvery = 3;
+};
+
+// Settings that say of blocks what a name says of them.
+template <class Name>
+FilterConfig in_blocks_of(FilterConfig config) {
+  if constexpr (requires { Name::kDrawEvery; }) config.draw_every = Name::kDrawEvery;
+  return config;
+}
 
 }  // namespace stereobench::slam

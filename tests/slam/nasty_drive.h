@@ -20,6 +20,14 @@ struct NastyStep {
   std::vector<Control> controls;
   std::vector<std::vector<RangeBearing>> frames;  // the step's own, and some that come late or twice
   int impossible = 0;                             // controls and sightings that cannot be
+
+  // Sightings that can be and have no identity.
+  int nameless() const {
+    int count = 0;
+    for (const std::vector<RangeBearing>& frame : frames)
+      for (const RangeBearing& seen : frame) count += is_valid(seen) && seen.landmark_id == kUnknown ? 1 : 0;
+    return count;
+  }
 };
 
 // Noise from none to a million times what it should be, of the odometry (so that P is 0, of rank 1, 2 or 3),
@@ -36,6 +44,7 @@ class NastyDrive {
     config.bearing_floor_rad = pick<3>({5e-5, 5e-5, 0.0});
     config.resample_below = pick<3>({0.0, 0.5, 1.0});
     config.gate_probability = pick<3>({0.9999, 0.5, 1.0});
+    config.draw_every = 1 + static_cast<int>(seed % 7);
     config.colour_spacing_m = pick<2>({0.0, 4.0});
     if (one_in(3)) config.noise_law = {0.1 * scale(), 0.01 * scale(), 0.02 * scale()};
     for (Eigen::Vector2d& place : places_) place << 8.0 * random_.normal(), 8.0 * random_.normal();

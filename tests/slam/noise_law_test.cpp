@@ -145,7 +145,8 @@ TEST(NoiseLaw, WhatIsFusedAtThePredictedRangeIsNotShort) {
   const double sd_m = kGrowth * 225.0;
   const double standard_error_m = sd_m / std::sqrt(200.0 * 200.0);
   const double second_order_m = 4.0 * sd_m * sd_m / 15.0;
-  for (const std::string name : {"ekf", "fastslam1", "fastslam2", "ufastslam", "ufastslam_kim"}) {
+  for (const std::string name : {"ekf", "fastslam1", "fastslam2", "ufastslam", "ufastslam_kim",
+                                 "fastslam2_block", "ufastslam_block"}) {
     FilterConfig config{.particles = 1, .gate_probability = 1.0};
     EXPECT_NEAR(fused_offset_m(name, config, true), -second_order_m, 0.15 * second_order_m) << name;
     config.noise_law = {.range_sd_per_m2 = kGrowth, .bearing_sd_rad = 1e-3};

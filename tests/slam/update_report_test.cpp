@@ -36,7 +36,7 @@ class Reports : public ::testing::Test {
   template <class Take>
   static Estimate drive(const Drive& world, const FilterConfig& config, std::uint64_t seed, const Take& take,
                         double claimed_variance = 1.0) {
-    Filter filter = make_filter(Name::kName, config, {}, seed);
+    Filter filter = make_filter(Name::kName, in_blocks_of<Name>(config), {}, seed);
     RandomStream odometry(seed, Stream::kOdometry);
     RandomStream sensor(seed, Stream::kOracle);
     Pose truth;
@@ -71,7 +71,9 @@ class Reports : public ::testing::Test {
     return all;
   }
 };
-using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName>;
+using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
+                                      FastSlam2BlockName, UFastSlamBlockName,
+                                      InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(Reports, MappingNames);
 
 // A report draws nothing and mends nothing that counts.

@@ -88,8 +88,9 @@ constexpr Fault kValueFaults[] = {
     {"particles: 20", "particles: \"20\"",
      "4: particles: expected a whole number from 1 to 100000 (got \"20\")"},
     {"ufastslam]", "kalman]",
-     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim "
-     "(got kalman)"},
+     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim, "
+     "fastslam2_block, ufastslam_block (got kalman)"},
+    {"particles: 20", "draw_every: 0", "4: draw_every: expected a whole number from 1 to 100000 (got 0)"},
     {"ufastslam]", "dead_reckoning]", "5: filters[1]: expected each filter once (got dead_reckoning)"},
     {"filters: [dead_reckoning, ufastslam]", "filters: []",
      "5: filters: expected a list of 1 to 16 (got a list of 0)"},
@@ -226,15 +227,6 @@ TEST(BadColours, DoNotMatterWhereNobodySeesThem) {
   const ScenarioFolder folder;
   EXPECT_THAT(complaint_about(folder.write("bad.yaml", text)),
               EndsWith("expected ball 0 at least 3.99 m away (got 3.577 m)"));
-}
-
-// Poses that are drawn together know no association.
-TEST(BadFilters, DrawPosesTogetherOnlyWhereIdentitiesAreKnown) {
-  const ScenarioFolder folder;
-  const auto file =
-      folder.write("bad.yaml", small_scenario_with("identity: known", "identity: none\ndraw_every: 5"));
-  EXPECT_THAT(complaint_about(file), EndsWith("poses are drawn together only where identities are known"));
-  EXPECT_EQ(complaint_about(file, {"draw_every=1"}), "no complaint");
 }
 
 TEST(BadBalls, AreAtMost254) {

@@ -38,7 +38,8 @@ TEST(ParseFilters, RefusesUnknownAndEmptyNamesAndSaysWhichThereAre) {
                            "ufastslam, fastslam2"})
     EXPECT_THAT([&] { parse_filters(text); },
                 ThrowsMessage<std::runtime_error>(
-                    HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim")))
+                    HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim, "
+                              "fastslam2_block, ufastslam_block")))
         << text;
 }
 

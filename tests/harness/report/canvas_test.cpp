@@ -104,6 +104,8 @@ TEST(ReportLegend, FiltersHaveALookOfTheirOwn) {
   EXPECT_EQ(filter_stroke("mine").colour.green, filter_stroke("mine").colour.green);
   EXPECT_NE(filter_stroke("mine").colour.green, filter_stroke("ufastslam").colour.green);
   EXPECT_EQ(filter_title("ufastslam"), "UFastSLAM");
+  EXPECT_EQ(filter_title("ufastslam_block"), "UFastSLAM in blocks");
+  EXPECT_NE(filter_stroke("ufastslam_block").dash, filter_stroke("ufastslam").dash);
   EXPECT_EQ(filter_title("mine"), "mine");
 }
 
