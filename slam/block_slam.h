@@ -43,7 +43,7 @@ namespace stereobench::slam {
 /// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
 /// for any K. Poor bearings are not: there the moments of the model are what a block costs, those by
 /// Jacobians more than FastSLAM 2.0's own, which are taken anew at each pose drawn, and those by sigma points
-/// less than the draws that they save.
+/// about as much as the draws that they save.
 ///
 /// @tparam Model Linearised, an EKF within a block, or Unscented
 ///

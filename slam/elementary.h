@@ -26,8 +26,7 @@ double tangent(double angle_rad);
 /// @return the direction of (x, y) in [-pi, pi], within 3.5 units in the last place; 0 for (0, 0)
 double arc_tangent(double y, double x);
 
-/// @return the arc tangents of two directions, to the last bit those of arc_tangent, in two thirds of the
-/// time
+/// @return the arc tangents of two directions at once, to the last bit those of arc_tangent
 std::array<double, 2> arc_tangents(const std::array<double, 2>& y, const std::array<double, 2>& x);
 
 /// @return e^x, within 1 unit in the last place

@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "vision/pixel_noise.h"
+
 namespace stereobench::vision {
 namespace {
 
@@ -156,7 +158,7 @@ ArcColours unmixed(const Mixture& mixture) {
 }  // namespace
 
 ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
-  const double noise_variance = settings.noise_sd_levels * settings.noise_sd_levels + 1.0 / 12.0;
+  const double noise_variance = pixel_variance(settings.noise_sd_levels);
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());

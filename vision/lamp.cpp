@@ -8,7 +8,6 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kUnknown = 1e-6;       // information of a lamp that nothing shows, by that of the pixels
 constexpr double kDarkSigmas = 3.0;     // a channel that shows no more of a ball tells no ratio
 constexpr double kLeastScatter = 0.01;  // sd of m between balls: rounding, and lamps that are not so distant
 constexpr double kWellKnown = 0.01;     // sd of m of a ball that needs no others, and the pixels
@@ -22,16 +21,11 @@ Eigen::Matrix<double, 3, 4> beyond_ratio(const Eigen::Vector3d& ratio) {
   return beyond;
 }
 
-Eigen::Matrix4d with_unknown(Eigen::Matrix4d information) {
-  information.diagonal().tail<3>().array() += kUnknown * information(0, 0);
-  return information;
-}
-
 // Of a ball's m, its c0 being unknown too.
 Eigen::Matrix3d ratio_information(const Eigen::Matrix4d& information, const Eigen::Vector4d& colours,
                                   double noise_variance) {
   const Eigen::Matrix<double, 3, 4> beyond = beyond_ratio(colours.tail<3>() / colours[0]);
-  const Eigen::Matrix3d covariance = beyond * with_unknown(information).inverse() * beyond.transpose();
+  const Eigen::Matrix3d covariance = beyond * information.inverse() * beyond.transpose();
   return covariance.inverse() * (colours[0] * colours[0] / noise_variance);
 }
 
@@ -49,7 +43,7 @@ SharedLamp::SharedLamp(const Eigen::Matrix3d& ratio, const std::array<Eigen::Mat
 LightColours SharedLamp::colours(const Eigen::Matrix4d& information, const LightColours& products) const {
   LightColours colours;
   for (int channel = 0; channel < 3; ++channel) {
-    const Eigen::Matrix4d both = with_unknown(information) + information_[static_cast<std::size_t>(channel)];
+    const Eigen::Matrix4d both = information + information_[static_cast<std::size_t>(channel)];
     colours.col(channel) = both.inverse() * products.col(channel);
   }
   return colours;

@@ -15,7 +15,8 @@ using LightColours = Eigen::Matrix<double, 4, 3>;
 struct BallLight {
   LightColours colours = LightColours::Zero();
   /// Of (c0, l) in each channel, in units of one pixel's: the sum of squares of (1, n) over the lit pixels
-  /// and of (1, 0) over the others. Zero where nothing is known.
+  /// and of (1, 0) over the others, and next to nothing of a lamp that no pixel shows. Zero where nothing is
+  /// known.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
 };
 

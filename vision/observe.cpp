@@ -12,6 +12,7 @@
 
 #include "vision/blobs.h"
 #include "vision/outline_fit.h"
+#include "vision/pixel_noise.h"
 #include "vision/range_bearing.h"
 #include "vision/rig.h"
 #include "vision/round_patch.h"
@@ -22,13 +23,11 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
-constexpr double kMostContradiction =
-    6.0;                            // arcs that scatter so much more than they should are of two things
-constexpr double kVague_px = 0.05;  // sd of a disparity, beyond which arcs that contradict tell nothing
-constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding to levels
-constexpr double kSamePlace = 0.5;            // radii between the centres of two outlines that are one
+constexpr double kMinPatch = 0.3;           // of the smallest outline's area that shows its colour clearly
+constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
+constexpr double kMostContradiction = 6.0;  // beyond it arcs are of two things
+constexpr double kVague_px = 0.05;          // sd of a disparity that contradicting arcs may have
+constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -49,6 +48,10 @@ void check_settings(const ObserverSettings& settings) {
 
 bool same_place(const MeasuredOutline& a, const MeasuredOutline& b) {
   return (a.centre_px - b.centre_px).norm() < kSamePlace * std::max(a.radius_px, b.radius_px);
+}
+
+FitSettings fit_settings(const Intrinsics& camera, const ObserverSettings& settings) {
+  return {camera, settings.noise_sd_levels, settings.min_radius_px};
 }
 
 using Outlines = ScratchVector<MeasuredOutline>;
@@ -76,9 +79,8 @@ Outlines outlines_in(const cv::Mat& image, const Intrinsics& camera, const Obser
     return without_duplicates(std::move(outlines));
   }
   const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
-  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
   for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
-    const auto outline = fit_outline(image, blob, fit_settings);
+    const auto outline = fit_outline(image, blob, fit_settings(camera, settings));
     if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
     outlines.push_back(*outline);
   }
@@ -93,15 +95,14 @@ struct Found {
 
 // Balls share their lamp: each is measured once more by what the others tell of it, seen by either eye.
 void share_lamp(std::span<Found> eyes, const Intrinsics& camera, const ObserverSettings& settings) {
-  LampPool pool(settings.noise_sd_levels * settings.noise_sd_levels + kQuantisation);
+  LampPool pool(pixel_variance(settings.noise_sd_levels));
   for (const Found& eye : eyes) {
     for (const MeasuredOutline& outline : eye.outlines) pool.add(outline.light);
   }
-  const FitSettings fit_settings{camera, settings.noise_sd_levels, settings.min_radius_px};
   for (Found& eye : eyes) {
     for (MeasuredOutline& outline : eye.outlines) {
       if (const auto lamp = pool.without(outline.light))
-        outline = refine_outline(eye.image, outline, *lamp, fit_settings);
+        outline = refine_outline(eye.image, outline, *lamp, fit_settings(camera, settings));
     }
   }
 }

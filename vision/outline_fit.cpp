@@ -240,9 +240,10 @@ double outside_area(const cv::Mat& image, const OutlineModel& outline) {
   return outside;
 }
 
-MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettings& unmix) {
+// @param result of which colour and patch are known
+MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettings& unmix,
+                         MeasuredOutline result) {
   const double radius = fit.outline.radius_px();
-  MeasuredOutline result;
   result.centre_px = fit.outline.centre_px();
   result.radius_px = radius;
   result.covariance_px2 = fit.covariance_px2;
@@ -263,10 +264,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels};
   const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
   if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
-  MeasuredOutline result = measured(*fit, image, unmix);
-  result.colour = blob.colour;
-  result.seen_px = blob.area_px;
-  return result;
+  return measured(*fit, image, unmix, {.colour = blob.colour, .seen_px = blob.area_px});
 }
 
 MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
@@ -274,10 +272,7 @@ MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outl
   const UnmixSettings unmix{palette_bgr(outline.colour), settings.noise_sd_levels};
   Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px}};
   if (!suit_shades(fit, image, settings, unmix, lamp)) return outline;
-  MeasuredOutline result = measured(fit, image, unmix);
-  result.colour = outline.colour;
-  result.seen_px = outline.seen_px;
-  return result;
+  return measured(fit, image, unmix, outline);
 }
 
 }  // namespace stereobench::vision

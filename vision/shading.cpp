@@ -64,12 +64,10 @@ class LampFit {
   }
 
   BallLight light(const std::optional<SharedLamp>& shared) const {
-    const Eigen::Matrix4d information = squares_.selfadjointView<Eigen::Lower>();
+    Eigen::Matrix4d information = squares_.selfadjointView<Eigen::Lower>();
+    information.diagonal().tail<3>().array() += kRidge * squares_(0, 0);
     if (shared) return {shared->colours(information, products_), information};
-    const double ridge = kRidge * squares_(0, 0);
-    const Eigen::Matrix4d ridged =
-        squares_ + Eigen::Vector4d(0.0, ridge, ridge, ridge).asDiagonal().toDenseMatrix();
-    return {ridged.ldlt().solve(products_), information};
+    return {information.ldlt().solve(products_), information};
   }
 
  private:
@@ -138,7 +136,7 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
   if (shared) {
     light_by(shared->direction(), samples);
   } else if (stride > 1) {
-    light_by(lamp_of(fit_lamp(samples, stride, shared)), samples);
+    light_by(lamp_of(fit_lamp(samples, stride, std::nullopt)), samples);
   }
   return Shading(surface, fit_lamp(samples, 1, shared));
 }

@@ -9,19 +9,18 @@
 #include "harness/scoring/ball_outline.h"
 #include "slam/elementary.h"
 #include "slam/motion.h"
+#include "vision/pixel_noise.h"
 #include "vision/range_bearing.h"
 #include "vision/rig.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr double kQuantisation = 1.0 / 12.0;  // variance of rounding
-
 /// The bound on range and bearing that those on both outlines' centres make; zero where there is none.
 Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::StereoFrame& frame,
                          const BallOutline& ball, double noise_sd_levels) {
   const vision::StereoRig& rig = gallery.rig;
-  const double noise = std::sqrt(noise_sd_levels * noise_sd_levels + kQuantisation);
+  const double noise = std::sqrt(vision::pixel_variance(noise_sd_levels));
   const auto left = outline_bound(frame.left.colour, rig.camera, ball.left, noise);
   const auto right = outline_bound(frame.right.colour, rig.camera, ball.right, noise);
   if (!left || !right || !(ball.left.centre_px.x() > ball.right.centre_px.x()))
