@@ -19,13 +19,23 @@ constexpr int kStepsPerLevel = 64;      // of the encoder's table: finer than th
 using Row = std::vector<float>;
 
 /// Half a Gaussian, normalised as the whole one: the weight of the centre, then of each neighbour outwards.
+/// It is the Gaussian's discrete analogue, exp(-t) I_n(t) with t = sd^2 (Lindeberg 1990), whose variance is t
+/// however small: samples of the Gaussian itself blur by less than half a pixel too little. The ratios of the
+/// Bessel functions come from their recurrence, I_n-1 = I_n+1 + (2n / t) I_n, read downwards.
 std::vector<float> half_gaussian(double sd_px) {
-  std::vector<double> weights(static_cast<std::size_t>(std::ceil(4.0 * sd_px)) + 1);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double x = static_cast<double>(i) / sd_px;
-    weights[i] = slam::exponential(-0.5 * x * x);
-    sum += i == 0 ? weights[i] : 2.0 * weights[i];
+  const double variance = sd_px * sd_px;
+  const auto reach = static_cast<std::size_t>(std::ceil(4.0 * sd_px)) + 2;
+  std::vector<double> ratios(reach + 1);  // of each weight to the one before
+  double ratio = 0.0;
+  for (std::size_t n = 2 * reach + 30; n > 0; --n) {
+    ratio = 1.0 / (2.0 * static_cast<double>(n) / variance + ratio);
+    if (n <= reach) ratios[n] = ratio;
+  }
+  std::vector<double> weights = {1.0};
+  double sum = 1.0;
+  for (std::size_t n = 1; n <= reach; ++n) {
+    weights.push_back(weights.back() * ratios[n]);
+    sum += 2.0 * weights.back();
   }
   std::vector<float> normalised;
   for (const double weight : weights) normalised.push_back(static_cast<float>(weight / sum));

@@ -14,6 +14,7 @@ namespace {
 // fewer pixels tell its shading, and k grows. Texture in the background is an error that an arc's pixels
 // share.
 constexpr double kQuantisation = 0.004;        // c
+constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
 constexpr double kNoiseFactor = 1.16;          // k of a large ball
 constexpr double kNoiseFactorPerRadius = 1.5;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
@@ -60,7 +61,8 @@ ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours
   for (const RimPixel& pixel : rim.pixels) {
     const ArcColours& colour = colours[pixel.sector];
     if (!colour.usable) continue;
-    pixels.push_back({pixel.position_px, colour.shown(pixel), colour.whole(pixel), pixel.sector});
+    pixels.push_back(
+        {pixel.position_px, colour.shown(pixel), colour.whole(pixel), pixel.distance_px, pixel.sector});
   }
   return pixels;
 }
@@ -70,11 +72,13 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
                                      double ramp_half_width_px) {
   ScratchVector<ArcOffset> arcs(colours.size());
   ScratchVector<double> information(colours.size(), 0.0);
-  const double noise_factor = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
+  const double in_focus = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
+  const double noise_factor = in_focus + (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
+  const double beyond_noise = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
   for (const UnmixedPixel& pixel : pixels) {
     const RimPoint point = outline.rim_point(pixel.position_px);
     const Coverage covered =
-        ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : edge_coverage(point);
+        ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : outline.coverage(point);
     if (covered.per_px <= 0.0) continue;
     const double slope = covered.per_px * pixel.whole;
     ArcOffset& arc = arcs[pixel.sector];
@@ -87,7 +91,7 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
     arcs[i].offset_px /= information[i];
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
-        (noise_factor * colours[i].noise_variance + kQuantisation * kQuantisation) / information[i] +
+        (noise_factor * colours[i].noise_variance + beyond_noise * beyond_noise) / information[i] +
         kTextureFactor * colours[i].texture_variance;
     arcs[i].weight = 1.0;
   }

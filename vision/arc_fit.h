@@ -31,8 +31,9 @@ struct OutlineStep {
 /// A pixel that the outline may cross, told apart into ball and background.
 struct UnmixedPixel {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
-  double shown = 0.0;  ///< how much of the ball it shows
-  double whole = 0.0;  ///< how much it would show if the ball covered it
+  double shown = 0.0;        ///< how much of the ball it shows
+  double whole = 0.0;        ///< how much it would show if the ball covered it
+  double distance_px = 0.0;  ///< from the outline that it was looked at for, positive outside
   std::size_t sector = 0;
 };
 
@@ -40,7 +41,7 @@ struct UnmixedPixel {
 ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours>& colours);
 
 /// Compares each arc's coverage with the model's.
-/// @param ramp_half_width_px of the model's edge; 0 for the pixels' own box filter
+/// @param ramp_half_width_px of the model's edge; 0 for what the picture makes of a sharp one
 /// @return one for each arc, weight 1 where it says something
 ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
                                      const ScratchVector<ArcColours>& colours, const OutlineModel& outline,

@@ -27,6 +27,9 @@ constexpr double kMinPatch = 0.3;           // of the smallest outline's area th
 constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
 constexpr double kMostContradiction = 6.0;  // beyond it arcs are of two things
 constexpr double kVague_px = 0.05;          // sd of a disparity that contradicting arcs may have
+constexpr double kInFocus_px = 0.2;         // a blur below this is the pixels' own
+constexpr int kLooks = 3;                   // at a picture out of focus
+constexpr double kSameBlur = 0.1;           // relative
 constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
@@ -50,10 +53,6 @@ bool same_place(const MeasuredOutline& a, const MeasuredOutline& b) {
   return (a.centre_px - b.centre_px).norm() < kSamePlace * std::max(a.radius_px, b.radius_px);
 }
 
-FitSettings fit_settings(const Intrinsics& camera, const ObserverSettings& settings) {
-  return {camera, settings.noise_sd_levels, settings.min_radius_px};
-}
-
 using Outlines = ScratchVector<MeasuredOutline>;
 
 // Pieces of one ball, and rims that look like a third colour, all lead to the same outline: the largest patch
@@ -70,31 +69,55 @@ Outlines without_duplicates(Outlines outlines) {
   return result;
 }
 
-Outlines outlines_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSettings& settings) {
-  check_settings(settings);
+// What was found in one eye's picture.
+struct Found {
+  const cv::Mat& image;
+  FitSettings settings;  // with the picture's blur
   Outlines outlines;
-  if (settings.learned != nullptr) {
-    const auto patches = find_round_patches(image, *settings.learned, settings.min_radius_px);
-    outlines.assign(patches.begin(), patches.end());
-    return without_duplicates(std::move(outlines));
-  }
-  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
-  for (const Blob& blob : find_blobs(image, std::lround(kMinPatch * smallest_disc))) {
-    const auto outline = fit_outline(image, blob, fit_settings(camera, settings));
+};
+
+Outlines fit_outlines(const cv::Mat& image, const ScratchVector<Blob>& blobs, const FitSettings& settings) {
+  Outlines outlines;
+  for (const Blob& blob : blobs) {
+    const auto outline = fit_outline(image, blob, settings);
     if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
     outlines.push_back(*outline);
   }
   return without_duplicates(std::move(outlines));
 }
 
-// What was found in one eye's picture.
-struct Found {
-  const cv::Mat& image;
-  Outlines outlines;
-};
+// The blur of a picture, as all of its balls tell it; 0 of one in focus.
+double blur_of(const Outlines& outlines) {
+  EdgeProfile edge;
+  for (const MeasuredOutline& outline : outlines) edge.add(outline.edge);
+  const double blur = edge.blur_px();
+  return blur < kInFocus_px ? 0.0 : blur;
+}
+
+// Outlines are measured as if they were in focus, which tells the picture's blur; where there is some, they
+// are measured again.
+Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSettings& settings) {
+  check_settings(settings);
+  Found found{image, {camera, settings.noise_sd_levels, settings.min_radius_px}, {}};
+  if (settings.learned != nullptr) {
+    const auto patches = find_round_patches(image, *settings.learned, settings.min_radius_px);
+    found.outlines.assign(patches.begin(), patches.end());
+    found.outlines = without_duplicates(std::move(found.outlines));
+    return found;
+  }
+  const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
+  const auto blobs = find_blobs(image, std::lround(kMinPatch * smallest_disc));
+  for (int look = 0; look < kLooks; ++look) {
+    found.outlines = fit_outlines(image, blobs, found.settings);
+    const double blur = blur_of(found.outlines);
+    if (std::abs(blur - found.settings.blur_px) <= kSameBlur * blur) break;
+    found.settings.blur_px = blur;
+  }
+  return found;
+}
 
 // Balls share their lamp: each is measured once more by what the others tell of it, seen by either eye.
-void share_lamp(std::span<Found> eyes, const Intrinsics& camera, const ObserverSettings& settings) {
+void share_lamp(std::span<Found> eyes, const ObserverSettings& settings) {
   LampPool pool(pixel_variance(settings.noise_sd_levels));
   for (const Found& eye : eyes) {
     for (const MeasuredOutline& outline : eye.outlines) pool.add(outline.light);
@@ -102,7 +125,7 @@ void share_lamp(std::span<Found> eyes, const Intrinsics& camera, const ObserverS
   for (Found& eye : eyes) {
     for (MeasuredOutline& outline : eye.outlines) {
       if (const auto lamp = pool.without(outline.light))
-        outline = refine_outline(eye.image, outline, *lamp, fit_settings(camera, settings));
+        outline = refine_outline(eye.image, outline, *lamp, eye.settings);
     }
   }
 }
@@ -142,8 +165,8 @@ bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
 std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
                                            const ObserverSettings& settings) {
   check_image(image, camera, "the");
-  Found found{image, outlines_in(image, camera, settings)};
-  share_lamp({&found, 1}, camera, settings);
+  Found found = find_in(image, camera, settings);
+  share_lamp({&found, 1}, settings);
   return {found.outlines.begin(), found.outlines.end()};
 }
 
@@ -153,9 +176,9 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
     throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   check_image(pair.left, rig.camera, "left");
   check_image(pair.right, rig.camera, "right");
-  std::array<Found, 2> eyes = {Found{pair.left, outlines_in(pair.left, rig.camera, settings)},
-                               Found{pair.right, outlines_in(pair.right, rig.camera, settings)}};
-  share_lamp(eyes, rig.camera, settings);
+  std::array<Found, 2> eyes = {find_in(pair.left, rig.camera, settings),
+                               find_in(pair.right, rig.camera, settings)};
+  share_lamp(eyes, settings);
   const auto pairs = match_outlines(eyes[0].outlines, eyes[1].outlines, rig, settings);
   std::vector<BallObservation> balls;
   balls.reserve(pairs.size());

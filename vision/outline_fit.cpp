@@ -30,16 +30,12 @@ constexpr double kTolerance_px = 0.02;   // between arcs of one sharp outline, w
 constexpr double kRimDepth_px = 1.2;     // inside of it a pixel is wholly the ball's
 constexpr double kRimSd_px = 0.005;      // of all arcs together: what a camera and a lamp make of a rim
 constexpr double kCentreSd_px = 0.0003;  // the same of opposite ones
-constexpr double kMinFill = 0.25;        // of the bounding box; a disc has 0.79
+constexpr double kCentreSdPerBlur = 0.0007;
+constexpr double kMinFill = 0.25;  // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
 constexpr double kMaxRadius_px = 1000.0;
 constexpr double kRoughness_px = 0.75;  // of a patch's edge, in noise
 constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for it, a part may be hidden
-
-Eigen::Vector3d palette_bgr(int colour) {
-  const PaletteColour& c = kPalette[static_cast<std::size_t>(colour)];
-  return {static_cast<double>(c.b), static_cast<double>(c.g), static_cast<double>(c.r)};
-}
 
 struct Fit {
   OutlineModel outline;
@@ -62,12 +58,13 @@ bool may_be_ball(const Blob& blob) {
 
 // Patches lack their rims and, in noise, some of their pixels: the box remembers the size, the moments the
 // centre.
-OutlineModel first_guess(const Blob& blob, const Intrinsics& camera) {
+OutlineModel first_guess(const Blob& blob, const FitSettings& settings) {
   const double area = static_cast<double>(blob.area_px);
   const Eigen::Vector2d moments(blob.sum_x / area, blob.sum_y / area);
   const Eigen::Vector2d box(0.5 * (blob.min_x + blob.max_x), 0.5 * (blob.min_y + blob.max_y));
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
-  return {camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px};
+  return {settings.camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px,
+          settings.blur_px};
 }
 
 // Compares what is seen with the outline as it is.
@@ -86,7 +83,8 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
   const Eigen::Vector3d change = step->change_px.cwiseMax(-limit).cwiseMin(limit);
   const double radius = fit.outline.radius_px() + change.z();
   if (!(radius >= 0.5 * settings.min_radius_px) || radius > kMaxRadius_px) return std::nullopt;
-  fit.outline = OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius);
+  fit.outline =
+      OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius, settings.blur_px);
   fit.covariance_px2 = step->covariance_px2;
   fit.contradiction = step->contradiction;
   move_outline(fit.arcs, change);
@@ -97,7 +95,7 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
 // Looks again at the image, around where the outline is by now.
 void look(Fit& fit, const cv::Mat& image, const UnmixSettings& settings, double ramp_px,
           const std::optional<Shading>& shading = std::nullopt) {
-  fit.rim = collect_rim(image, fit.outline, std::max(kPure_px, ramp_px), shading);
+  fit.rim = collect_rim(image, fit.outline, std::max(fit.outline.pure_px(), ramp_px), shading);
   fit.colours = arc_colours(fit.rim, settings);
   fit.pixels = unmix(fit.rim, fit.colours);
   compare(fit, ramp_px);
@@ -176,13 +174,13 @@ bool holds(const OutlineModel& outline, const Blob& blob) {
 // From the patch as a whole, and unless all around speaks for what comes of that, from its boundary.
 std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSettings& settings,
                              const UnmixSettings& unmix) {
-  std::optional<Fit> whole = converge(image, first_guess(blob, settings.camera), settings, unmix);
+  std::optional<Fit> whole = converge(image, first_guess(blob, settings), settings, unmix);
   const bool held = whole && holds(whole->outline, blob);
   if (held && support(*whole) >= kWhole * whole->outline.radius_px()) return whole;
   const std::optional<Circle> circle = guess_from_boundary(image, blob);
   if (!circle) return whole;
-  std::optional<Fit> part =
-      converge(image, {settings.camera, circle->centre_px, circle->radius_px}, settings, unmix);
+  std::optional<Fit> part = converge(
+      image, {settings.camera, circle->centre_px, circle->radius_px, settings.blur_px}, settings, unmix);
   if (!part || !whole) return part ? part : whole;
   const bool part_held = holds(part->outline, blob);
   const bool better = part_held != held ? part_held : support(*part) > support(*whole);
@@ -191,7 +189,7 @@ std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSe
 
 // How much of a rim pixel something else covers, of the part that the ball should.
 double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) {
-  const double covered = edge_coverage(fit.outline.rim_point(pixel.position_px)).fraction;
+  const double covered = fit.outline.coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
   if (covered <= 0.0) return 0.0;
   if (!colours.usable) return shades.contain(pixel.colour.head<3>()) ? 0.0 : covered;
@@ -202,9 +200,10 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
 // Area of the outline, px, in which the image does not show the ball.
 double hidden_area(const cv::Mat& image, const Fit& fit, const Shades& shades) {
   double hidden = 0.0;
-  const double inside = 1.0 - kRimDepth_px / fit.outline.semi_minor_px();
+  const double blur_reach = fit.outline.blur_reach_px();
+  const double inside = 1.0 - (kRimDepth_px + blur_reach) / fit.outline.semi_minor_px();
   for (const RimPixel& pixel : fit.rim.pixels) {
-    if (pixel.distance_px < 1.0 && fit.outline.level(pixel.position_px) > inside)
+    if (pixel.distance_px < 1.0 + blur_reach && fit.outline.level(pixel.position_px) > inside)
       hidden += hidden_part(fit, pixel, shades);
   }
   const double extent = fit.outline.semi_major_px();
@@ -240,6 +239,16 @@ double outside_area(const cv::Mat& image, const OutlineModel& outline) {
   return outside;
 }
 
+// What the arcs that agree show of their edges.
+EdgeProfile edge_of(const Fit& fit) {
+  EdgeProfile edge;
+  for (const UnmixedPixel& pixel : fit.pixels) {
+    if (fit.arcs[pixel.sector].weight < 1.0) continue;
+    edge.add(pixel.distance_px, pixel.shown, pixel.whole, 1.0 / fit.colours[pixel.sector].noise_variance);
+  }
+  return edge;
+}
+
 // @param result of which colour and patch are known
 MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettings& unmix,
                          MeasuredOutline result) {
@@ -247,12 +256,14 @@ MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettin
   result.centre_px = fit.outline.centre_px();
   result.radius_px = radius;
   result.covariance_px2 = fit.covariance_px2;
-  result.covariance_px2.diagonal() += Eigen::Vector3d(kCentreSd_px, kCentreSd_px, kRimSd_px).cwiseAbs2();
+  const double centre_sd = kCentreSd_px + kCentreSdPerBlur * fit.outline.blur_px();
+  result.covariance_px2.diagonal() += Eigen::Vector3d(centre_sd, centre_sd, kRimSd_px).cwiseAbs2();
   result.contradiction = fit.contradiction;
   const Shades shades(unmix.ball_bgr, unmix.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit.outline) / (kPi * radius * radius);
   result.light = fit.light;
+  result.edge = edge_of(fit);
   return result;
 }
 
@@ -270,7 +281,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
 MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
                                const FitSettings& settings) {
   const UnmixSettings unmix{palette_bgr(outline.colour), settings.noise_sd_levels};
-  Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px}};
+  Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px, settings.blur_px}};
   if (!suit_shades(fit, image, settings, unmix, lamp)) return outline;
   return measured(fit, image, unmix, outline);
 }

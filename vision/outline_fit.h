@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/blobs.h"
+#include "vision/edge_profile.h"
 #include "vision/lamp.h"
 #include "vision/types.h"
 
@@ -23,6 +24,7 @@ struct MeasuredOutline {
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by
   BallLight light;                ///< on what is seen of the ball
+  EdgeProfile edge;               ///< where it is seen
 };
 
 /// What outlines are fitted with.
@@ -30,6 +32,7 @@ struct FitSettings {
   Intrinsics camera;
   double noise_sd_levels = 0.0;
   double min_radius_px = 3.0;
+  double blur_px = 0.0;  ///< standard deviation of the Gaussian that the picture makes of a point
 };
 
 /// Fits a ball's outline (centre and radius of an ellipse of known shape) around a patch of colour.

@@ -5,8 +5,9 @@
 
 namespace stereobench::vision {
 
-OutlineModel::OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px)
-    : centre_px_(centre_px), radius_px_(radius_px) {
+OutlineModel::OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px,
+                           double blur_px)
+    : centre_px_(centre_px), radius_px_(radius_px), blur_px_(blur_px) {
   // a / b = sqrt((D^2 - R^2) / (Z^2 - R^2)) = sqrt(1 + |m|^2 / (1 + b^2)), m the centre in normalised
   // coordinates
   const Eigen::Vector2d off_axis_px = centre_px - Eigen::Vector2d(camera.cx_px, camera.cy_px);

@@ -1,20 +1,14 @@
 /// The outline that a ball of a given centre and size must have, and what it covers of each pixel.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
 
+#include "vision/edge.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
-
-/// Where a pixel lies relative to an outline.
-struct RimPoint {
-  double distance_px = 0.0;                          ///< to the outline, positive outside, to first order
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit, outwards
-};
 
 /// Pixel columns of one row, both inclusive; none when last < first.
 struct ColumnSpan {
@@ -28,7 +22,9 @@ class OutlineModel {
  public:
   /// @param centre_px of the ellipse
   /// @param radius_px > 0
-  OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px);
+  /// @param blur_px standard deviation of the Gaussian that the picture makes of a point; 0 in focus
+  OutlineModel(const Intrinsics& camera, const Eigen::Vector2d& centre_px, double radius_px,
+               double blur_px = 0.0);
 
   /// @param pixel_px a pixel's centre, not the ellipse's centre itself
   RimPoint rim_point(const Eigen::Vector2d& pixel_px) const {
@@ -51,6 +47,13 @@ class OutlineModel {
     return (level2 - level2.sqrt()) / slope;
   }
 
+  /// How much of a pixel the ball covers. A blurred edge seems to lie where less of the disc is round about:
+  /// blur^2 / 2r further inside than it is.
+  Coverage coverage(const RimPoint& rim) const {
+    if (blur_px_ <= 0.0) return edge_coverage(rim);
+    return blurred_coverage(rim.distance_px + 0.5 * blur_px_ * blur_px_ / radius_px_, blur_px_);
+  }
+
   /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.
   double level(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector2d offset = pixel_px - centre_px_;
@@ -62,47 +65,22 @@ class OutlineModel {
 
   const Eigen::Vector2d& centre_px() const { return centre_px_; }
   double radius_px() const { return radius_px_; }
+  double blur_px() const { return blur_px_; }
   double semi_major_px() const { return semi_major_px_; }
   double semi_minor_px() const { return radius_px_ * radius_px_ / semi_major_px_; }
+
+  /// How much further than a sharp edge a blurred one reaches.
+  double blur_reach_px() const { return 2.0 * blur_px_; }
+
+  /// How far inside or outside of the outline a pixel shows one thing alone.
+  double pure_px() const { return 0.9 + blur_reach_px(); }
 
  private:
   Eigen::Vector2d centre_px_;
   double radius_px_;
+  double blur_px_;
   double semi_major_px_;
   Eigen::Matrix2d form_;  // offset' form offset = 1 on the outline
 };
-
-/// What a straight edge leaves of a pixel, and how fast that changes when the edge moves outwards.
-struct Coverage {
-  double fraction = 0.0;  ///< of the pixel's square inside the outline, in [0, 1]
-  double per_px = 0.0;    ///< derivative by a shift of the edge along its normal, >= 0
-};
-
-/// Coverage of a unit square pixel by the inside of an edge: a box filter, exact for straight edges.
-inline Coverage edge_coverage(const RimPoint& rim) {
-  const double nx = std::abs(rim.normal.x());
-  const double ny = std::abs(rim.normal.y());
-  const double larger = std::max(nx, ny);
-  const double smaller = std::min(nx, ny);
-  const double t = std::abs(rim.distance_px);
-  const double corner = 0.5 * (larger + smaller);  // where the edge leaves the square
-  const double side = 0.5 * (larger - smaller);    // where it meets the square's nearer corner
-  if (t >= corner) return {rim.distance_px > 0.0 ? 0.0 : 1.0, 0.0};
-  double outer = 0.5 - t / larger;
-  double per_px = 1.0 / larger;
-  if (t > side) {
-    outer = (corner - t) * (corner - t) / (2.0 * larger * smaller);
-    per_px = (corner - t) / (larger * smaller);
-  }
-  return {rim.distance_px > 0.0 ? outer : 1.0 - outer, per_px};
-}
-
-/// The same with the edge blurred to a ramp of the given half width: finds outlines that are further away.
-inline Coverage ramp_coverage(const RimPoint& rim, double half_width_px) {
-  const double fraction = 0.5 - 0.5 * rim.distance_px / half_width_px;
-  if (fraction <= 0.0) return {0.0, 0.0};
-  if (fraction >= 1.0) return {1.0, 0.0};
-  return {fraction, 0.5 / half_width_px};
-}
 
 }  // namespace stereobench::vision

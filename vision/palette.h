@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include <Eigen/Core>
 
 namespace stereobench::vision {
 
@@ -35,5 +38,12 @@ inline constexpr std::array<PaletteColour, 18> kPalette = {{
     {154, 68, 229},
     {229, 165, 68},
 }};
+
+/// @param colour index into kPalette
+/// @return (blue, green, red) in levels, as pictures have them
+inline Eigen::Vector3d palette_bgr(int colour) {
+  const PaletteColour& paint = kPalette[static_cast<std::size_t>(colour)];
+  return {static_cast<double>(paint.b), static_cast<double>(paint.g), static_cast<double>(paint.r)};
+}
 
 }  // namespace stereobench::vision

@@ -39,8 +39,9 @@ class RimCollector {
         outline_(outline),
         shading_(shading),
         gap_px_(gap_px),
-        near_px_(std::max(gap_px, kCrossed_px)),
-        reach_px_(gap_px + kRingWidth_px) {
+        near_px_(std::max(gap_px, kCrossed_px + outline.blur_reach_px())),
+        no_ball_px_(kNoBall_px + outline.blur_reach_px()),
+        reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()) {
     const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, 9.0, 96.0);
     rim_.arcs.resize(static_cast<std::size_t>(arcs));
     rim_.has_shades = shading.has_value();
@@ -93,9 +94,17 @@ class RimCollector {
     RimArc& arc = rim_.arcs[pixel.sector];
     if (pixel.distance_px >= gap_px_) arc.outside.add(pixel.colour);
     if (pixel.distance_px >= near_px_) return;
-    if (shading_ && pixel.distance_px < kNoBall_px) pixel.shade.head<3>() = shading_->at(pixel.position_px);
+    if (shading_ && pixel.distance_px < no_ball_px_) pixel.shade.head<3>() = shade_of(pixel.position_px);
     if (pixel.distance_px < gap_px_) (pixel.distance_px <= -gap_px_ ? arc.inside : arc.crossed).add(pixel);
     if (pixel.distance_px > -near_px_) rim_.pixels.push_back(pixel);
+  }
+
+  // What the ball shows in a pixel, or as much of it as lies there.
+  Eigen::Vector3d shade_of(const Eigen::Vector2d& pixel_px) const {
+    if (outline_.blur_px() <= 0.0) return shading_->at(pixel_px);
+    const RimPoint rim = outline_.rim_point(pixel_px);
+    const auto [near, deep] = covered_depths_px(rim.distance_px, outline_.blur_px());
+    return 0.5 * (shading_->at(pixel_px - near * rim.normal) + shading_->at(pixel_px - deep * rim.normal));
   }
 
   const cv::Mat& image_;
@@ -103,6 +112,7 @@ class RimCollector {
   const std::optional<Shading>& shading_;
   double gap_px_;
   double near_px_;
+  double no_ball_px_;
   double reach_px_;
   Rim rim_;
 };

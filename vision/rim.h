@@ -73,7 +73,7 @@ struct Rim {
   bool has_shades = false;         ///< whether the ball's shading was known
 };
 
-/// How far from the outline a pixel may be that a sharp outline crosses, once it is about right.
+/// How far from the outline a pixel may be that an outline in focus crosses, once it is about right.
 inline constexpr double kCrossed_px = 1.5;
 
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width.

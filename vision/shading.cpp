@@ -29,7 +29,7 @@ Eigen::Vector4d as_light(const Eigen::Vector3d& normal) {
 ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface,
                                   const OutlineModel& outline, const Shades& shades) {
   ScratchVector<Sample> samples;
-  const double inside = 1.0 - kPure_px / outline.semi_minor_px();
+  const double inside = 1.0 - outline.pure_px() / outline.semi_minor_px();
   const double extent = outline.semi_major_px();
   const double area = 3.14 * outline.radius_px() * outline.radius_px();
   const double most = kSamplesPerRadius * outline.radius_px();

@@ -38,9 +38,6 @@ class Shades {
   double noise_tolerance_;
 };
 
-/// How far inside or outside of a sharp outline a pixel shows one thing alone.
-inline constexpr double kPure_px = 0.9;
-
 /// The surface of the ball behind an outline.
 class BallSurface {
  public:

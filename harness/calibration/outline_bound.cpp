@@ -11,6 +11,7 @@
 namespace stereobench::harness {
 namespace {
 
+constexpr double kBlurReach = 4.0;  // standard deviations of a blurred edge
 constexpr double kBeside_px = 1.5;  // of the outline, where a rim pixel's two colours are pure
 
 Eigen::Vector3d colour_at(const cv::Mat& light, const Eigen::Vector2d& place) {
@@ -23,9 +24,10 @@ Eigen::Vector3d colour_at(const cv::Mat& light, const Eigen::Vector2d& place) {
 }  // namespace
 
 std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision::Intrinsics& camera,
-                                             const vision::OutlineEllipse& outline, double noise_sd_levels) {
-  const vision::OutlineModel model(camera, outline.centre_px, outline.radius_px());
-  const Eigen::Vector2d reach = outline.half_extent_px().array() + 1.0;
+                                             const vision::OutlineEllipse& outline,
+                                             const PictureQuality& quality) {
+  const vision::OutlineModel model(camera, outline.centre_px, outline.radius_px(), quality.blur_px);
+  const Eigen::Vector2d reach = outline.half_extent_px().array() + 1.0 + kBlurReach * quality.blur_px;
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (int y = static_cast<int>(outline.centre_px.y() - reach.y()); y <= outline.centre_px.y() + reach.y();
        ++y) {
@@ -33,7 +35,7 @@ std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision:
          ++x) {
       const Eigen::Vector2d pixel(x, y);
       const vision::RimPoint rim = model.rim_point(pixel);
-      const double slope = vision::edge_coverage(rim).per_px;
+      const double slope = model.coverage(rim).per_px;
       if (!(slope > 0.0)) continue;
       const Eigen::Vector2d on_rim = pixel - rim.distance_px * rim.normal;
       const Eigen::Vector3d contrast = colour_at(light, on_rim - kBeside_px * rim.normal) -
@@ -41,7 +43,7 @@ std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision:
       information += slope * slope * contrast.squaredNorm() * rim.normal * rim.normal.transpose();
     }
   }
-  information /= noise_sd_levels * noise_sd_levels;
+  information /= quality.noise_sd_levels * quality.noise_sd_levels;
   if (!(information.determinant() > 0.0)) return std::nullopt;
   return information.inverse();
 }

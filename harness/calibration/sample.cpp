@@ -20,9 +20,10 @@ namespace {
 Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::StereoFrame& frame,
                          const BallOutline& ball, double noise_sd_levels) {
   const vision::StereoRig& rig = gallery.rig;
-  const double noise = std::sqrt(vision::pixel_variance(noise_sd_levels));
-  const auto left = outline_bound(frame.left.colour, rig.camera, ball.left, noise);
-  const auto right = outline_bound(frame.right.colour, rig.camera, ball.right, noise);
+  const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
+                                  gallery.camera.defocus_sd_px};
+  const auto left = outline_bound(frame.left.colour, rig.camera, ball.left, quality);
+  const auto right = outline_bound(frame.right.colour, rig.camera, ball.right, quality);
   if (!left || !right || !(ball.left.centre_px.x() > ball.right.centre_px.x()))
     return Eigen::Matrix2d::Zero();
   const double radius_m = gallery.world.balls[static_cast<std::size_t>(ball.ball)].radius_m;

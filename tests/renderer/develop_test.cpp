@@ -152,10 +152,11 @@ TEST(Develop, IsDecodedToTheLightThatWasSeen) {
 
 // A point of light keeps its light and becomes a Gaussian of the size asked for. It is bright and the gain
 // makes its faint skirts visible.
+// Mutations: samples of the Gaussian for weights make 0.46 of 0.5, and 0.09 of 0.3.
 TEST(Develop, DefocusSpreadsAPointToTheSizeAskedFor) {
-  for (const double sd : {0.8, 1.5, 3.0}) {
+  for (const double sd : {0.2, 0.3, 0.5, 0.8, 1.5, 3.0}) {
     cv::Mat light(81, 81, CV_8UC3, cv::Scalar::all(0));
-    const double gain = 255.0 * 2.0 * M_PI * sd * sd * 0.9 / 255.0;  // the peak stays below white
+    const double gain = std::max(0.9, 2.0 * M_PI * sd * sd * 0.7);  // the peak stays below white
     light.at<cv::Vec3b>(40, 40) = cv::Vec3b(255, 255, 255);
     const cv::Mat picture = develop(light, {.defocus_sd_px = sd, .gain = gain}, 0, 0);
     double sum = 0.0, second = 0.0;
@@ -167,7 +168,7 @@ TEST(Develop, DefocusSpreadsAPointToTheSizeAskedFor) {
       }
     }
     EXPECT_NEAR(sum / (255.0 * gain), 1.0, 0.02) << sd;
-    EXPECT_NEAR(std::sqrt(second / sum), sd, 0.03 * sd) << sd;
+    EXPECT_NEAR(std::sqrt(second / sum), sd, 0.03 * sd + 0.015) << sd;  // whole levels
   }
 }
 

@@ -10,46 +10,6 @@
 namespace stereobench::vision {
 namespace {
 
-// A half plane's share of the unit square around a pixel, counted on a fine grid.
-double counted_share(const RimPoint& rim) {
-  constexpr int kGrid = 200;
-  int inside = 0;
-  for (int j = 0; j < kGrid; ++j) {
-    for (int i = 0; i < kGrid; ++i) {
-      const Eigen::Vector2d p((i + 0.5) / kGrid - 0.5, (j + 0.5) / kGrid - 0.5);
-      if (p.dot(rim.normal) + rim.distance_px < 0.0) ++inside;
-    }
-  }
-  return static_cast<double>(inside) / (kGrid * kGrid);
-}
-
-TEST(EdgeCoverage, IsTheShareOfThePixelInsideTheEdge) {
-  painter::Dice dice(1);
-  for (int i = 0; i < 300; ++i) {
-    const double angle = dice.uniform(0.0, 6.2832);
-    const RimPoint rim{dice.uniform(-0.9, 0.9), {std::cos(angle), std::sin(angle)}};
-    ASSERT_NEAR(edge_coverage(rim).fraction, counted_share(rim), 0.006) << rim.distance_px << " at " << angle;
-  }
-}
-
-template <typename CoverageAt>
-void expect_derivative(CoverageAt coverage, const RimPoint& rim) {
-  const double step = 1e-6;
-  const double inner = coverage({rim.distance_px - step, rim.normal}).fraction;
-  const double outer = coverage({rim.distance_px + step, rim.normal}).fraction;
-  ASSERT_NEAR(coverage(rim).per_px, (inner - outer) / (2.0 * step), 1e-4);
-}
-
-TEST(EdgeCoverage, DerivativesAreThoseOfTheCoverage) {
-  painter::Dice dice(2);
-  for (int i = 0; i < 300; ++i) {
-    const double angle = dice.uniform(0.0, 6.2832);
-    const RimPoint rim{dice.uniform(-2.4, 2.4), {std::cos(angle), std::sin(angle)}};
-    expect_derivative([](const RimPoint& r) { return edge_coverage(r); }, rim);
-    expect_derivative([](const RimPoint& r) { return ramp_coverage(r, 2.0); }, rim);
-  }
-}
-
 // Catches: a dropped eccentricity correction in the fit's model, a transposed axis.
 TEST(OutlineModel, IsTheOutlineOfTheBallThatItBelongsTo) {
   painter::Dice dice(3);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <Eigen/Geometry>
+#include <opencv2/imgproc.hpp>
 
 #include "vision/palette.h"
 
@@ -33,22 +34,20 @@ double tiles(double x, double y) {
 class EyePainter {
  public:
   EyePainter(const Scene& scene, const StereoRig& rig, double shift_m)
-      : scene_(scene),
-        camera_(rig.camera),
-        shift_m_(shift_m),
-        image_(camera_.height_px, camera_.width_px, CV_8UC3) {}
+      : scene_(scene), camera_(rig.camera), shift_m_(shift_m) {}
 
-  cv::Mat paint(Dice& dice) {
-    std::vector<Eigen::Vector3d> row(static_cast<std::size_t>(camera_.width_px));
+  /// The light that each pixel gathers, CV_64FC3.
+  cv::Mat light() {
+    cv::Mat light(camera_.height_px, camera_.width_px, CV_64FC3);
     for (int y = 0; y < camera_.height_px; ++y) {
       choose_row(y);
-      for (int x = 0; x < camera_.width_px; ++x) row[static_cast<std::size_t>(x)] = pixel(x, y);
-      auto* out = image_.ptr<std::uint8_t>(y);
-      for (const Eigen::Vector3d& bgr : row) {
-        for (int c = 0; c < 3; ++c) *out++ = quantise(bgr(c) + noise(dice));
+      auto* row = light.ptr<cv::Vec3d>(y);
+      for (int x = 0; x < camera_.width_px; ++x) {
+        const Eigen::Vector3d bgr = pixel(x, y);
+        row[x] = {bgr.x(), bgr.y(), bgr.z()};
       }
     }
-    return image_;
+    return light;
   }
 
   // Share of a ball's whole outline that this eye sees, counted on a grid of 64 x 64 points of the outline's
@@ -103,12 +102,6 @@ class EyePainter {
   }
   Eigen::Vector3d in_eye(std::size_t ball) const {
     return scene_.balls[ball].in_camera - Eigen::Vector3d(shift_m_, 0.0, 0.0);
-  }
-  double noise(Dice& dice) const {
-    return scene_.noise_sd_levels > 0.0 ? scene_.noise_sd_levels * dice.normal() : 0.0;
-  }
-  static std::uint8_t quantise(double level) {
-    return static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
   }
 
   double ball_depth(std::size_t ball, const Eigen::Vector3d& direction) const {
@@ -220,9 +213,37 @@ class EyePainter {
   const Scene& scene_;
   const Intrinsics& camera_;
   double shift_m_;
-  cv::Mat image_;
   std::vector<Near> near_;
 };
+
+// What the lens blurs is painted on a finer grid, blurred there, and gathered by the pixels.
+cv::Mat blurred_light(const Scene& scene, const StereoRig& rig, double shift_m) {
+  constexpr int kFiner = 3;
+  StereoRig fine = rig;
+  fine.camera.width_px *= kFiner;
+  fine.camera.height_px *= kFiner;
+  fine.camera.focal_px *= kFiner;
+  fine.camera.cx_px = kFiner * (rig.camera.cx_px + 0.5) - 0.5;
+  fine.camera.cy_px = kFiner * (rig.camera.cy_px + 0.5) - 0.5;
+  cv::Mat light = EyePainter(scene, fine, shift_m).light();
+  cv::GaussianBlur(light, light, {}, kFiner * scene.blur_px, 0.0, cv::BORDER_REPLICATE);
+  cv::Mat gathered;
+  cv::resize(light, gathered, {rig.camera.width_px, rig.camera.height_px}, 0.0, 0.0, cv::INTER_AREA);
+  return gathered;
+}
+
+cv::Mat paint_eye(const Scene& scene, const StereoRig& rig, double shift_m, Dice& dice) {
+  const cv::Mat light =
+      scene.blur_px > 0.0 ? blurred_light(scene, rig, shift_m) : EyePainter(scene, rig, shift_m).light();
+  cv::Mat image(light.size(), CV_8UC3);
+  const auto* in = light.ptr<double>();
+  auto* out = image.ptr<std::uint8_t>();
+  for (std::size_t i = 0; i < light.total() * 3; ++i) {
+    const double noise = scene.noise_sd_levels > 0.0 ? scene.noise_sd_levels * dice.normal() : 0.0;
+    out[i] = static_cast<std::uint8_t>(std::clamp(std::lround(in[i] + noise), 0L, 255L));
+  }
+  return image;
+}
 
 Eigen::Vector2d pinhole(const StereoRig& rig, const Eigen::Vector3d& point, double shift_m) {
   return {rig.camera.cx_px + rig.camera.focal_px * (point.x() - shift_m) / point.z(),
@@ -269,10 +290,8 @@ StereoRig rig_with_pictures_of(int width_px, int height_px) {
 
 StereoPair paint(const Scene& scene, const StereoRig& rig) {
   Dice dice(scene.seed);
-  EyePainter left(scene, rig, 0.0);
-  EyePainter right(scene, rig, rig.baseline_m);
-  const cv::Mat left_image = left.paint(dice);
-  return {left_image, right.paint(dice)};
+  const cv::Mat left = paint_eye(scene, rig, 0.0, dice);
+  return {left, paint_eye(scene, rig, rig.baseline_m, dice)};
 }
 
 double visible_share(const Scene& scene, const StereoRig& rig, std::size_t ball) {

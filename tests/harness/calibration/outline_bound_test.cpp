@@ -22,7 +22,7 @@ TEST(OutlineBound, IsThatOfADiscOfOneContrast) {
     cv::circle(light, cv::Point(512, 384), static_cast<int>(radius), cv::Scalar(160, 100, 20), cv::FILLED);
     const double contrast = std::hypot(60.0, 80.0);
     const vision::OutlineEllipse outline = {centre, radius, radius, 0.0};
-    const auto bound = outline_bound(light, camera, outline, 2.0);
+    const auto bound = outline_bound(light, camera, outline, {.noise_sd_levels = 2.0});
     ASSERT_TRUE(bound);
     const double closed = 4.0 / (contrast * contrast * kPi * radius);
     EXPECT_GT((*bound)(0, 0) / closed, 0.98) << radius;
@@ -35,7 +35,7 @@ TEST(OutlineBound, IsThatOfADiscOfOneContrast) {
 TEST(OutlineBound, IsNothingWithoutContrast) {
   const vision::Intrinsics camera;
   const cv::Mat light(camera.height_px, camera.width_px, CV_8UC3, cv::Scalar(100, 100, 100));
-  EXPECT_FALSE(outline_bound(light, camera, {{300.0, 300.0}, 20.0, 20.0, 0.0}, 2.0));
+  EXPECT_FALSE(outline_bound(light, camera, {{300.0, 300.0}, 20.0, 20.0, 0.0}, {.noise_sd_levels = 2.0}));
 }
 
 }  // namespace
