@@ -1,14 +1,10 @@
 #include "slam/belief.h"
 
-#include <cmath>
-
-#include "slam/motion.h"
-
 namespace stereobench::slam {
 namespace {
 
 /// T P T' for a turn T of x and y, whose result is as symmetric as P.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& p, const SineCosine& heading) {
+Eigen::Matrix3d turned(const Eigen::Matrix3d& p, SineCosine heading) {
   const auto [s, c] = heading;
   const double across = 2.0 * s * c * p(0, 1);
   const double xy = s * c * (p(0, 0) - p(1, 1)) + (c * c - s * s) * p(0, 1);
@@ -23,17 +19,9 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& p, const SineCosine& heading) {
 
 }  // namespace
 
-Pose displace(const Pose& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.heading_rad + step.z())};
-}
-
-Eigen::Vector3d displacement(const Pose& to, const Pose& from) {
-  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.heading_rad - from.heading_rad)};
-}
-
 Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point) {
   Eigen::Matrix<double, 2, 3> slope = Eigen::Matrix<double, 2, 3>::Identity();
-  slope.col(2) << -(point.y() - pose.y_m), point.x() - pose.x_m;
+  slope.col(2) = swing(pose, point);
   return slope;
 }
 
@@ -41,16 +29,15 @@ PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now
   return follow(world_from_start, sine_cosine(world_from_start.heading_rad), start_from_now);
 }
 
-PoseBelief follow(const Pose& world_from_start, const SineCosine& heading, const PoseBelief& start_from_now) {
+PoseBelief follow(const Pose& world_from_start, SineCosine heading, const PoseBelief& start_from_now) {
   return {compose(world_from_start, heading, start_from_now.mean),
           turned(start_from_now.covariance, heading)};
 }
 
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now) {
   PoseBelief now = follow(world_from_start.mean, start_from_now);
-  Eigen::Matrix3d by_start = Eigen::Matrix3d::Identity();
-  by_start.topRows<2>() = lever(world_from_start.mean, {now.mean.x_m, now.mean.y_m});
-  now.covariance += by_start * world_from_start.covariance * by_start.transpose();
+  now.covariance +=
+      swung(world_from_start.covariance, swing(world_from_start.mean, {now.mean.x_m, now.mean.y_m}));
   return now;
 }
 

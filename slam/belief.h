@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "slam/elementary.h"
+#include "slam/motion.h"
 #include "slam/types.h"
 
 namespace stereobench::slam {
@@ -35,10 +36,30 @@ struct Innovation {
 };
 
 /// The mean of poses moved by a small vector (dx, dy, dheading).
-Pose displace(const Pose& pose, const Eigen::Vector3d& step);
+inline Pose displace(const Pose& pose, const Eigen::Vector3d& step) {
+  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.heading_rad + step.z())};
+}
 
 /// The vector (dx, dy, dheading) from one pose to another, the heading wrapped.
-Eigen::Vector3d displacement(const Pose& to, const Pose& from);
+inline Eigen::Vector3d displacement(const Pose& to, const Pose& from) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.heading_rad - from.heading_rad)};
+}
+
+/// How far a point that is fixed to the robot swings when its heading is off by a little, m/rad.
+inline Eigen::Vector2d swing(const Pose& pose, const Eigen::Vector2d& point) {
+  return {-(point.y() - pose.y_m), point.x() - pose.x_m};
+}
+
+/// T P T' for a pose whose errors in x and y grow by swing times that of its heading.
+inline Eigen::Matrix3d swung(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& swing) {
+  Eigen::Matrix3d half;  // T P
+  for (int j = 0; j < 3; ++j)
+    half.col(j) = covariance.col(j) + covariance(2, j) * Eigen::Vector3d(swing.x(), swing.y(), 0.0);
+  Eigen::Matrix3d result;
+  for (int j = 0; j < 2; ++j) result.col(j) = half.col(j) + swing[j] * half.col(2);
+  result.col(2) = half.col(2);
+  return result;
+}
 
 /// How a small error of a pose (x, y, heading) shifts a point that is fixed to the robot.
 ///
@@ -53,7 +74,7 @@ Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point
 PoseBelief follow(const Pose& world_from_start, const PoseBelief& start_from_now);
 
 /// The same where the sine and cosine of the pose's heading are at hand.
-PoseBelief follow(const Pose& world_from_start, const SineCosine& heading, const PoseBelief& start_from_now);
+PoseBelief follow(const Pose& world_from_start, SineCosine heading, const PoseBelief& start_from_now);
 
 /// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now);

@@ -1,5 +1,7 @@
 #include "slam/block_path.h"
 
+#include <cmath>
+
 #include "slam/gaussian.h"
 #include "slam/measurement.h"
 
@@ -18,11 +20,11 @@ Pose draw_one(const PoseBelief& belief, const Eigen::Vector3d& variances, Random
 /// What is believed of a pose once the next one is known.
 PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, const Pose& next) {
   constexpr double kVanishing = 1e-10;
-  const Eigen::Vector2d turn = lever(belief.mean, {predicted.mean.x_m, predicted.mean.y_m}).col(2);
+  const Eigen::Vector2d turn = swing(belief.mean, {predicted.mean.x_m, predicted.mean.y_m});
   PoseBelief given = belief;
-  Eigen::Matrix3d shared = belief.covariance;  // with the next pose: P F'
-  shared.col(0) += turn.x() * belief.covariance.col(2);
-  shared.col(1) += turn.y() * belief.covariance.col(2);
+  Eigen::Matrix3d shared;  // with the next pose: P F'
+  for (int j = 0; j < 2; ++j) shared.col(j) = belief.covariance.col(j) + turn[j] * belief.covariance.col(2);
+  shared.col(2) = belief.covariance.col(2);
   Eigen::Matrix3d ahead = predicted.covariance;
   Eigen::Vector3d unexplained = displacement(next, predicted.mean);
   Eigen::Vector3d learnt = Eigen::Vector3d::Zero();
@@ -33,7 +35,7 @@ PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, con
     const Eigen::Vector3d gain = with_seen / variance;
     const double seen = unexplained[i];
     learnt += gain * seen;
-    given.covariance -= gain * with_seen.transpose();
+    for (int j = 0; j < 3; ++j) given.covariance.col(j) -= gain * with_seen[j];
     for (int j = i + 1; j < 3; ++j) {
       const double share = ahead(i, j) / variance;
       unexplained[j] -= share * seen;
@@ -53,26 +55,31 @@ void PathSampler<Model>::correct(PoseBelief& belief, const PlacedSighting& seen,
   const long mended = repairs;
   const Factor2 factor(expected.covariance, repairs);
   if (repairs != mended) return;  // all is certain: nothing is learnt
-  const Eigen::Matrix<double, 3, 2> gain = factor.divide<3>(expected.cross);
-  const Eigen::Vector3d step = gain * sighting_residual(seen.observation.range_bearing, expected.expected);
-  const Eigen::Matrix3d covariance = belief.covariance - gain * expected.cross.transpose();
-  if (!step.allFinite() || !covariance.allFinite()) {
+
+  // What the pose shares with the sighting, and the surprise.
+  Eigen::Matrix<double, 4, 2> whitened;
+  whitened.topRows<3>() = expected.cross;
+  whitened.row(3) = sighting_residual(seen.observation.range_bearing, expected.expected).transpose();
+  factor.whiten_in_place(whitened);
+  if (!std::isfinite(whitened.squaredNorm() * whitened.row(3).squaredNorm())) {
     ++repairs;
     return;
   }
-  belief.mean = displace(belief.mean, step);
-  belief.covariance = 0.5 * (covariance + covariance.transpose());
+  const Eigen::Vector3d shared_range = whitened.col(0).head<3>();
+  const Eigen::Vector3d shared_bearing = whitened.col(1).head<3>();
+  belief.mean = displace(belief.mean, shared_range * whitened(3, 0) + shared_bearing * whitened(3, 1));
+  for (int j = 0; j < 3; ++j)
+    belief.covariance.col(j) -= shared_range * shared_range[j] + shared_bearing * shared_bearing[j];
 }
 
 template <class Model>
 void PathSampler<Model>::filter(const Pose& start, std::span<const PathStep> steps, long& repairs) {
-  filtered_.clear();
-  PoseBelief now{start};
-  for (const PathStep& step : steps) {
-    now = follow(now, step.motion);
-    const PoseBelief before = now;
-    for (const PlacedSighting& seen : step.seen) correct(now, seen, repairs);
-    filtered_.push_back({before, now});
+  filtered_.resize(steps.size());
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    auto& [before, after] = filtered_[k];
+    before = follow(k > 0 ? filtered_[k - 1].after : PoseBelief{start}, steps[k].motion);
+    after = before;
+    for (const PlacedSighting& seen : steps[k].seen) correct(after, seen, repairs);
   }
 }
 

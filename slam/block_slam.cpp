@@ -14,16 +14,6 @@
 #include "slam/resampling.h"
 
 namespace stereobench::slam {
-namespace {
-
-bool is_finite(const JointBelief& belief) {
-  const Pose& pose = belief.pose;
-  return std::isfinite(pose.x_m * pose.x_m + pose.y_m * pose.y_m) && std::isfinite(pose.heading_rad) &&
-         belief.covariance.pose().allFinite();
-}
-
-}  // namespace
-
 template <class Model>
 BlockSlam<Model>::BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed)
     : config_(config),
@@ -111,19 +101,19 @@ void BlockSlam<Model>::absorb(const Frame& frame) {
     const auto targets = std::span(targets_).subspan(i * width, width);
     follow(mine.now, frame.motion);
     worth_[i] = correct(mine, frame, targets, std::span(expected_).subspan(i * width, width));
-    add_new(mine, frame);
+    if (known_in_block_ < slots_of_block_.size()) add_new(mine, frame);
     for (const Target& target : targets) mine.fates.push_back(target.fate);
   }
 }
 
-/// Corrects a particle by the landmarks that it knows.
+/// Corrects a particle by the landmarks that it knows. What is no number corrects nothing, and a likelihood
+/// that is none ends the particle.
 /// @return the log likelihood of the frame
 template <class Model>
 double BlockSlam<Model>::correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
                                  std::span<ExpectedSighting> expected) {
   for (std::size_t place = mine.now.landmarks.size(); place < known_in_block_; ++place)
     take_up(mine, slots_of_block_[place]);
-  before_ = mine.now;
   double log_likelihood = 0.0;
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const Sighting& sighting = frame.sightings[k];
@@ -131,9 +121,8 @@ double BlockSlam<Model>::correct(Hypothesis& mine, const Frame& frame, std::span
     expected[k] = use(mine, sighting, targets[k]);
     log_likelihood += expected[k].log_likelihood;
   }
-  if (is_finite(mine.now) && std::isfinite(log_likelihood)) return log_likelihood;
+  if (std::isfinite(log_likelihood)) return log_likelihood;
   ++counters_.covariance_repairs;
-  mine.now = before_;
   return -std::numeric_limits<double>::infinity();
 }
 

@@ -116,7 +116,6 @@ class BlockSlam {
   std::vector<Target> targets_;      ///< of the last frame, particle by particle
   std::vector<ExpectedSighting> expected_;  ///< the same, for a report
   std::vector<int> origins_;                ///< by slot: the sighting that founded the landmark
-  JointBelief before_;                      ///< of one particle, should a frame end in what is no number
   JointCovariance::Columns whitened_;       ///< memory for corrections
   PathSampler<Model> sampler_;
   std::vector<PathStep> steps_;   ///< the block as one particle sees it

@@ -38,7 +38,7 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
   JointBelief predicted = belief_;
   correct_one_by_one(decided);
   if (counters_.gated_measurements > gated_before) {
-    predicted.covariance.move_pose(Eigen::Matrix3d::Identity(), bend_covariance(motion));
+    predicted.covariance.move_pose(Eigen::Vector2d::Zero(), bend_covariance(motion));
     if (auto fitted = fit_at_once(predicted, decided)) {
       belief_ = *std::move(fitted);
       counters_.gated_measurements = gated_before;
@@ -84,7 +84,7 @@ void EkfSlam::find_candidates(const Sighting& sighting, int index, std::vector<C
     if (Existence::is_dead(map_[j].log_odds)) continue;
     const auto landmark = static_cast<int>(j);
     const JointSurprise seen =
-        surprise(belief_, belief_, landmark, sighting.observation, counters_.covariance_repairs);
+        surprise(belief_, landmark, sighting.observation, counters_.covariance_repairs);
     const double cost = seen.squared_length() + seen.factor.log_det_2_pi();
     const bool gated = !(seen.squared_length() <= gate_ && cost <= cost_of_new);
     if (gated && !((place - belief_.landmarks[j]).norm() < near_m_)) continue;
@@ -98,7 +98,7 @@ void EkfSlam::associate_jointly(std::span<const Sighting> frame, std::vector<Can
   std::vector<JointSurprise> surprises;
   for (const Candidate& pair : candidates) {
     const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
-    surprises.push_back(surprise(belief_, belief_, pair.landmark, observation, counters_.covariance_repairs));
+    surprises.push_back(surprise(belief_, pair.landmark, observation, counters_.covariance_repairs));
     pairings.push_back({surprises.back().residual, surprises.back().covariance});
   }
   const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
@@ -131,7 +131,7 @@ Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
   const Observation& observation = sighting.observation;
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
-  JointSurprise seen = surprise(belief_, belief_, landmark, observation, repairs);
+  JointSurprise seen = surprise(belief_, landmark, observation, repairs);
   if (config_.report_updates) report_.innovations.push_back({sighting.index, seen.squared_length()});
   if (!(seen.squared_length() <= gate_)) {
     ++counters_.gated_measurements;
@@ -142,9 +142,9 @@ Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
       if (config_.report_updates) report_.innovations.back().refused = true;
       return fate;
     }
-    belief_.covariance.move_pose(Eigen::Matrix3d::Identity(),
+    belief_.covariance.move_pose(Eigen::Vector2d::Zero(),
                                  drift_covariance(belief_.pose, belief_.landmarks[j], observation));
-    seen = surprise(belief_, belief_, landmark, observation, repairs);
+    seen = surprise(belief_, landmark, observation, repairs);
   }
   if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
   return Fate::kUse;
@@ -232,7 +232,7 @@ bool EkfSlam::may_be_mapped(const Sighting& sighting, const LandmarkBelief& foun
     if ((belief_.landmarks[j] - found.mean).norm() < near_m_) return true;
     if (near_m_ > 0.0 || map_[j].claimed) continue;
     const double squared_length =
-        surprise(belief_, belief_, static_cast<int>(j), sighting.observation, counters_.covariance_repairs)
+        surprise(belief_, static_cast<int>(j), sighting.observation, counters_.covariance_repairs)
             .squared_length();
     if (!(squared_length <= nearest)) continue;
     nearest = squared_length;

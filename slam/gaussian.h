@@ -66,7 +66,8 @@ PivotedRoot<kSize> pivoted_root(const Eigen::Matrix<double, kSize, kSize>& covar
     root.pivots[static_cast<std::size_t>(column)] = pivot;
     root.rank = column + 1;
     root.lower.col(column) = rest.col(pivot) / std::sqrt(rest(pivot, pivot));
-    rest -= root.lower.col(column) * root.lower.col(column).transpose();
+    if (root.rank == kSize) return root;  // nothing is left
+    for (int j = 0; j < kSize; ++j) rest.col(j) -= root.lower.col(column) * root.lower(j, column);
     rest.row(pivot).setZero();  // exactly, so that the row is not chosen again
     rest.col(pivot).setZero();
   }
@@ -148,8 +149,11 @@ class Factor2 {
   /// The same where a matrix may be overwritten.
   template <int kRows>
   void whiten_in_place(Eigen::Matrix<double, kRows, 2>& a) const {
-    a.col(1) = (a.col(1) - slope_ * a.col(0)) / std::sqrt(second_);
-    a.col(0) /= std::sqrt(first_);
+    const Eigen::Array2d sd(std::sqrt(first_), std::sqrt(second_));
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      a(i, 1) = (a(i, 1) - slope_ * a(i, 0)) / sd[1];
+      a(i, 0) /= sd[0];
+    }
   }
 
  private:

@@ -7,31 +7,54 @@
 #include "slam/noise_law.h"
 
 namespace stereobench::slam {
+namespace {
+
+/// Of a sighting by (pose, landmark).
+Eigen::Matrix<double, 2, 5> slope_of(const LinearSighting& linear) {
+  Eigen::Matrix<double, 2, 5> slope;
+  slope.leftCols<3>() = linear.by_pose();
+  slope.rightCols<2>() = linear.by_landmark;
+  return slope;
+}
+
+/// A sighting against what is expected of it, by slopes that say how that depends on (pose, landmark).
+JointSurprise against(const JointBelief& belief, int landmark, const Eigen::Matrix<double, 2, 5>& slope,
+                      const Eigen::Vector2d& expected, const Observation& observation, long& repairs) {
+  Eigen::Matrix<double, 2, 5> near;
+  near.noalias() = slope * belief.covariance.pose_and_landmark(landmark);
+  const Eigen::Matrix2d noise = noise_at(observation, expected);
+  Eigen::Matrix2d covariance;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) covariance(i, j) = near.row(i).dot(slope.row(j)) + noise(i, j);
+  }
+  return {slope, near, covariance, Factor2(covariance, repairs),
+          sighting_residual(observation.range_bearing, expected)};
+}
+
+}  // namespace
 
 void follow(JointBelief& belief, const PoseBelief& motion) {
   const PoseBelief moved = follow(belief.pose, motion);
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
-  by_pose.topRows<2>() = lever(belief.pose, {moved.mean.x_m, moved.mean.y_m});
-  belief.covariance.move_pose(by_pose, moved.covariance);
+  belief.covariance.move_pose(swing(belief.pose, {moved.mean.x_m, moved.mean.y_m}), moved.covariance);
   belief.pose = moved.mean;
+}
+
+JointSurprise surprise(const JointBelief& belief, int landmark, const Observation& observation,
+                       long& repairs) {
+  const LinearSighting linear =
+      linearise_sighting(belief.pose, belief.landmarks[static_cast<std::size_t>(landmark)]);
+  return against(belief, landmark, slope_of(linear), linear.expected, observation, repairs);
 }
 
 JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
                        const Observation& observation, long& repairs) {
   const auto j = static_cast<std::size_t>(landmark);
   const LinearSighting linear = linearise_sighting(at.pose, at.landmarks[j]);
-  Eigen::Matrix<double, 2, 5> slope;
-  slope.leftCols<3>() = linear.by_pose();
-  slope.rightCols<2>() = linear.by_landmark;
+  const Eigen::Matrix<double, 2, 5> slope = slope_of(linear);
   Eigen::Matrix<double, 5, 1> off;
   off.head<3>() = displacement(belief.pose, at.pose);
   off.tail<2>() = belief.landmarks[j] - at.landmarks[j];
-  const Eigen::Vector2d expected = linear.expected + slope * off;
-  const Eigen::Matrix2d covariance =
-      slope * belief.covariance.pose_and_landmark(landmark) * slope.transpose() +
-      noise_at(observation, expected);
-  return {slope, covariance, Factor2(covariance, repairs),
-          sighting_residual(observation.range_bearing, expected)};
+  return against(belief, landmark, slope, linear.expected + slope * off, observation, repairs);
 }
 
 void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs) {
@@ -41,7 +64,7 @@ void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long&
 
 void correct(JointBelief& belief, int landmark, const JointSurprise& seen, JointCovariance::Columns& whitened,
              long& repairs) {
-  belief.covariance.with_sighting(landmark, seen.slope, whitened);
+  belief.covariance.with_sighting(landmark, seen.slope, seen.near, whitened);
   seen.factor.whiten_in_place(whitened);
   const Eigen::Vector2d residual = seen.factor.whiten<1>(seen.residual.transpose()).transpose();
   if (!std::isfinite(whitened.squaredNorm() * residual.squaredNorm())) {

@@ -19,6 +19,7 @@ struct JointBelief {
 /// A sighting held against what its landmark should look like.
 struct JointSurprise {
   Eigen::Matrix<double, 2, 5> slope;  ///< H: of (range, bearing) by (pose, landmark)
+  Eigen::Matrix<double, 2, 5> near;   ///< H P: covariance with (pose, landmark)
   Eigen::Matrix2d covariance;         ///< S = H P H' + R
   Factor2 factor;                     ///< of S
   Eigen::Vector2d residual;           ///< wrapped
@@ -33,8 +34,13 @@ void follow(JointBelief& belief, const PoseBelief& motion);
 
 /// Looks for a landmark where it should be.
 ///
-/// @param at where the sighting is linearised: the belief itself, or a better guess of what it will become
 /// @param repairs counts covariances that had to be mended
+JointSurprise surprise(const JointBelief& belief, int landmark, const Observation& observation,
+                       long& repairs);
+
+/// The same, linearised elsewhere.
+///
+/// @param at a better guess of what the belief will become
 JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
                        const Observation& observation, long& repairs);
 

@@ -2,14 +2,22 @@
 
 #include <Eigen/LU>
 
+#include "slam/belief.h"
 #include "slam/gaussian.h"
 
 namespace stereobench::slam {
 namespace {
 
-/// By its leading minors (Sylvester).
-bool is_definite(const Eigen::Matrix3d& p) {
-  return p(0, 0) > 0.0 && p(0, 0) * p(1, 1) > p(1, 0) * p(1, 0) && p.determinant() > 0.0;
+/// By its leading minors (Sylvester). What is left of a heading once x and y are known may be nothing up to
+/// rounding: that is no news to mend(), which would leave it as it is.
+bool is_semidefinite(const Eigen::Matrix3d& p) {
+  constexpr double kClear = 1e-6;
+  constexpr double kRounding = 1e-8;
+  const double square = p(0, 0) * p(1, 1);
+  const double minor = square - p(1, 0) * p(1, 0);
+  if (!(p(0, 0) > 0.0 && minor > 0.0)) return false;
+  const double slack = minor > kClear * square ? kRounding * minor * p(2, 2) : 0.0;
+  return p.determinant() > -slack;
 }
 
 }  // namespace
@@ -63,14 +71,15 @@ Eigen::Matrix<double, 5, 5> JointCovariance::between(int one, int other) const {
   return block;
 }
 
-void JointCovariance::move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise) {
-  const Eigen::Matrix3d moved = by_pose * pose() * by_pose.transpose() + noise;
+void JointCovariance::move_pose(const Eigen::Vector2d& swing, const Eigen::Matrix3d& noise) {
+  const Eigen::Matrix3d moved = swung(pose(), swing);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) at(i, j) = moved(i, j);
+    for (Eigen::Index j = 0; j <= i; ++j) row(i)[j] = moved(i, j) + noise(i, j);
   }
   for (Eigen::Index i = 3; i < size_; ++i) {
-    Eigen::Map<Eigen::Vector3d> with_pose(row(i));
-    with_pose = (by_pose * with_pose).eval();
+    double* with_pose = row(i);
+    with_pose[0] += swing.x() * with_pose[2];
+    with_pose[1] += swing.y() * with_pose[2];
   }
 }
 
@@ -95,23 +104,22 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
 }
 
 void JointCovariance::with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope,
-                                    Columns& product) const {
-  const auto along = [&](const double* with_pose, double with_x, double with_y) {
+                                    const Eigen::Matrix<double, 2, 5>& near, Columns& product) const {
+  product.resize(size_, 2);
+  const auto along = [&](Eigen::Index i, double with_x, double with_y) {
+    const double* with_pose = row(i);
     const Eigen::Vector2d with_seen = slope.col(0) * with_pose[0] + slope.col(1) * with_pose[1] +
                                       slope.col(2) * with_pose[2] + slope.col(3) * with_x +
                                       slope.col(4) * with_y;
-    return Eigen::RowVector2d(with_seen.transpose());
+    product.row(i) = with_seen.transpose();
   };
-  product.resize(size_, 2);
   const Eigen::Index first = row_of(index);
   const double* x = row(first);
   const double* y = row(first + 1);
-  const Eigen::Matrix3d of_pose = pose();
-  for (Eigen::Index i = 0; i < 3; ++i) product.row(i) = along(of_pose.data() + 3 * i, x[i], y[i]);
-  for (Eigen::Index i = 3; i < first; ++i) product.row(i) = along(row(i), x[i], y[i]);
-  product.row(first) = along(x, x[first], y[first]);
-  for (Eigen::Index i = first + 1; i < size_; ++i)
-    product.row(i) = along(row(i), row(i)[first], row(i)[first + 1]);
+  product.topRows<3>() = near.leftCols<3>().transpose();
+  for (Eigen::Index i = 3; i < first; ++i) along(i, x[i], y[i]);
+  product.middleRows<2>(first) = near.rightCols<2>().transpose();
+  for (Eigen::Index i = first + 2; i < size_; ++i) along(i, row(i)[first], row(i)[first + 1]);
 }
 
 void JointCovariance::subtract(const Columns& whitened, long& repairs) {
@@ -119,20 +127,22 @@ void JointCovariance::subtract(const Columns& whitened, long& repairs) {
   using Known = Eigen::Map<const Eigen::Vector2d>;
   const double* a = whitened.col(0).data();
   const double* b = whitened.col(1).data();
+  double* next = lower_.data();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) row(i)[j] -= a[i] * a[j] + b[i] * b[j];
+    for (Eigen::Index j = 0; j <= i; ++j) *next++ -= a[i] * a[j] + b[i] * b[j];
   }
   for (Eigen::Index i = 3; i < size_; i += 2) {  // both rows of a landmark in one go, two columns at a time
-    double* x = row(i);
-    double* y = row(i + 1);
+    double* x = next;
+    double* y = x + i + 1;
     for (Eigen::Index j = 0; j <= i; j += 2) {
       const Known with_a(a + j), with_b(b + j);
       Pair(x + j) -= a[i] * with_a + b[i] * with_b;
       Pair(y + j) -= a[i + 1] * with_a + b[i + 1] * with_b;
     }
     y[i + 1] -= a[i + 1] * a[i + 1] + b[i + 1] * b[i + 1];
+    next = y + i + 2;
   }
-  if (!is_definite(pose())) mend_block<3>(0, repairs);
+  if (!is_semidefinite(pose())) mend_block<3>(0, repairs);
   for (Eigen::Index first = 3; first < size_; first += 2) {
     const double x = row(first)[first];
     const double* last = row(first + 1) + first;  // covariance with x, then y's own variance

@@ -34,8 +34,9 @@ class JointCovariance {
   /// Forgets all landmarks and all uncertainty, and keeps the memory for those to come.
   void clear();
 
-  /// The pose becomes by_pose * pose + noise, which no landmark feels: O(n).
-  void move_pose(const Eigen::Matrix3d& by_pose, const Eigen::Matrix3d& noise);
+  /// The pose moves, which no landmark feels: O(n).
+  /// @param swing by which errors in x and y grow with that of the heading, m/rad
+  void move_pose(const Eigen::Vector2d& swing, const Eigen::Matrix3d& noise);
 
   /// A landmark becomes by_pose * pose + noise: O(n).
   ///
@@ -45,8 +46,11 @@ class JointCovariance {
              long& repairs);
 
   /// P H' for a sighting with slopes by (pose, landmark), in O(n).
+  ///
+  /// @param near what is known of it: slope * pose_and_landmark(index)
   /// @param product receives it; memory is asked for when its size changes alone
-  void with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope, Columns& product) const;
+  void with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope,
+                     const Eigen::Matrix<double, 2, 5>& near, Columns& product) const;
 
   /// P - W W', in O(n^2) / 2.
   ///

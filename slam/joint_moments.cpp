@@ -43,25 +43,26 @@ Line line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, con
 
 JointSurprise surprise(const Linearised&, const JointBelief& belief, int landmark,
                        const Observation& observation, long& repairs) {
-  return surprise(belief, belief, landmark, observation, repairs);
+  return surprise(belief, landmark, observation, repairs);
 }
 
 JointSurprise surprise(const Unscented& model, const JointBelief& belief, int landmark,
                        const Observation& observation, long& repairs) {
   const Eigen::Vector2d& place = belief.landmarks[static_cast<std::size_t>(landmark)];
-  const Eigen::Vector2d centre = predict_sighting(belief.pose, place);
+  const Eigen::Vector2d apart(place.x() - belief.pose.x_m, place.y() - belief.pose.y_m);
+  const Eigen::Vector2d centre = polar(apart);
   const auto off = [&](const Vector5& step) {
-    const View above{displace(belief.pose, step.head<3>()), place + step.tail<2>()};
-    const View below{displace(belief.pose, -step.head<3>()), place - step.tail<2>()};
-    Eigen::Matrix2d seen = predict_sightings(above, below);
-    for (int side = 0; side < 2; ++side) seen.col(side) = sighting_residual(seen.col(side), centre);
+    const Eigen::Vector2d shift = step.tail<2>() - step.head<2>();
+    Eigen::Matrix2d seen = polar(apart + shift, apart - shift).colwise() - centre;
+    seen.row(1) << wrap_angle(seen(1, 0) - step[2]), wrap_angle(seen(1, 1) + step[2]);
     return seen;
   };
-  const Line line =
-      line_through(belief.covariance.pose_and_landmark(landmark), model.weights(), off, repairs);
-  const Eigen::Vector2d expected(centre.x() + line.mean.x(), wrap_angle(centre.y() + line.mean.y()));
+  const Matrix5 uncertain = belief.covariance.pose_and_landmark(landmark);
+  const Line line = line_through(uncertain, model.weights(), off, repairs);
+  const Eigen::Vector2d expected(centre.x() + line.mean.x(),
+                                 wrap_angle(centre.y() - belief.pose.heading_rad + line.mean.y()));
   const Eigen::Matrix2d covariance = line.covariance + noise_at(observation, expected);
-  return {line.slope, covariance, Factor2(covariance, repairs),
+  return {line.slope, line.slope * uncertain, covariance, Factor2(covariance, repairs),
           sighting_residual(observation.range_bearing, expected)};
 }
 

@@ -56,12 +56,14 @@ Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& la
 Innovation Linearised::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
                               const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(belief.mean, place);
-  const Eigen::Matrix<double, 2, 3> by_pose = linear.by_pose();
+  const Eigen::Matrix2d by_place = -linear.by_landmark;  // of the robot; its heading takes from the bearing
   Innovation innovation;
   innovation.expected = linear.expected;
-  innovation.cross.noalias() = belief.covariance * by_pose.transpose();
-  innovation.covariance.noalias() = by_pose * innovation.cross;
-  innovation.covariance += noise_at(observation, innovation.expected);
+  innovation.cross.noalias() = belief.covariance.leftCols<2>() * by_place.transpose();
+  innovation.cross.col(1) -= belief.covariance.col(2);
+  innovation.covariance = noise_at(observation, innovation.expected);
+  innovation.covariance.noalias() += by_place * innovation.cross.topRows<2>();
+  innovation.covariance.row(1) -= innovation.cross.row(2);
   return innovation;
 }
 

@@ -12,15 +12,31 @@
 
 namespace stereobench::slam {
 
+/// Length and direction (m, rad) of a vector; the direction of none is 0.
+inline Eigen::Vector2d polar(const Eigen::Vector2d& d) {
+  return {std::sqrt(d.x() * d.x() + d.y() * d.y()), arc_tangent(d.y(), d.x())};
+}
+
+/// The same of two vectors, to the last bit; a column each.
+inline Eigen::Matrix2d polar(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d x(a.x(), b.x());
+  const Eigen::Vector2d y(a.y(), b.y());
+  const auto [of_a, of_b] = arc_tangents({y[0], y[1]}, {x[0], x[1]});
+  Eigen::Matrix2d result;
+  result.row(0) = (x.cwiseProduct(x) + y.cwiseProduct(y)).cwiseSqrt();
+  result.row(1) << of_a, of_b;
+  return result;
+}
+
 /// Range and bearing (m, rad) at which a point is seen: eq. 5 with atan2(dy, dx) - heading, wrapped.
 ///
 /// @param robot world_from_robot
 /// @param point_in_world m
 /// @return (range >= 0, bearing in (-pi, pi]); at range 0 every bearing is as good, and -heading is returned
 inline Eigen::Vector2d predict_sighting(const Pose& robot, const Eigen::Vector2d& point_in_world) {
-  const double dx = point_in_world.x() - robot.x_m;
-  const double dy = point_in_world.y() - robot.y_m;
-  return {std::sqrt(dx * dx + dy * dy), wrap_angle(arc_tangent(dy, dx) - robot.heading_rad)};
+  Eigen::Vector2d seen = polar({point_in_world.x() - robot.x_m, point_in_world.y() - robot.y_m});
+  seen.y() = wrap_angle(seen.y() - robot.heading_rad);
+  return seen;
 }
 
 /// A place from which a point is seen.
@@ -31,12 +47,9 @@ struct View {
 
 /// Range and bearing of two views, to the last bit those of predict_sighting; a column each.
 inline Eigen::Matrix2d predict_sightings(const View& a, const View& b) {
-  const Eigen::Vector2d dx(a.point.x() - a.robot.x_m, b.point.x() - b.robot.x_m);
-  const Eigen::Vector2d dy(a.point.y() - a.robot.y_m, b.point.y() - b.robot.y_m);
-  const auto [to_a, to_b] = arc_tangents({dy[0], dy[1]}, {dx[0], dx[1]});
-  Eigen::Matrix2d seen;
-  seen.row(0) = (dx.cwiseProduct(dx) + dy.cwiseProduct(dy)).cwiseSqrt();
-  seen.row(1) << wrap_angle(to_a - a.robot.heading_rad), wrap_angle(to_b - b.robot.heading_rad);
+  Eigen::Matrix2d seen = polar({a.point.x() - a.robot.x_m, a.point.y() - a.robot.y_m},
+                               {b.point.x() - b.robot.x_m, b.point.y() - b.robot.y_m});
+  seen.row(1) << wrap_angle(seen(1, 0) - a.robot.heading_rad), wrap_angle(seen(1, 1) - b.robot.heading_rad);
   return seen;
 }
 

@@ -24,7 +24,7 @@ Pose compose(const Pose& a_from_b, const Pose& b_from_c) {
   return compose(a_from_b, sine_cosine(a_from_b.heading_rad), b_from_c);
 }
 
-Pose compose(const Pose& a_from_b, const SineCosine& heading, const Pose& b_from_c) {
+Pose compose(const Pose& a_from_b, SineCosine heading, const Pose& b_from_c) {
   const auto [s, c] = heading;
   return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
           a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,

@@ -31,7 +31,7 @@ Pose advance(const Pose& pose, const Control& control);
 Pose compose(const Pose& a_from_b, const Pose& b_from_c);
 
 /// The same where the sine and cosine of a_from_b's heading are at hand.
-Pose compose(const Pose& a_from_b, const SineCosine& heading, const Pose& b_from_c);
+Pose compose(const Pose& a_from_b, SineCosine heading, const Pose& b_from_c);
 
 /// The pose b_from_a of a_from_b.
 Pose inverse(const Pose& a_from_b);

@@ -23,8 +23,10 @@ inline double range_variance_growth(const Observation& observation, double range
 ///
 /// @param expected where the landmark should be seen; the sighting itself where nothing is expected yet
 inline Eigen::Matrix2d noise_at(const Observation& observation, const Eigen::Vector2d& expected) {
-  Eigen::Matrix2d noise = observation.noise;
-  noise(0, 0) += range_variance_growth(observation, expected.x());
+  const Eigen::Vector2d to_range(1.0, 0.0);  // whole columns: a number written alone stalls who reads two
+  Eigen::Matrix2d noise;
+  noise.col(0) = observation.noise.col(0) + range_variance_growth(observation, expected.x()) * to_range;
+  noise.col(1) = observation.noise.col(1);
   return noise;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Core>
 #include <Random123/philox.h>
 
 #include "slam/elementary.h"
@@ -47,14 +48,11 @@ constexpr Coefficients kFarDown = {1.0,
                                    1.42151175831644588870e-7,
                                    2.04426310338993978564e-15};
 
-double polynomial(const Coefficients& c, double x) {
-  double sum = c[7];
-  for (std::size_t i = 7; i-- > 0;) sum = sum * x + c[i];
-  return sum;
-}
-
+/// Both polynomials side by side.
 double ratio(const Coefficients& up, const Coefficients& down, double x) {
-  return polynomial(up, x) / polynomial(down, x);
+  Eigen::Array2d sums(up[7], down[7]);
+  for (std::size_t i = 7; i-- > 0;) sums = sums * x + Eigen::Array2d(up[i], down[i]);
+  return sums[0] / sums[1];
 }
 
 }  // namespace
@@ -71,19 +69,21 @@ double normal_quantile(double probability) {
 RandomStream::RandomStream(std::uint64_t seed, Stream stream, std::uint64_t index)
     : seed_(seed), index_(index), stream_(static_cast<std::uint32_t>(stream)) {}
 
+void RandomStream::refill() {
+  const auto low = [](std::uint64_t value) { return static_cast<std::uint32_t>(value); };
+  const auto high = [](std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); };
+  // 24 bits of carry above the 32-bit block number: 2^58 numbers before a sequence meets another stream.
+  const r123::Philox4x32::ctr_type counter = {
+      {low(block_), (stream_ << 24) | high(block_), low(index_), high(index_)}};
+  const r123::Philox4x32::key_type key = {{low(seed_), high(seed_)}};
+  const r123::Philox4x32::ctr_type out = r123::Philox4x32{}(counter, key);
+  words_ = {out[0], out[1], out[2], out[3]};
+  ++block_;
+  used_ = 0;
+}
+
 std::uint32_t RandomStream::bits() {
-  if (used_ == 4) {
-    const auto low = [](std::uint64_t value) { return static_cast<std::uint32_t>(value); };
-    const auto high = [](std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); };
-    // 24 bits of carry above the 32-bit block number: 2^58 numbers before a sequence meets another stream.
-    const r123::Philox4x32::ctr_type counter = {
-        {low(block_), (stream_ << 24) | high(block_), low(index_), high(index_)}};
-    const r123::Philox4x32::key_type key = {{low(seed_), high(seed_)}};
-    const r123::Philox4x32::ctr_type out = r123::Philox4x32{}(counter, key);
-    words_ = {out[0], out[1], out[2], out[3]};
-    ++block_;
-    used_ = 0;
-  }
+  if (used_ == words_.size()) refill();
   return words_[used_++];
 }
 

@@ -48,6 +48,7 @@ class RandomStream {
   double normal();
 
  private:
+  void refill();
   std::uint64_t wide_bits();
 
   std::uint64_t seed_;

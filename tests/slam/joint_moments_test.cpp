@@ -22,7 +22,7 @@ class Tied {
     belief.landmarks = {{-5.0, -2.5}, {4.0, 3.0}};
     Eigen::Matrix3d spread;
     for (double& x : spread.reshaped()) x = 0.01 * random.normal();
-    belief.covariance.move_pose(Eigen::Matrix3d::Identity(), spread * spread.transpose());
+    belief.covariance.move_pose(Eigen::Vector2d::Zero(), spread * spread.transpose());
     for (int j = 0; j < 2; ++j) {
       Eigen::Matrix<double, 2, 3> by_pose;
       for (double& x : by_pose.reshaped()) x = random.normal();
@@ -56,7 +56,7 @@ class Tied {
 // What a sighting shares with pose and landmarks.
 Eigen::MatrixXd shared_with(const JointBelief& belief, const JointSurprise& seen) {
   JointCovariance::Columns shared;
-  belief.covariance.with_sighting(0, seen.slope, shared);
+  belief.covariance.with_sighting(0, seen.slope, seen.near, shared);
   return shared;
 }
 

@@ -16,7 +16,7 @@ JointBelief tied() {
   RandomStream random(7, Stream::kWorld);
   JointBelief belief;
   long repairs = 0;
-  belief.covariance.move_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.04, 0.01, 4e-4).asDiagonal());
+  belief.covariance.move_pose(Eigen::Vector2d::Zero(), Eigen::Vector3d(0.04, 0.01, 4e-4).asDiagonal());
   for (const double sd_m : {1e-3, 0.1, 3.0}) {
     Eigen::Matrix<double, 2, 3> by_pose;
     for (double& x : by_pose.reshaped()) x = random.normal();
