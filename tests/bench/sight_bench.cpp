@@ -1,5 +1,6 @@
 /// What it costs to ask which balls are in view along a drive through a building: one of walls, one whose
 /// walls are a mesh of as many triangles as the argument says, and reading that mesh's triangles into a tree.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
