@@ -12,30 +12,15 @@
 #include "renderer/texture_file.h"
 #include "renderer/texture_pyramid.h"
 #include "renderer/unit_shapes.h"
+#include "worlds/mesh_placement.h"
 
 namespace stereobench::renderer {
 namespace {
 
-/// Where points and normals of an instance go: world = position + turn * (scale * mesh), z of the mesh up.
-struct Placement {
-  Eigen::Matrix3d turn;
-  Eigen::Vector3d scale;
-  Eigen::Vector3d position_m;
+using worlds::MeshPlacement;
 
-  Eigen::Vector3d upright(const Eigen::Vector3d& point) const { return scale.cwiseProduct(point); }
-  Eigen::Vector3d normal(const Eigen::Vector3d& mesh_normal) const {
-    return (turn * mesh_normal.cwiseQuotient(scale)).stableNormalized();
-  }
-};
-
-Placement placement_of(const worlds::MeshInstance& mesh) {
-  const auto about = [](double angle_rad, const Eigen::Vector3d& axis) {
-    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
-  };
-  return {about(mesh.heading_rad, Eigen::Vector3d::UnitZ()) *
-              about(mesh.pitch_rad, Eigen::Vector3d::UnitY()) *
-              about(mesh.roll_rad, Eigen::Vector3d::UnitX()),
-          mesh.unit_m * mesh.scale, mesh.position_m};
+Eigen::Vector3d turned_normal(const MeshPlacement& placement, const Eigen::Vector3d& mesh_normal) {
+  return (placement.turn * mesh_normal.cwiseQuotient(placement.scale)).stableNormalized();
 }
 
 /// The triangle with its file's up axis as z; exact, nothing is computed.
@@ -55,11 +40,11 @@ std::array<int, 2> axes_on(const Triangle& triangle) {
   return flat.x() >= flat.y() ? std::array<int, 2>{1, 2} : std::array<int, 2>{0, 2};
 }
 
-void append(const Triangle& triangle, const Placement& placement, const MeshRun& run,
+void append(const Triangle& triangle, const MeshPlacement& placement, const MeshRun& run,
             const worlds::Light& light, std::vector<SurfaceVertex>& vertices) {
   const std::array<int, 2> axes = axes_on(triangle);
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d upright = placement.upright(triangle.corners[i]);
+    const Eigen::Vector3d upright = placement.scale.cwiseProduct(triangle.corners[i]);
     const Eigen::Vector3f place = (placement.position_m + placement.turn * upright).cast<float>();
     const Eigen::Vector2f along = run.texture >= 0
                                       ? triangle.place_px[i]
@@ -67,7 +52,7 @@ void append(const Triangle& triangle, const Placement& placement, const MeshRun&
     const Eigen::Vector3f& rgb = triangle.corner_rgb[i];
     vertices.push_back({{place.x(), place.y(), place.z(), 1.0F},
                         {along.x(), along.y()},
-                        static_cast<float>(lit(light, placement.normal(triangle.normals[i]))),
+                        static_cast<float>(lit(light, turned_normal(placement, triangle.normals[i]))),
                         {rgb.x(), rgb.y(), rgb.z()}});
   }
 }
@@ -91,23 +76,9 @@ struct Shape {
   int first_texture = 0;  ///< of the world's
 };
 
-/// Whether an instance of the same file shows the file's colours.
-bool shows_file(const worlds::World& world, const worlds::MeshInstance& mesh) {
-  return std::any_of(world.meshes.begin(), world.meshes.end(), [&](const worlds::MeshInstance& other) {
-    return other.shape == mesh.shape && other.file == mesh.file && other.material == worlds::Material::kFile;
-  });
-}
-
-Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh) {
-  if (mesh.shape != worlds::MeshShape::kFile) return {unit_shape(mesh.shape), {}};
-  if (shows_file(world, mesh)) return read_textured_mesh(mesh.file, world.mesh_limits);
-  return {read_mesh(mesh.file, world.mesh_limits), {}};
-}
-
-/// Reads a shape and puts its textures beside the others.
-Shape read_shape(const worlds::World& world, const worlds::MeshInstance& mesh,
-                 std::vector<Texture>& textures) {
-  Mesh form = read_form(world, mesh);
+/// Puts a shape's textures beside the others.
+Shape add_shape(Mesh form, const worlds::World& world, const worlds::MeshInstance& mesh,
+                std::vector<Texture>& textures) {
   Shape shape{std::move(form.triangles), {}, static_cast<int>(textures.size())};
   shape.one_sided = have_opposites(shape.triangles);
   std::move(form.textures.begin(), form.textures.end(), std::back_inserter(textures));
@@ -145,7 +116,7 @@ bool goes_on(const MeshRun& a, const MeshRun& b) {
 
 void place(const worlds::World& world, int index, const Shape& shape, MeshSurfaces& surfaces) {
   const worlds::MeshInstance& mesh = world.meshes[static_cast<std::size_t>(index)];
-  const Placement placement = placement_of(mesh);
+  const MeshPlacement placement = placement_of(mesh);
   const std::size_t first_run = surfaces.runs.size();
   for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
     const MeshRun run = run_of(index, mesh, shape, i);
@@ -161,14 +132,26 @@ void place(const worlds::World& world, int index, const Shape& shape, MeshSurfac
 
 }  // namespace
 
-MeshSurfaces place_meshes(const worlds::World& world) {
+bool shows_file(const worlds::World& world, const worlds::MeshInstance& mesh) {
+  return std::any_of(world.meshes.begin(), world.meshes.end(), [&](const worlds::MeshInstance& other) {
+    return other.shape == mesh.shape && other.file == mesh.file && other.material == worlds::Material::kFile;
+  });
+}
+
+Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh) {
+  if (mesh.shape != worlds::MeshShape::kFile) return {unit_shape(mesh.shape), {}};
+  if (shows_file(world, mesh)) return read_textured_mesh(mesh.file, world.mesh_limits);
+  return {read_mesh(mesh.file, world.mesh_limits), {}};
+}
+
+MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read) {
   std::map<std::pair<worlds::MeshShape, std::string>, Shape> shapes;
   MeshSurfaces surfaces;
   const auto most_vertices = 3 * static_cast<std::size_t>(world.mesh_limits.triangles);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const worlds::MeshInstance& mesh = world.meshes[i];
     const auto [shape, is_new] = shapes.try_emplace({mesh.shape, mesh.file});
-    if (is_new) shape->second = read_shape(world, mesh, surfaces.textures);
+    if (is_new) shape->second = add_shape(read(world, mesh), world, mesh, surfaces.textures);
     if (surfaces.vertices.size() + 3 * shape->second.triangles.size() > most_vertices)
       throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
                                            world.mesh_limits.triangles));

@@ -1,6 +1,7 @@
 /// The meshes of a world, put in place and lit once: nothing of them changes while the robot drives.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "renderer/mesh_file.h"
@@ -28,10 +29,18 @@ struct MeshSurfaces {
   std::vector<Texture> textures;        ///< of material kFile
 };
 
+/// Whether an instance of the same file shows the file's colours.
+bool shows_file(const worlds::World& world, const worlds::MeshInstance& mesh);
+
+/// What a mesh of a world is made of, with textures where they are shown.
+/// @throws std::runtime_error as read_textured_mesh
+Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh);
+using FormReader = std::function<Mesh(const worlds::World& world, const worlds::MeshInstance& mesh)>;
+
 /// Reads each mesh file once and puts its instances in their places.
-/// @throws std::runtime_error as read_textured_mesh, or naming the file with which there are too many
-/// triangles or texels
-MeshSurfaces place_meshes(const worlds::World& world);
+/// @throws std::runtime_error as read_form, or naming the file with which there are too many triangles or
+/// texels
+MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read = read_form);
 
 /// Whether any of a run can be in the eye's picture.
 bool can_see(const EyeView& view, const MeshRun& run);

@@ -13,6 +13,7 @@
 #include "slam/random.h"
 #include "vision/palette.h"
 #include "worlds/sight.h"
+#include "worlds/solids.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -30,7 +31,8 @@ class Placement {
       : scenario_(scenario),
         rules_(rules),
         slack_m_(std::numbers::sqrt2 * scenario.placement_jitter_m),
-        draws_(rules.seed, slam::Stream::kWorld, kDraws + start) {}
+        draws_(rules.seed, slam::Stream::kWorld, kDraws + start),
+        solids_(scenario.world) {}
 
   void fill() {
     for (const Eigen::Vector2d& at : rules_.first_m)
@@ -113,9 +115,13 @@ class Placement {
                                   return (ball.centre_m.head<2>() - at).norm() <
                                          2.0 * slack_m_ + rules_.radius_m + ball.radius_m + 0.01;
                                 }) &&
-           std::ranges::none_of(scenario_.path, [&](const PathStep& step) {
-             return (Eigen::Vector2d(step.pose.x_m, step.pose.y_m) - at).norm() < own_m + rules_.clearance_m;
-           });
+           std::ranges::none_of(scenario_.path,
+                                [&](const PathStep& step) {
+                                  return (Eigen::Vector2d(step.pose.x_m, step.pose.y_m) - at).norm() <
+                                         own_m + rules_.clearance_m;
+                                }) &&
+           !solids_.meet(
+               upright_tube(at, own_m + rules_.wall_gap_m, kRim * rules_.radius_m, 2.0 * rules_.radius_m));
   }
 
   /// A colour that nobody near has, in the order from `first` on.
@@ -155,6 +161,7 @@ class Placement {
   const PlacementRules& rules_;
   double slack_m_;
   slam::RandomStream draws_;
+  Solids solids_;
   std::vector<int> in_view_;  ///< by step
 };
 

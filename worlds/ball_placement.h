@@ -19,15 +19,15 @@ struct PlacementRules {
   int most_balls = 100;  ///< at most 254
   double radius_m = 0.1;
   double clearance_m = 0.3;  ///< between the drive and a ball, beside the robot's own half width
-  double wall_gap_m = 0.03;  ///< between a wall and a ball
+  double wall_gap_m = 0.03;  ///< between a wall, or a mesh, and a ball
 };
 
 /// Puts balls into a scenario's world: those that are asked for, and more until in each step of its path
 /// enough of them are in view.
 ///
-/// Each stands on the floor, clear of walls, balls and the drive under any jitter, with a colour that keeps
-/// the promises of `identity`, and does not hide others where they are needed.
-/// @param scenario sensor, path, walls and identity are read, balls that are there stay
+/// Each stands on the floor, clear of walls, meshes, balls and the drive under any jitter, with a colour that
+/// keeps the promises of `identity`, and does not hide others where they are needed.
+/// @param scenario sensor, path, walls, meshes and identity are read, balls that are there stay
 /// @throws std::invalid_argument naming the place or the first step for which none is left
 void place_balls(Scenario& scenario, const PlacementRules& rules);
 

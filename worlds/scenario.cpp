@@ -99,7 +99,8 @@ void generate(const YamlValue& value, const Generator& generator, Scenario& scen
   }
 }
 
-void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder, Scenario& scenario) {
+void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder, const SolidReader& solids,
+                         Scenario& scenario) {
   const YamlMap world(map.at("world"), kWorldKeys);
   const auto made = world.find("generator");
   std::optional<Generator> generator;
@@ -110,6 +111,8 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   }
   scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr, folder);
   scenario.world = read_world(world, folder);
+  if (generator || scenario.randomise.clutter || scenario.randomise.distractors)
+    give_solids(scenario.world, solids);
   if (generator)
     generate(*made, *generator, scenario);
   else
@@ -118,7 +121,8 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
 
 }  // namespace
 
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       const SolidReader& solids) {
   const YamlDocument document = load_yaml(file, overrides);
   const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
                     {"name",
@@ -153,7 +157,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   read_sensing(map, file.parent_path(), scenario);
   read_odometry(map, scenario);
   scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
-  read_world_and_path(map, file.parent_path(), scenario);
+  read_world_and_path(map, file.parent_path(), solids, scenario);
   return scenario;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "worlds/solids.h"
 #include "worlds/types.h"
 
 namespace stereobench::worlds {
@@ -18,10 +19,13 @@ namespace stereobench::worlds {
 /// @param file the YAML file; paths of meshes in it are relative to its folder
 /// @param overrides "key.path=value", put in place before reading, e.g. "camera.noise_sd_levels=4"; a list is
 ///        replaced whole
+/// @param solids reads mesh files; asked only where a generator, or things that are strewn, must know of them
 /// @return the scenario, its path already driven (poses and exact controls)
 /// @throws std::runtime_error of one line, "file:line: key.path: expected ... (got ...)", or
 ///         "--set key.path: ..." when an override is to blame
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// @throws std::invalid_argument when there is no such reader and it would be asked
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                       const SolidReader& solids = {});
 
 /// The world of one seed (randomise.h): the scenario's, with each ball moved by a uniform draw of up to
 /// +-placement_jitter_m in x and in y, and with what `randomise:` draws. Each ball has a stream of its own,

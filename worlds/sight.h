@@ -11,13 +11,14 @@ namespace stereobench::worlds {
 inline constexpr double kLeastRadius_px = 5.0;  ///< smaller ones vision does not measure
 inline constexpr double kBorder_px = 2.0;       ///< between its outline and the picture's border
 
-/// The balls in view: by stereo, those that both eyes see whole, large enough, with no wall and no other ball
-/// in front of any of it, nor a sphere around a box or another shape; by the oracle, those in its sector,
-/// whatever stands between. Meshes of files hide nothing.
+/// The balls in view: by stereo, those that both eyes see whole, large enough, with no wall, no mesh of a
+/// file and no other ball in front of any of it, nor a sphere around a box or another shape; by the oracle,
+/// those in its sector, whatever stands between.
 ///
 /// @param world the scenario's, or that of a seed
 /// @param slack_m each ball may lie this far from where it should: only those count that are seen anyway
 /// @return indices into world.balls, ascending
+/// @throws std::invalid_argument by stereo, where a mesh of a file has no solid (solids.h)
 std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
                                const slam::Pose& world_from_robot, double slack_m = 0.0);
 

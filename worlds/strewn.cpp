@@ -10,6 +10,7 @@
 #include "worlds/drive_sight.h"
 #include "worlds/paint.h"
 #include "worlds/sight.h"
+#include "worlds/solids.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -32,7 +33,7 @@ double floor_radius_m(const MeshInstance& thing) {
 class Strewing {
  public:
   Strewing(const Scenario& scenario, World& world, Draws& draws)
-      : scenario_(scenario), world_(world), draws_(draws), sight_(scenario, world) {}
+      : scenario_(scenario), world_(world), draws_(draws), sight_(scenario, world), solids_(world) {}
 
   void strew(const Distractors& distractors) {
     for_each("distractors", distractors.strewn,
@@ -109,6 +110,7 @@ class Strewing {
     const Eigen::Vector2d at = thing.position_m.head<2>();
     const double own_m = floor_radius_m(thing);
     return is_clear_of_walls(at, own_m, from) && is_clear_of_drive(at, own_m + rules.clearance_m) &&
+           is_clear_of_solids(thing, from) &&
            std::ranges::none_of(world_.balls,
                                 [&](const Ball& ball) {
                                   return (ball.centre_m.head<2>() - at).norm() <
@@ -126,6 +128,15 @@ class Strewing {
     });
   }
 
+  /// Mesh files that reach no higher than the gap are what things stand on.
+  bool is_clear_of_solids(const MeshInstance& thing, const Eigen::Vector2d& from) const {
+    const Sphere middle{thing.position_m + Eigen::Vector3d(0.0, 0.0, 0.5 * thing.scale.z()), kGap_m};
+    const Eigen::Vector3d eye(from.x(), from.y(), scenario_.rig.height_m);
+    return !solids_.meet(upright_tube(thing.position_m.head<2>(), floor_radius_m(thing) + kGap_m, kGap_m,
+                                      thing.scale.z())) &&
+           !solids_.meet(sight_tube(eye, middle, 0.0));
+  }
+
   bool is_clear_of_drive(const Eigen::Vector2d& at, double least_m) const {
     const auto place_of = [](const PathStep& step) { return Eigen::Vector2d(step.pose.x_m, step.pose.y_m); };
     for (std::size_t k = 0; k < scenario_.path.size(); ++k) {
@@ -141,6 +152,7 @@ class Strewing {
   World& world_;
   Draws& draws_;
   DriveSight sight_;
+  Solids solids_;
   std::vector<std::string> left_out_;
 };
 

@@ -3,7 +3,9 @@
 /// Frame **world**: x east, y north, z up; the floor is z = 0.
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +21,8 @@
 #include "worlds/randomisation.h"
 
 namespace stereobench::worlds {
+
+class TriangleTree;
 
 /// A coloured ball: a landmark. Its index in World::balls is its identity.
 struct Ball {
@@ -59,6 +63,7 @@ struct MeshInstance {
   MeshUp up = MeshUp::kZ;             ///< y up: the file's z points south in the world before it is turned
   MeshShape shape = MeshShape::kFile;
   Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
+  std::shared_ptr<const TriangleTree> solid = {};      ///< of kFile, where somebody asks (solids.h)
 };
 
 /// What a mesh file, and a texture, may cost: they come from anywhere.
@@ -69,6 +74,7 @@ struct MeshLimits {
   int memory_mib = 1024;  ///< to read a file
   int texture_px = 4096;  ///< the longer side of a texture
   int texture_mib = 256;  ///< all textures of the world together, as they are drawn
+  auto operator<=>(const MeshLimits&) const = default;
 };
 
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.

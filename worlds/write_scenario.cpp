@@ -157,8 +157,8 @@ void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node ro
 }  // namespace
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                        std::optional<std::uint64_t> seed) {
-  const Scenario scenario = read_scenario(file, overrides);
+                        std::optional<std::uint64_t> seed, const SolidReader& solids) {
+  const Scenario scenario = read_scenario(file, overrides, solids);
   YamlDocument document = load_yaml(file, overrides);
   YAML::Node lines = document.root["world"];
   name_files_from_anywhere(file.parent_path(), document.root);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "worlds/solids.h"
+
 namespace stereobench::worlds {
 
 /// The lines of a scenario with its overrides put in place, mesh files by their absolute paths and, where
@@ -14,8 +16,9 @@ namespace stereobench::worlds {
 /// world and the same drive, bit for bit.
 /// @param seed where there is one, nothing is left to chance: the world as that seed has it, line by line,
 ///   without jitter and without `randomise:`; the only seed is that one
+/// @param solids reads mesh files, as for read_scenario
 /// @throws std::runtime_error as read_scenario
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                        std::optional<std::uint64_t> seed = std::nullopt);
+                        std::optional<std::uint64_t> seed = std::nullopt, const SolidReader& solids = {});
 
 }  // namespace stereobench::worlds

@@ -19,6 +19,7 @@
 #include "harness/run/progress.h"
 #include "harness/run/recording.h"
 #include "renderer/backend.h"
+#include "renderer/mesh_shelf.h"
 #include "worlds/scenario.h"
 
 namespace stereobench::harness {
@@ -51,7 +52,9 @@ std::string identity_of(const RenderArguments& arguments) {
 }
 
 int render(const RenderArguments& arguments) {
-  const worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides);
+  renderer::MeshShelf meshes;
+  const worlds::Scenario scenario =
+      worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.solids());
   if (scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",

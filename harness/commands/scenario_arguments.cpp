@@ -34,7 +34,8 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
                                const std::vector<std::string>& more_overrides) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-  worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, overrides);
+  worlds::Scenario scenario =
+      worlds::read_scenario(arguments.scenario, overrides, arguments.meshes->solids());
   const RunArguments& run = arguments.run;
   if (!run.filters.empty()) scenario.filters = run.filters;
   if (std::find(scenario.filters.begin(), scenario.filters.end(), kBaselineFilter) == scenario.filters.end())

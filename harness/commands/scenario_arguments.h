@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "harness/commands/arguments.h"
+#include "renderer/mesh_shelf.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {
@@ -17,6 +19,8 @@ struct ScenarioArguments {
   renderer::Backend backend = renderer::Backend::kOsmesa;
   std::string detector;             ///< command of a program; empty: as the scenario says
   double detector_timeout_s = 0.0;  ///< 0: as the scenario says
+  /// What was read of mesh files, by whoever asked.
+  std::shared_ptr<renderer::MeshShelf> meshes = std::make_shared<renderer::MeshShelf>();
 };
 
 /// Adds SCENARIO, --set, --backend, --detector and its timeout.

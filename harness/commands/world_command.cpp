@@ -11,6 +11,7 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/report/plan_picture.h"
+#include "renderer/mesh_shelf.h"
 #include "worlds/path.h"
 #include "worlds/scenario.h"
 #include "worlds/write_scenario.h"
@@ -51,18 +52,20 @@ void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
 }
 
 int show_world(const WorldArguments& arguments) {
-  const worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides);
+  renderer::MeshShelf meshes;
+  worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.solids());
+  worlds::give_solids(scenario.world, meshes.solids());
   const worlds::World world =
       arguments.seed ? worlds::world_for_seed(scenario, *arguments.seed) : scenario.world;
   const ViewCoverage coverage = view_coverage(scenario, world);
   if (!arguments.out.empty()) {
     const std::string plan =
-        draw_plan(scenario, world, coverage, mesh_outlines(world, scenario.rig.height_m));
+        draw_plan(scenario, world, coverage, mesh_outlines(world, scenario.rig.height_m, meshes.forms()));
     write_file_atomically(arguments.out, plan);
   }
   if (!arguments.written.empty())
-    write_file_atomically(arguments.written,
-                          worlds::written_out(arguments.scenario, arguments.overrides, arguments.seed));
+    write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides,
+                                                                 arguments.seed, meshes.solids()));
   if (!arguments.draws.empty())
     write_file_atomically(arguments.draws, draws_jsonl(scenario, std::array{*arguments.seed}));
   print_summary(scenario, world, coverage);
@@ -96,8 +99,8 @@ void add_world_command(CLI::App& program, Action& action) {
       ->needs(seed);
   command->footer(
       "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
-      "what is behind them, and so do boxes and other shapes; meshes of files do not. For an oracle it is "
-      "what lies in its sector.\n\n"
+      "what is behind them, and so do meshes, boxes and other shapes. For an oracle it is what lies in its "
+      "sector.\n\n"
       "Example: stereobench world assets/scenarios/corridor.yaml -o out/corridor.svg");
   command->callback([arguments, &action] { action = [arguments] { return show_world(*arguments); }; });
 }

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "renderer/mesh_surfaces.h"
 #include "vision/palette.h"
 #include "worlds/path.h"
 #include "worlds/sight.h"
@@ -220,8 +219,9 @@ ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World
   return coverage;
 }
 
-std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m) {
-  const renderer::MeshSurfaces placed = renderer::place_meshes(world);
+std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m,
+                                     const renderer::FormReader& read) {
+  const renderer::MeshSurfaces placed = renderer::place_meshes(world, read);
   const auto corner = [&](int i) {
     return Eigen::Vector3f(placed.vertices[static_cast<std::size_t>(i)].position).cast<double>().eval();
   };

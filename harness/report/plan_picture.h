@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "renderer/mesh_surfaces.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {
@@ -17,6 +18,7 @@ struct ViewCoverage {
   std::vector<int> steps_seen;     ///< for each ball
 };
 
+/// @param world its meshes of files with their solids
 ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World& world);
 
 /// A line on the floor, metres.
@@ -28,7 +30,8 @@ struct FloorLine {
 
 /// The outlines of the meshes, cut level with the eyes, or at half their height where they are lower.
 /// @throws std::runtime_error when a mesh file cannot be read
-std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m);
+std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m,
+                                     const renderer::FormReader& read = renderer::read_form);
 
 /// Walls, outlines of meshes, balls in their colours (crossed out where never in view), the drive coloured by
 /// how many balls are in view, and sectors of view along it.

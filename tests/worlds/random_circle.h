@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "tests/worlds/obj_solids.h"
 #include "worlds/scenario.h"
 
 namespace stereobench::worlds {
@@ -13,7 +14,7 @@ inline const std::string kAll =
 
 /// One lap of ball_circle with a `randomise` entry.
 inline Scenario scenario_with(const std::string& randomise) {
-  return read_scenario(kCircle, {randomise, "path.laps=1"});
+  return read_scenario(kCircle, {randomise, "path.laps=1"}, obj_solid);
 }
 
 /// One lap with every group of things left to chance.

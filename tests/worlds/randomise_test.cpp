@@ -93,8 +93,8 @@ TEST(Randomise, NoKeyMovesAnother) {
       EXPECT_FALSE(alone.empty());
       for (const auto& [key, value] : alone) EXPECT_TRUE(is_of_a_place(key) || all.at(key) == value) << key;
     }
-    const auto narrower =
-        values_of(read_scenario(kCircle, {kAll, "path.laps=1", "randomise.light.ambient=0.4"}), seed);
+    const auto narrower = values_of(
+        read_scenario(kCircle, {kAll, "path.laps=1", "randomise.light.ambient=0.4"}, obj_solid), seed);
     EXPECT_EQ(narrower.at("light.ambient"), 0.4);
     for (const auto& [key, value] : narrower)
       EXPECT_TRUE(key == "light.ambient" || all.at(key) == value) << key;
@@ -145,7 +145,7 @@ std::string print(const World& world) {
 TEST(Randomise, WrittenOutItIsAPlainScenarioOfTheSameWorld) {
   const ScenarioFolder folder;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const auto copy = folder.write("copy.yaml", written_out(kCircle, {kAll, "path.laps=1"}, seed));
+    const auto copy = folder.write("copy.yaml", written_out(kCircle, {kAll, "path.laps=1"}, seed, obj_solid));
     const Scenario plain = read_scenario(copy);
     EXPECT_EQ(print(plain.world), print(world_for_seed(everything(), seed))) << seed;
     EXPECT_EQ(print(world_for_seed(plain, 99)), print(plain.world)) << "something is still left to chance";

@@ -52,14 +52,19 @@ TEST_P(BadMeshTest, IsBadInputWithinFiveSecondsAndLeavesNothing) {
   const std::string mesh = scratch.write(GetParam().name, GetParam().text);
   const std::string file = scratch.write("meshed.yaml", scenario_with(mesh, GetParam().limits));
   const std::filesystem::path out = scratch.path() / "out";
-  for (const char* command : {"run", "render"}) {
+  const std::vector<std::string> strewn = {"--set", "randomise={clutter: {}}"};
+  for (const auto& [command, more] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"run", {}}, {"render", {}}, {"run", strewn}, {"world", {}}, {"world", strewn}}) {
     const auto start = std::chrono::steady_clock::now();
-    const Outcome outcome = run_stereobench({command, file, "--out", out.string()});
+    std::vector<std::string> arguments = {command, file, "--out", out.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_stereobench(arguments);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(mesh + ": " + GetParam().message));
     EXPECT_FALSE(std::filesystem::exists(out / "run.json"));
+    EXPECT_FALSE(std::filesystem::is_regular_file(out)) << "a plan";
   }
 }
 

@@ -1,0 +1,35 @@
+/// Mesh files that were read, for all that need them before anything is rendered.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "renderer/mesh_surfaces.h"
+#include "worlds/solids.h"
+
+namespace stereobench::renderer {
+
+/// Reads each file once, whoever asks. What it hands out asks it, and must not outlive it.
+class MeshShelf {
+ public:
+  /// For worlds::read_scenario. @throws std::runtime_error as read_form
+  worlds::SolidReader solids();
+
+  /// For place_meshes. @throws std::runtime_error as read_form
+  FormReader forms();
+
+ private:
+  /// A file, whether it is read with its textures, and what it may cost.
+  using Key = std::tuple<std::string, bool, worlds::MeshLimits>;
+  struct Entry {
+    Mesh mesh;
+    std::shared_ptr<const worlds::TriangleTree> solid;
+  };
+  const Entry& entry(const worlds::World& world, const worlds::MeshInstance& mesh);
+
+  std::map<Key, Entry> entries_;
+};
+
+}  // namespace stereobench::renderer
