@@ -125,4 +125,11 @@ double legend_width_px(const Canvas& canvas, const std::vector<LegendEntry>& ent
   return entries.empty() ? 0.0 : kMarkWidth_px + widest;
 }
 
+int chart_width_px(double left_px, const std::vector<LegendEntry>& entries) {
+  constexpr double kMargin_px = 12.0;
+  constexpr int kUsual_px = 1000;
+  const double right_px = left_px + legend_width_px(Canvas(1, 1), entries) + kMargin_px;
+  return std::max(kUsual_px, static_cast<int>(std::ceil(right_px)));
+}
+
 }  // namespace stereobench::harness

@@ -39,6 +39,10 @@ void draw_legend(Canvas& canvas, const Point& at, const std::vector<LegendEntry>
 /// @return how wide the legend is drawn
 double legend_width_px(const Canvas& canvas, const std::vector<LegendEntry>& entries);
 
+/// @param left_px where the legend begins
+/// @return width of a chart that ends with its legend: 1000, or more where names are long
+int chart_width_px(double left_px, const std::vector<LegendEntry>& entries);
+
 /// Draws a triangle that points in a direction. @param heading_rad counter-clockwise from the right
 void draw_arrowhead(Canvas& canvas, const Point& centre, double heading_rad, const Colour& colour);
 

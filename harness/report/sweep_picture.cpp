@@ -16,10 +16,10 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr int kWidth_px = 1000;
 constexpr double kLeft_px = 84.0;
 constexpr double kTop_px = 42.0;
 constexpr double kPlotWidth_px = 730.0;
+constexpr double kLegend_px = kLeft_px + kPlotWidth_px + 18.0;
 constexpr double kPanelHeight_px = 190.0;
 constexpr double kAtePanelHeight_px = 300.0;
 constexpr double kPanelGap_px = 58.0;
@@ -151,7 +151,9 @@ std::string draw_sweep_picture(const SweepPicture& picture) {
   const Parameter parameter = parameter_of(picture);
   const double detection_px =
       static_cast<double>(picture.detection.size()) * (kPanelHeight_px + kPanelGap_px);
-  Canvas canvas(kWidth_px, static_cast<int>(kTop_px + detection_px + kAtePanelHeight_px + kPanelGap_px));
+  const std::vector<LegendEntry> legend = legend_of(picture.ate_m);
+  Canvas canvas(chart_width_px(kLegend_px, legend),
+                static_cast<int>(kTop_px + detection_px + kAtePanelHeight_px + kPanelGap_px));
   double top_px = kTop_px;
   for (const SweepCurve& curve : picture.detection) {
     const Box plot = {kLeft_px, top_px, kPlotWidth_px, kPanelHeight_px};
@@ -162,7 +164,7 @@ std::string draw_sweep_picture(const SweepPicture& picture) {
   const Box plot = {kLeft_px, top_px, kPlotWidth_px, kAtePanelHeight_px};
   const Panel panel = {parameter.axis, value_axis("ATE [m], mean and 95 %", picture.ate_m, 12.0), plot};
   draw_panel(canvas, panel, parameter.places, picture.ate_m);
-  draw_legend(canvas, {kLeft_px + kPlotWidth_px + 18.0, top_px}, legend_of(picture.ate_m));
+  draw_legend(canvas, {kLegend_px, top_px}, legend);
   canvas.write({kLeft_px, 0.5 * kTop_px}, picture.title, {.size_px = 15.0, .bold = true});
   return canvas.png();
 }

@@ -106,6 +106,18 @@ TEST(TexturedBackdrop, CostsAFactorOfTwoAndIsKnown) {
   EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 2.15);
 }
 
+// Stripes behind the balls, whose edges pass behind many a rim: they cost the arcs beside them, and the
+// others little.
+TEST(StripedBackdrop, CostsWhereItsEdgesAre) {
+  painter::Scene scene{.backdrop = painter::Backdrop::kPlain, .noise_sd_levels = 2.0};
+  for (int stripe = -6; stripe < 6; ++stripe)
+    scene.panels.push_back({8.0, 1.2 * stripe, 1.2 * stripe + 0.6, -4.0, 4.0, {90.0, 95.0, 100.0}});
+  const Pulls pulls = measure(scene);
+  ASSERT_GT(pulls.balls, 200);
+  const double n = pulls.balls;
+  EXPECT_NEAR(pulls.nis / n / 2.0, 1.0, 0.15 + 3.0 / std::sqrt(n));
+}
+
 class NotMatt : public testing::TestWithParam<double> {};
 
 // The lamp's light on balls that are dusty or satin does not go with Lambert's cosine. What is seen beside an

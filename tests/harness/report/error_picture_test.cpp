@@ -126,6 +126,14 @@ TEST(ReportErrors, NormalisedErrorsAreAPanelBelow) {
   EXPECT_EQ(decoded(draw_error_picture(picture)).rows, without);
 }
 
+// Mutation: a chart of 1000 pixels whatever its names.
+TEST(ReportErrors, LongNamesFit) {
+  const cv::Mat image =
+      decoded(draw_error_picture({"", kTime_s, {constant("fastslam2_block", 1.0), constant("ekf", 2.0)}}));
+  const cv::Mat border = image(cv::Rect(image.cols - 8, 0, 8, image.rows));
+  EXPECT_EQ(cv::countNonZero(border.reshape(1) != 255), 0);
+}
+
 TEST(ReportErrors, TheSameErrorsAreTheSameBytes) {
   const ErrorPicture picture = {"t", kTime_s, {constant("ufastslam", 1.0), constant("fastslam2", 2.0)}};
   EXPECT_EQ(draw_error_picture(picture), draw_error_picture(picture));
