@@ -15,8 +15,7 @@ namespace {
 /// d(x, y, heading) / d(x0, y0, heading0) of any motion that leads from one pose to another.
 Eigen::Matrix3d lever(const Pose& from, const Pose& to) {
   Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
-  slope(0, 2) = -(to.y_m - from.y_m);
-  slope(1, 2) = to.x_m - from.x_m;
+  slope.col(2).head<2>() = swing(from, {to.x_m, to.y_m});
   return slope;
 }
 

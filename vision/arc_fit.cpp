@@ -11,8 +11,9 @@ namespace {
 // The noise law, its constants measured on rendered and painted balls so that NIS/2 is 1 (`stereobench
 // calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
 // a whole outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). The smaller a ball, the
-// fewer pixels tell its shading, and k grows. Texture in the background is an error that an arc's pixels
-// share.
+// fewer pixels tell its shading, and k grows. What k has beyond 1 is of the colours beside an arc, which its
+// pixels share, and moves an edge by as much more as it crosses more pixels (edge_width_px). Texture in the
+// background is an error that an arc's pixels share too.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
 constexpr double kNoiseFactor = 1.16;          // k of a large ball

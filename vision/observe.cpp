@@ -28,7 +28,7 @@ constexpr double kMinVisible = 0.25;        // of an outline's area; what shows 
 constexpr double kMostContradiction = 6.0;  // beyond it arcs are of two things
 constexpr double kVague_px = 0.05;          // sd of a disparity that contradicting arcs may have
 constexpr double kInFocus_px = 0.2;         // a blur below this is the pixels' own
-constexpr int kLooks = 3;                   // at a picture out of focus
+constexpr int kMostLooks = 3;               // at a picture out of focus
 constexpr double kSameBlur = 0.1;           // relative
 constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
 
@@ -107,10 +107,10 @@ Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSett
   }
   const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
   const auto blobs = find_blobs(image, std::lround(kMinPatch * smallest_disc));
-  for (int look = 0; look < kLooks; ++look) {
+  for (int look = 1;; ++look) {
     found.outlines = fit_outlines(image, blobs, found.settings);
     const double blur = blur_of(found.outlines);
-    if (std::abs(blur - found.settings.blur_px) <= kSameBlur * blur) break;
+    if (look == kMostLooks || std::abs(blur - found.settings.blur_px) <= kSameBlur * blur) break;
     found.settings.blur_px = blur;
   }
   return found;

@@ -37,6 +37,9 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 /// @param pair two CV_8UC3 images of the rig's size, BGR, linear light; row padding is fine
 /// @param rig the rig as it is believed to be
 ///
+/// How far a picture is out of focus is measured in it (edge_profile.h); a blur of 0.2 px or more is one of
+/// the model's from then on.
+///
 /// Of a ball that is hidden or cut in part, at least a third of the outline must speak for it in each eye. It
 /// is measured by that and by the size that balls have (ball_fit.h), with the covariance that is left.
 /// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball are included,

@@ -24,7 +24,7 @@ struct MeasuredOutline {
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by
   BallLight light;                ///< on what is seen of the ball
-  EdgeProfile edge;               ///< where it is seen
+  EdgeProfile edge;               ///< what its rim shows, for the picture's blur
 };
 
 /// What outlines are fitted with.
@@ -40,8 +40,9 @@ struct FitSettings {
 /// Each arc of about three rim pixels is unmixed into ball and background and says how far the edge is from
 /// where the model has it (Gauss-Newton on the coverage, weighted by what the arc can know); arcs that are
 /// hidden, cut off, without contrast or at odds with the rest do not count. The edge starts as a wide ramp,
-/// for a poor start, and ends as the pixels' own box filter, for precision. A patch that shows a part of a
-/// ball only is fitted once more from the circle that its boundary suggests.
+/// for a poor start, and ends as the pixels' own box filter, for precision, or as the blurred edge of a
+/// picture out of focus. A patch that shows a part of a ball only is fitted once more from the circle that
+/// its boundary suggests.
 /// @param image CV_8UC3, BGR
 /// @return empty when there is no ball's outline around the patch
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,

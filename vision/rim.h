@@ -76,7 +76,8 @@ struct Rim {
 /// How far from the outline a pixel may be that an outline in focus crosses, once it is about right.
 inline constexpr double kCrossed_px = 1.5;
 
-/// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width.
+/// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where
+/// it is blurred.
 /// @param image CV_8UC3; pixels outside it are missing from the rim
 /// @param gap_px between the outline and either ring; nearer pixels may be of both colours
 /// @param shading of the ball, where it is known

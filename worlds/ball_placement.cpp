@@ -121,7 +121,18 @@ class Placement {
                                          own_m + rules_.clearance_m;
                                 }) &&
            !solids_.meet(
-               upright_tube(at, own_m + rules_.wall_gap_m, kRim * rules_.radius_m, 2.0 * rules_.radius_m));
+               upright_tube(at, own_m + rules_.wall_gap_m, kRim * rules_.radius_m, 2.0 * rules_.radius_m)) &&
+           is_outside_of_solids(at);
+  }
+
+  /// Whether some of the drive could see a ball here, were it not for walls and distance: within a closed
+  /// mesh nothing can.
+  bool is_outside_of_solids(const Eigen::Vector2d& at) const {
+    const Sphere ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m};
+    return std::ranges::any_of(scenario_.path, [&](const PathStep& step) {
+      const Eigen::Vector3d eye_m(step.pose.x_m, step.pose.y_m, scenario_.rig.height_m);
+      return !solids_.meet(sight_tube(eye_m, ball, slack_m_));
+    });
   }
 
   /// A colour that nobody near has, in the order from `first` on.

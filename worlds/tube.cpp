@@ -58,18 +58,20 @@ double squared_distance_of_origin(const Eigen::Vector2d& from, const Eigen::Vect
   return (from + share * along).squaredNorm();
 }
 
-/// Whether a convex polygon has a point within a circle around the origin.
+/// Whether a polygon has a point within a circle around the origin: an edge comes near enough, or a ray from
+/// the origin along x crosses an odd number of edges. Corners may be there twice, as cuts through a corner
+/// leave them.
 bool meets_circle(std::span<const Eigen::Vector2d> corners, double radius) {
-  std::size_t left = 0, right = 0;  // edges that have the origin on that side
+  bool is_around = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d& from = corners[i];
     const Eigen::Vector2d& to = corners[(i + 1) % corners.size()];
     if (squared_distance_of_origin(from, to) <= radius * radius) return true;
+    if ((from.y() > 0.0) == (to.y() > 0.0)) continue;
     const double turn = from.x() * to.y() - from.y() * to.x();
-    left += turn > 0.0 ? 1 : 0;
-    right += turn < 0.0 ? 1 : 0;
+    if ((turn > 0.0) == (to.y() > from.y())) is_around = !is_around;
   }
-  return !corners.empty() && (left == corners.size() || right == corners.size());
+  return is_around;
 }
 
 /// @param corners in the tube's axes

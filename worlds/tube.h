@@ -19,13 +19,13 @@ struct Tube {
   Eigen::Isometry3d from_world;
   bool narrows = false;         ///< towards its origin: a cone
   double radius = 0.0;          ///< metres, of a cone for each metre from the origin
-  std::vector<HalfSpace> cuts;  ///< it ends there; a cone's leave out its origin
-  Sphere excused;               ///< what lies all in here is not met
+  std::vector<HalfSpace> cuts;  ///< it ends there, at most three; a cone's leave out its origin
+  Sphere excused;               ///< a triangle whose part between the cuts lies all in here is not met
 };
 
 /// What must be empty for an eye to see all of a ball but its rim: all between the eye and what it sees of
-/// the ball. What is within the ball hides nothing, nor does what is nearer to the eye than its picture
-/// begins.
+/// the ball. A triangle whose part before the ball's rim lies within the ball hides nothing, nor does what is
+/// nearer to the eye than its picture begins.
 /// @param slack_m the ball may lie that far aside, at the same height
 /// @param ball the eye is not in it, slack included
 Tube sight_tube(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m);

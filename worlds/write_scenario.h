@@ -17,7 +17,7 @@ namespace stereobench::worlds {
 /// @param seed where there is one, nothing is left to chance: the world as that seed has it, line by line,
 ///   without jitter and without `randomise:`; the only seed is that one
 /// @param solids reads mesh files, as for read_scenario
-/// @throws std::runtime_error as read_scenario
+/// @throws std::runtime_error, std::invalid_argument as read_scenario
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                         std::optional<std::uint64_t> seed = std::nullopt, const SolidReader& solids = {});
 

@@ -54,7 +54,7 @@ void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
 int show_world(const WorldArguments& arguments) {
   renderer::MeshShelf meshes;
   worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.solids());
-  worlds::give_solids(scenario.world, meshes.solids());
+  if (scenario.sensor == worlds::SensorKind::kStereo) worlds::give_solids(scenario.world, meshes.solids());
   const worlds::World world =
       arguments.seed ? worlds::world_for_seed(scenario, *arguments.seed) : scenario.world;
   const ViewCoverage coverage = view_coverage(scenario, world);

@@ -6,6 +6,7 @@
 
 #include "painter.h"
 #include "vision/edge_profile.h"
+#include "vision/observe.h"
 
 namespace stereobench::vision {
 namespace {
@@ -145,6 +146,21 @@ TEST(EdgeProfile, TellsTheBlur) {
 TEST(EdgeProfile, OfAPictureInFocusTellsLessBlurThanAnyLensMakes) {
   for (const std::uint64_t seed : {7U, 8U, 9U}) EXPECT_LT(profile_of(0.0, seed).blur_px(), 0.15);
   EXPECT_EQ(EdgeProfile().blur_px(), 0.0);
+}
+
+// Rims as they are looked at: from colours beside them that are measured too, and first as if in focus.
+// Mutation: outlines measured once.
+TEST(EdgeProfile, OfAPictureTellsItsBlur) {
+  const StereoRig rig = painter::rig_with_pictures_of(640, 480);
+  for (const double blur : {0.4, 0.8, 1.3}) {
+    painter::Scene scene{.backdrop = painter::Backdrop::kPlain, .blur_px = blur, .noise_sd_levels = 2.0};
+    scene.balls = painter::scattered_balls(rig, 1.0, 4.0, 31);
+    EdgeProfile edge;
+    for (const MeasuredOutline& outline :
+         find_outlines(painter::paint(scene, rig).left, rig.camera, {.noise_sd_levels = 2.0}))
+      edge.add(outline.edge);
+    EXPECT_NEAR(edge.blur_px(), blur, 0.06) << blur;
+  }
 }
 
 TEST(EdgeProfile, IsThatOfAllPixelsOfTwo) {

@@ -116,6 +116,7 @@ TEST(StripedBackdrop, CostsWhereItsEdgesAre) {
   ASSERT_GT(pulls.balls, 200);
   const double n = pulls.balls;
   EXPECT_NEAR(pulls.nis / n / 2.0, 1.0, 0.15 + 3.0 / std::sqrt(n));
+  EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 2.1);
 }
 
 class NotMatt : public testing::TestWithParam<double> {};
@@ -147,15 +148,16 @@ TEST(LampBehindTheBalls, IsToldByAllOfThem) {
 class OutOfFocus : public testing::TestWithParam<double> {};
 
 // A lens that blurs by less than a pixel or by more makes wider rims, which tell less: by the square root of
-// how many pixels an edge crosses, 2 sqrt(pi) s. Mutations: the picture taken to be in focus (NIS / 2 of 7 to
-// 15, errors of 5 to 22 times these); an edge that is round taken for straight (radii 0.08 px too small).
+// how many pixels an edge crosses, 2 sqrt(pi) s. Blurs that are Gaussians, as no camera's are, are claimed
+// half as much again too large. Mutations: the picture taken to be in focus (NIS / 2 of 7 to 15, errors of 5
+// to 22 times these); an edge that is round taken for straight (radii 0.08 px too small).
 TEST_P(OutOfFocus, BallsAreMeasuredAsWellAsTheyClaim) {
   const double blur = GetParam();
   const Pulls pulls =
       measure({.backdrop = painter::Backdrop::kPlain, .blur_px = blur, .noise_sd_levels = 2.0}, 5);
   ASSERT_GT(pulls.balls, 75);
   const double n = pulls.balls;
-  EXPECT_NEAR(pulls.nis / n / 2.0, 1.0, 0.3 + 3.0 / std::sqrt(n));
+  EXPECT_NEAR(pulls.nis / n / 2.0, 0.65, 0.15 + 3.0 * 0.65 / std::sqrt(n));
   const double wider = std::sqrt(3.5449 * std::hypot(blur, 0.2887));
   EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 1.5 * wider);
   EXPECT_NEAR(pulls.radius_px / n, 0.0, 0.03);

@@ -103,6 +103,16 @@ TEST_F(Solids, GeneratedBallsStandClearOfThemAndEnoughAreInView) {
   }
 }
 
+// Mutation: a place judged by the surfaces near it alone.
+TEST_F(Solids, NoBallIsPutIntoABlock) {
+  const std::vector<Box> blocks = {{{4.0, 0.0}, {3.6, 10.0}}, {{-4.0, 0.0}, {3.6, 10.0}}};
+  const Scenario scenario = read_scenario(write(scenario_among(blocks, generator(0))), {}, obj_solid);
+  for (const Ball& ball : scenario.world.balls)
+    EXPECT_TRUE(std::abs(std::abs(ball.centre_m.x()) - 4.0) > 1.8 || std::abs(ball.centre_m.y()) > 5.0)
+        << ball.centre_m.transpose();
+  EXPECT_GE(scenario.world.balls.size(), 12U);
+}
+
 /// Balls on a lattice around the drive, none in a wall.
 std::vector<Ball> lattice(const std::vector<Wall>& walls) {
   std::vector<Ball> balls;

@@ -229,5 +229,32 @@ TEST(UprightTube, IsMetByWhatHasAPointInIt) {
   EXPECT_LT(met, 1200);
 }
 
+// Meshes are drawn on grids, and so are heights: planes go through corners. Mutation: the origin inside by
+// the sides of all edges, where a corner that a cut leaves twice has none.
+TEST(UprightTube, IsMetByTrianglesThatHaveCornersOnItsPlanes) {
+  const auto on_grid = [](const Vector3d& point) -> Vector3d {
+    return (10.0 * point).array().round() / 10.0;
+  };
+  int met = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    slam::RandomStream draws(seed, slam::Stream::kWorld, 82);
+    TriangleCorners corners;
+    for (Vector3d& corner : corners) {
+      corner = on_grid(random_in_box(draws, 3.0));
+      corner.z() = 0.1 * std::floor(4.0 * draws.uniform());
+    }
+    const Eigen::Vector2d at = random_in_box(draws, 1.0).head<2>();
+    const bool has_point = std::ranges::any_of(points_of(corners), [&](const Vector3d& point) {
+      return (point.head<2>() - at).norm() < 0.2 && point.z() > 0.1 - 1e-12 && point.z() < 0.2 + 1e-12;
+    });
+    if (!has_point) continue;
+    EXPECT_TRUE(meets(upright_tube(at, 0.2 + 1e-9, 0.1 - 1e-9, 0.2 + 1e-9), TriangleTree({corners}), kHere))
+        << seed;
+    EXPECT_TRUE(meets(upright_tube(at, 0.2, 0.1, 0.2), TriangleTree({corners}), kHere)) << seed;
+    ++met;
+  }
+  EXPECT_GT(met, 100);
+}
+
 }  // namespace
 }  // namespace stereobench::worlds
