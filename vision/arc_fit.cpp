@@ -16,8 +16,8 @@ namespace {
 // background is an error that an arc's pixels share too.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
-constexpr double kNoiseFactor = 1.16;          // k of a large ball
-constexpr double kNoiseFactorPerRadius = 1.5;  // px: k of a ball of one pixel's radius less that
+constexpr double kNoiseFactor = 1.12;          // k of a large ball
+constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 
 constexpr double kContradictionSigmas = 3.0;

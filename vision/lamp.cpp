@@ -22,11 +22,10 @@ Eigen::Matrix<double, 3, 4> beyond_ratio(const Eigen::Vector3d& ratio) {
 }
 
 // Of a ball's m, its c0 being unknown too.
-Eigen::Matrix3d ratio_information(const Eigen::Matrix4d& information, const Eigen::Vector4d& colours,
-                                  double noise_variance) {
+Eigen::Matrix3d ratio_covariance(const Eigen::Matrix4d& information, const Eigen::Vector4d& colours,
+                                 double noise_variance) {
   const Eigen::Matrix<double, 3, 4> beyond = beyond_ratio(colours.tail<3>() / colours[0]);
-  const Eigen::Matrix3d covariance = beyond * information.inverse() * beyond.transpose();
-  return covariance.inverse() * (colours[0] * colours[0] / noise_variance);
+  return beyond * information.inverse() * beyond.transpose() * (noise_variance / (colours[0] * colours[0]));
 }
 
 }  // namespace
@@ -50,12 +49,14 @@ LightColours SharedLamp::colours(const Eigen::Matrix4d& information, const Light
 }
 
 void LampPool::count(const BallLight& light, double sign) {
-  if (!(light.information(0, 0) > 0.0)) return;
+  if (!light.shows_lamp) return;
+  const Eigen::Matrix3d least_scatter = kLeastScatter * kLeastScatter * Eigen::Matrix3d::Identity();
   for (int channel = 0; channel < 3; ++channel) {
     const Eigen::Vector4d colours = light.colours.col(channel);
     if (!(colours[0] > kDarkSigmas * std::sqrt(noise_variance_))) continue;
     const Eigen::Vector3d ratio = colours.tail<3>() / colours[0];
-    const Eigen::Matrix3d information = ratio_information(light.information, colours, noise_variance_);
+    const Eigen::Matrix3d information =
+        (ratio_covariance(light.information, colours, noise_variance_) + least_scatter).inverse();
     Channel& sums = channels_[static_cast<std::size_t>(channel)];
     sums.information += sign * information;
     sums.information2 += sign * information * information;
@@ -68,10 +69,9 @@ void LampPool::count(const BallLight& light, double sign) {
 bool LampPool::tells_lamp(const BallLight& light) const {
   Eigen::Index brightest = 0;
   const double c0 = light.colours.row(0).maxCoeff(&brightest);
-  if (!(c0 > 0.0) || !(light.information(0, 0) > kManyPixels)) return false;
-  const Eigen::Matrix3d information =
-      ratio_information(light.information, light.colours.col(brightest), noise_variance_);
-  return information.inverse().trace() < kWellKnown * kWellKnown;
+  if (!light.shows_lamp || !(c0 > 0.0) || !(light.information(0, 0) > kManyPixels)) return false;
+  return ratio_covariance(light.information, light.colours.col(brightest), noise_variance_).trace() <
+         kWellKnown * kWellKnown;
 }
 
 std::optional<SharedLamp> LampPool::without(const BallLight& own) const {

@@ -18,6 +18,9 @@ struct BallLight {
   /// and of (1, 0) over the others, and next to nothing of a lamp that no pixel shows. Zero where nothing is
   /// known.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  /// Whether the ball shows its lamp at all: more than chance makes of a ball that is seen from its unlit
+  /// side.
+  bool shows_lamp = false;
 };
 
 /// What is known of a ball's light before its pixels are looked at: in each channel l is about m c0.

@@ -8,6 +8,7 @@
 #include "vision/arc_fit.h"
 #include "vision/boundary_guess.h"
 #include "vision/palette.h"
+#include "vision/pixel_noise.h"
 #include "vision/rim.h"
 #include "vision/shading.h"
 
@@ -135,7 +136,8 @@ bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& setting
 bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
                  const std::optional<SharedLamp>& lamp) {
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
-  const auto shading = fit_shading(image, settings.camera, fit.outline, shades, lamp);
+  const auto shading = fit_shading(image, settings.camera, fit.outline, shades,
+                                   pixel_variance(settings.noise_sd_levels), lamp);
   if (shading) fit.light = shading->light();
   look(fit, image, unmix, 0.0, shading);
   for (int i = 0; i < kShadedSteps; ++i)

@@ -13,7 +13,9 @@ constexpr double kSamplesPerRadius = 60.0;  // px: the noise of so many is small
 constexpr std::size_t kFewestSamples = 24;
 constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
 constexpr int kMostTurns = 12;
-constexpr double kRidge = 1e-6;  // per sample: a lamp that nothing shows is none
+constexpr double kByChance = 40.0;   // of chi-square with nine degrees of freedom, and a lit side to choose
+constexpr double kFaintLamp = 0.05;  // beside the light from all around: reflections do as much
+constexpr double kRidge = 1e-6;      // per sample: a lamp that nothing shows is none
 
 // A pixel that shows the ball.
 struct Sample {
@@ -115,6 +117,17 @@ BallLight fit_lamp(ScratchVector<Sample>& samples, std::size_t stride,
   return light;
 }
 
+// Whether there is a lamp. A ball that is seen from its unlit side suits none at all as well as any behind
+// it, and must not say which.
+bool shows_lamp(const BallLight& light, double noise_variance) {
+  const auto lamp = light.colours.bottomRows<3>();
+  if (!(lamp.norm() > kFaintLamp * light.colours.row(0).norm())) return false;
+  const Eigen::Vector3d both = light.information.bottomLeftCorner<3, 1>();
+  const Eigen::Matrix3d of_lamp =
+      light.information.bottomRightCorner<3, 3>() - both * both.transpose() / light.information(0, 0);
+  return (lamp.transpose() * of_lamp * lamp).trace() > kByChance * noise_variance;
+}
+
 }  // namespace
 
 BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
@@ -127,7 +140,7 @@ BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
 }
 
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
-                                   const OutlineModel& outline, const Shades& shades,
+                                   const OutlineModel& outline, const Shades& shades, double noise_variance,
                                    const std::optional<SharedLamp>& shared) {
   const BallSurface surface(camera, outline);
   ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades);
@@ -138,7 +151,9 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
   } else if (stride > 1) {
     light_by(lamp_of(fit_lamp(samples, stride, std::nullopt)), samples);
   }
-  return Shading(surface, fit_lamp(samples, 1, shared));
+  BallLight light = fit_lamp(samples, 1, shared);
+  light.shows_lamp = shows_lamp(light, noise_variance);
+  return Shading(surface, light);
 }
 
 }  // namespace stereobench::vision

@@ -92,10 +92,11 @@ class Shading {
 /// lamp is found in turns with it.
 /// @param image CV_8UC3, BGR
 /// @param shades pixels of other colours are not the ball's
+/// @param noise_variance of a pixel's channel, levels^2
 /// @param shared what other balls tell of the lamp, if anything
 /// @return empty when too little of the ball is seen
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
-                                   const OutlineModel& outline, const Shades& shades,
+                                   const OutlineModel& outline, const Shades& shades, double noise_variance,
                                    const std::optional<SharedLamp>& shared);
 
 }  // namespace stereobench::vision

@@ -40,6 +40,7 @@ Sums look_at(const Eigen::Vector3d& paint, const Eigen::Matrix3d& ratio, int pix
     sums.products += lit * colour.transpose();
   }
   sums.own.colours = sums.own.information.ldlt().solve(sums.products);
+  sums.own.shows_lamp = true;
   return sums;
 }
 
@@ -115,6 +116,39 @@ TEST(LampPool, LeavesOutTheBallThatAsks) {
   EXPECT_TRUE(with->colours(ball.own.information, ball.products)
                   .isApprox(never->colours(ball.own.information, ball.products), 1e-9));
   EXPECT_TRUE(with->direction().isApprox(never->direction(), 1e-9));
+}
+
+// Balls that are seen from their unlit side know their shades to a hundredth of a level, and nothing of what
+// lights the other side. Mutations: they count; they tell their lamp well enough themselves.
+TEST(LampPool, AsksNoBallThatShowsNoLamp) {
+  painter::Dice dice(5);
+  const Eigen::Vector3d ahead = -Eigen::Vector3d::UnitZ();
+  Sums unlit = look_at({60.0, 80.0, 30.0}, Eigen::Matrix3d::Zero(), 5000, ahead, dice);
+  unlit.own.shows_lamp = false;
+  LampPool pool(kNoise_variance);
+  for (int i = 0; i < 3; ++i) {
+    pool.add(look_at(any_paint(dice), lamp(0.0, dice), 300, ahead, dice).own);
+    pool.add(unlit.own);
+  }
+  const auto shared = pool.without(unlit.own);
+  ASSERT_TRUE(shared) << "the others know what it does not";
+  const Eigen::Vector3d truth = lamp(0.0, dice).rowwise().sum();
+  EXPECT_LT((shared->direction() - truth).norm(), 0.05 * truth.norm());
+}
+
+// A large ball knows its own lamp far better than lamps are alike. Mutation: no least scatter.
+TEST(LampPool, LetsNoSureBallSpeakForAll) {
+  painter::Dice dice(6);
+  const Eigen::Vector3d ahead = -Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d usual = lamp(0.0, dice);
+  LampPool pool(kNoise_variance);
+  for (int i = 0; i < 6; ++i) pool.add(look_at(any_paint(dice), usual, 300, ahead, dice).own);
+  const Eigen::Matrix3d aside = usual + Eigen::Matrix3d::Constant(0.1);
+  pool.add(look_at(any_paint(dice), aside, 20000, ahead, dice).own);
+  const auto shared = pool.without(BallLight{});
+  ASSERT_TRUE(shared);
+  const Eigen::Vector3d off = (shared->direction() - usual.rowwise().sum()) / 3.0;
+  EXPECT_LT(off.cwiseAbs().maxCoeff(), 0.04);
 }
 
 // Nobody else, or a ball that tells its lamp better than that. Mutation: one other ball is enough.

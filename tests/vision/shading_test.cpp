@@ -109,7 +109,7 @@ TEST(Shading, TellsTheColoursOfTheRim) {
   for (int i = 0; i < kBalls; ++i) {
     const LitBall ball = any_ball(dice);
     const auto shading = fit_shading(picture(ball, camera, 2.0, dice), camera, ball.outline(camera),
-                                     Shades(kPaint, 2.0), std::nullopt);
+                                     Shades(kPaint, 2.0), 4.0, std::nullopt);
     ASSERT_TRUE(shading);
     const double off = off_at_rim(*shading, ball, camera);
     EXPECT_LT(off, 3.0) << "ball " << i;
@@ -130,9 +130,30 @@ TEST(Shading, LooksAtTheBallOnly) {
     const OutlineModel outline = ball.outline(camera);
     const auto edge = static_cast<int>(outline.centre_px().x() + 0.3 * outline.radius_px());
     image.colRange(std::clamp(edge, 0, image.cols - 1), image.cols).setTo(cv::Scalar(90, 90, 90));
-    const auto shading = fit_shading(image, camera, outline, Shades(kPaint, 1.0), std::nullopt);
+    const auto shading = fit_shading(image, camera, outline, Shades(kPaint, 1.0), 1.0, std::nullopt);
     ASSERT_TRUE(shading);
     EXPECT_LT(off_at_rim(*shading, ball, camera), 2.0) << "ball " << i;
+  }
+}
+
+// A ball that is seen from its unlit side has a lamp somewhere behind it, and does not say that it has none;
+// what shows its lamp does. Mutation: any lamp counts, however faint.
+TEST(Shading, KnowsWhetherItShowsALamp) {
+  const Intrinsics camera;
+  painter::Dice dice(4);
+  for (int i = 0; i < 60; ++i) {
+    LitBall ball = any_ball(dice);
+    const auto shows_lamp = [&] {
+      const auto shading = fit_shading(picture(ball, camera, 2.0, dice), camera, ball.outline(camera),
+                                       Shades(kPaint, 2.0), 4.0, std::nullopt);
+      return shading && shading->light().shows_lamp;
+    };
+    ball.lamp = {0.4, -0.3, -0.3};
+    EXPECT_TRUE(shows_lamp()) << "ball " << i;
+    ball.lamp = 0.55 * ball.in_camera.normalized();
+    EXPECT_FALSE(shows_lamp()) << "ball " << i << " is lit from behind";
+    ball.lamp.setZero();
+    EXPECT_FALSE(shows_lamp()) << "ball " << i << " has no lamp";
   }
 }
 
@@ -142,10 +163,10 @@ TEST(Shading, IsUnknownWhereTooLittleIsSeen) {
   const OutlineModel tiny(camera, {500.0, 300.0}, 2.0);
   const cv::Mat grey(camera.height_px, camera.width_px, CV_8UC3, cv::Scalar(130, 130, 130));
   const Shades shades(kPaint, 1.0);
-  EXPECT_FALSE(fit_shading(grey, camera, {camera, {500.0, 300.0}, 40.0}, shades, std::nullopt));
-  EXPECT_FALSE(fit_shading(cv::Mat(grey.size(), CV_8UC3, cv::Scalar(40, 120, 220)), camera, tiny, shades,
+  EXPECT_FALSE(fit_shading(grey, camera, {camera, {500.0, 300.0}, 40.0}, shades, 1.0, std::nullopt));
+  EXPECT_FALSE(fit_shading(cv::Mat(grey.size(), CV_8UC3, cv::Scalar(40, 120, 220)), camera, tiny, shades, 1.0,
                            std::nullopt));
-  EXPECT_FALSE(fit_shading(grey, camera, {camera, {-500.0, 300.0}, 40.0}, shades, std::nullopt))
+  EXPECT_FALSE(fit_shading(grey, camera, {camera, {-500.0, 300.0}, 40.0}, shades, 1.0, std::nullopt))
       << "out of the picture";
 }
 
