@@ -8,17 +8,20 @@
 namespace stereobench::vision {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 // The noise law, its constants measured on rendered and painted balls so that NIS/2 is 1 (`stereobench
 // calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
 // a whole outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). The smaller a ball, the
 // fewer pixels tell its shading, and k grows. What k has beyond 1 is of the colours beside an arc, which its
 // pixels share, and moves an edge by as much more as it crosses more pixels (edge_width_px). Texture in the
-// background is an error that an arc's pixels share too.
+// background is an error that an arc's pixels share too, as far as texture reaches.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
 constexpr double kNoiseFactor = 1.12;          // k of a large ball
 constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
+constexpr double kTextureLength_px = 3.2;  // longer arcs see more than one of what disturbs them
 
 constexpr double kContradictionSigmas = 3.0;
 
@@ -76,6 +79,8 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
   const double in_focus = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
   const double noise_factor = in_focus + (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
   const double beyond_noise = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
+  const double arc_length_px = 2.0 * kPi * outline.radius_px() / static_cast<double>(arcs.size());
+  const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
   for (const UnmixedPixel& pixel : pixels) {
     const RimPoint point = outline.rim_point(pixel.position_px);
     const Coverage covered =
@@ -93,7 +98,7 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
         (noise_factor * colours[i].noise_variance + beyond_noise * beyond_noise) / information[i] +
-        kTextureFactor * colours[i].texture_variance;
+        texture_factor * colours[i].texture_variance;
     arcs[i].weight = 1.0;
   }
   return arcs;
