@@ -137,7 +137,7 @@ struct Gate {
 /// Somebody's program that finds the balls in the pictures.
 struct DetectorProgram {
   std::string command;      ///< of the shell; empty: the vision stage looks itself
-  double timeout_s = 30.0;  ///< for the answer to a frame
+  double timeout_s = 30.0;  ///< for the answer to a frame; the first may take four times as long
 };
 
 /// Everything that a run is made from.

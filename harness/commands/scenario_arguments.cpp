@@ -25,8 +25,10 @@ void add_eyes_options(CLI::App& command, ScenarioArguments& arguments) {
                   "answers in lines of JSON (README)")
       ->type_name("COMMAND");
   command
-      .add_option("--detector-timeout-s", arguments.detector_timeout_s,
-                  "how long it may think about a frame (default: 30, or as the scenario says)")
+      .add_option(
+          "--detector-timeout-s", arguments.detector_timeout_s,
+          "how long it may think about a frame, and four times that about the first (default: 30, or as the "
+          "scenario says)")
       ->check(CLI::Range(1e-3, 1e6));
 }
 

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostBytes = 1 << 20;  // of a line
+constexpr double kStartPatience = 4.0;       // times as long for the first answer: libraries and models load
 constexpr std::chrono::seconds kDying(2);    // from the end of a program's output to its own
 
 fs::path make_scratch_folder() {
@@ -84,9 +85,13 @@ DetectorProcess::DetectorProcess(const worlds::DetectorProgram& program, const D
   process_->say(setup_line(setup_) + "\n", deadline());
 }
 
+double DetectorProcess::patience_s() const {
+  return (has_answered_ ? 1.0 : kStartPatience) * program_.timeout_s;
+}
+
 SupervisedProcess::Time DetectorProcess::deadline() const {
   return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(program_.timeout_s));
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s()));
 }
 
 std::vector<vision::BallObservation> DetectorProcess::operator()(const DetectorInput& input) {
@@ -95,7 +100,7 @@ std::vector<vision::BallObservation> DetectorProcess::operator()(const DetectorI
   const SupervisedProcess::Time until = deadline();
   const FrameRequest request = {input.frame, input.stamp_ns, pictures.left(), pictures.right()};
   if (!process_->say(request_line(request) + "\n", until))
-    fault(when, fmt::format("expected it to read its input within {:g} s", program_.timeout_s));
+    fault(when, fmt::format("expected it to read its input within {:g} s", patience_s()));
   std::string line;
   const Heard heard = process_->hear(line, kMostBytes, until);
   if (heard != Heard::kLine) fail(when, heard, line);
@@ -117,13 +122,13 @@ void DetectorProcess::finish() {
   if (heard == Heard::kLine || heard == Heard::kTooMuch || !line.empty())
     fault(when, fmt::format("expected one line a frame and no more (got '{}')", excerpt(line)));
   const auto status = heard == Heard::kEnd ? process_->wait_status(until) : std::nullopt;
-  if (!status) fault(when, fmt::format("expected it to end within {:g} s of its input", program_.timeout_s));
+  if (!status) fault(when, fmt::format("expected it to end within {:g} s of its input", patience_s()));
   if (*status != 0) fault(when, fmt::format("expected exit status 0 (it ended with {})", describe(*status)));
 }
 
 void DetectorProcess::fail(const std::string& when, Heard heard, const std::string& line) {
   if (heard == Heard::kSilence)
-    fault(when, fmt::format("expected a line of detections within {:g} s (none came)", program_.timeout_s));
+    fault(when, fmt::format("expected a line of detections within {:g} s (none came)", patience_s()));
   if (heard == Heard::kTooMuch)
     fault(when, fmt::format("expected a line of at most {} bytes (got more)", kMostBytes));
   const auto status = process_->wait_status(Clock::now() + kDying);

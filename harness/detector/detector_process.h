@@ -39,6 +39,8 @@ class DetectorProcess {
   void finish();
 
  private:
+  /// How long it may take now; longer until its first answer, since it has to start.
+  double patience_s() const;
   SupervisedProcess::Time deadline() const;
   /// Explains why there is no answer.
   [[noreturn]] void fail(const std::string& when, Heard heard, const std::string& line);

@@ -19,9 +19,8 @@ constexpr const char* kObj =
     "mtllib twin.mtl\nv 0 1 0\nv 0 -1 0\nv 0.5 -1 2\nv 0 1 3\nvt 0.25 0\nvt 1 0\nvt 1 0.75\nvt 0 1\n"
     "usemtl shown\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-/// @param objects, connections further ones: what the material shows
-std::string fbx(const std::string& objects, const std::string& connections) {
-  return fmt::format(R"(; FBX 7.4.0 project file
+/// The same as FBX in text; braces are fmt's.
+constexpr char kFile[] = R"(; FBX 7.4.0 project file
 FBXHeaderExtension:  {{
   FBXHeaderVersion: 1003
   FBXVersion: 7400
@@ -87,8 +86,11 @@ Connections:  {{
   C: "OO",1,2
   C: "OO",3,2
 {}}}
-)",
-                     objects, connections);
+)";
+
+/// @param objects, connections further ones: what the material shows
+std::string fbx(const std::string& objects, const std::string& connections) {
+  return fmt::format(kFile, objects, connections);
 }
 
 std::string texture(const std::string& file) {
