@@ -91,6 +91,7 @@ CalibrationBin summarise(std::span<const CalibrationSample* const> samples, cons
   Eigen::Vector2d over_bound = Eigen::Vector2d::Zero();
   double stated_correlation = 0.0;
   long bounded = 0;
+  std::vector<double> disparity_errors_px, radius_squares_px2;
   for (const CalibrationSample* sample : samples) {
     ++bin.samples;
     if (!(squared_length(*sample, covariance_of(*sample, noise, NoiseKind::kScaled)) <= gate)) {
@@ -102,6 +103,8 @@ CalibrationBin summarise(std::span<const CalibrationSample* const> samples, cons
     const Eigen::Vector2d pull = sample->error.cwiseQuotient(sample->stated.diagonal().cwiseSqrt());
     pulls += pull * pull.transpose();
     stated_correlation += correlation(sample->stated);
+    disparity_errors_px.push_back(sample->disparity_error_px);
+    radius_squares_px2.push_back(sample->radius_error_px.squaredNorm() / 2.0);
     for (const NoiseKind kind : {NoiseKind::kStated, NoiseKind::kScaled, NoiseKind::kStereo})
       bin.half_nis[static_cast<int>(kind)] +=
           squared_length(*sample, covariance_of(*sample, noise, kind)) / 2.0;
@@ -115,6 +118,8 @@ CalibrationBin summarise(std::span<const CalibrationSample* const> samples, cons
   bin.half_nis /= used;
   bin.correlation = {correlation(pulls), stated_correlation / used};
   bin.over_bound = (over_bound / static_cast<double>(bounded)).cwiseSqrt();
+  bin.disparity_error_px = harness::summarise(disparity_errors_px);
+  bin.radius_rms_px = std::sqrt(harness::summarise(radius_squares_px2).mean);
   return bin;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/calibration/sample.h"
+#include "harness/scoring/statistics.h"
 #include "slam/filter_config.h"
 
 namespace stereobench::harness {
@@ -39,6 +40,8 @@ struct CalibrationBin {
       Eigen::Vector2d::Zero();  ///< errors over the bound, rms; NaN where there is none
   Eigen::Vector2d correlation = Eigen::Vector2d::Zero();  ///< of range and bearing: of the errors, as stated
   Eigen::Vector3d half_nis = Eigen::Vector3d::Zero();     ///< by NoiseKind; 1 when honest
+  Summary disparity_error_px;                             ///< of those that tell of pixels
+  double radius_rms_px = 0.0;                             ///< error of the outlines' radii, over both eyes
 };
 
 /// @param noise fitted to other samples

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/calibration/outline_bound.h"
 #include "harness/detector/detector.h"
@@ -34,12 +35,17 @@ Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::Stereo
       .covariance;
 }
 
-CalibrationSample compare(const BallOutline& ball, const slam::RangeBearing& seen) {
+CalibrationSample compare(const BallOutline& ball, const vision::BallObservation& observation) {
   CalibrationSample sample;
+  const slam::RangeBearing& seen = observation.range_bearing;
   const Eigen::Vector2d place = ball.ball_in_robot.head<2>();
   sample.truth = {place.norm(), slam::arc_tangent(place.y(), place.x())};
   sample.error = {seen.range_m - sample.truth.x(), slam::wrap_angle(seen.bearing_rad - sample.truth.y())};
   sample.stated = seen.covariance;
+  sample.disparity_error_px = disparity_error_px(ball, observation);
+  sample.radius_error_px = {observation.left_radius_px - ball.left.radius_px(),
+                            observation.right_radius_px - ball.right.radius_px()};
+  if (!observation.has_pixels) sample.radius_error_px.fill(std::numeric_limits<double>::quiet_NaN());
   sample.whole = is_whole(ball);
   return sample;
 }
@@ -54,14 +60,15 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
     const VisionTruth truth = {gallery.world, gallery.rig, gallery.path[look.step].pose, look.frame};
     const std::vector<BallOutline> outlines = ball_outlines(truth);
     const std::vector<int> balls = balls_observed(truth, look.observations);
-    for (std::size_t i = 0; i < look.observations.size(); ++i) {
-      const vision::BallObservation& observation = look.observations[i];
+    const std::vector<vision::BallObservation> straight = straightened(gallery.rig, look.observations);
+    for (std::size_t i = 0; i < straight.size(); ++i) {
+      const vision::BallObservation& observation = straight[i];
       if (!observation.trusted()) continue;
       const auto ball = std::ranges::find(outlines, balls[i], &BallOutline::ball);
       if (ball == outlines.end()) continue;
       const int colour = gallery.world.balls[static_cast<std::size_t>(ball->ball)].colour;
       if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
-      CalibrationSample sample = compare(*ball, observation.range_bearing);
+      CalibrationSample sample = compare(*ball, observation);
       sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
       if (sample.whole) sample.bound = bound_of(gallery, look.frame, *ball, noise_sd_levels);
       take.samples.push_back(sample);

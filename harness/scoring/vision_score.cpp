@@ -65,18 +65,6 @@ std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vecto
   return under;
 }
 
-/// The observations with their centres where a true rig without distortion would have them.
-std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
-                                                  std::span<const vision::BallObservation> observations) {
-  const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::vector<vision::BallObservation> straight(observations.begin(), observations.end());
-  for (vision::BallObservation& observation : straight) {
-    observation.left_px = vision::pinhole_point(rig, observation.left_px).value_or(nowhere);
-    observation.right_px = vision::pinhole_point(rig, observation.right_px).value_or(nowhere);
-  }
-  return straight;
-}
-
 void add_errors(const BallOutline& ball, const vision::BallObservation& observation, VisionScore& score) {
   const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
   const slam::RangeBearing& measured = observation.range_bearing;
@@ -85,9 +73,7 @@ void add_errors(const BallOutline& ball, const vision::BallObservation& observat
                               slam::wrap_angle(measured.bearing_rad - true_bearing_rad));
   score.range_errors_m.push_back(error.x());
   score.bearing_errors_rad.push_back(error.y());
-  const double disparity_px = observation.left_px.x() - observation.right_px.x();
-  if (observation.has_pixels)
-    score.disparity_errors_px.push_back(disparity_px - (ball.left.centre_px.x() - ball.right.centre_px.x()));
+  if (observation.has_pixels) score.disparity_errors_px.push_back(disparity_error_px(ball, observation));
   const double squared = error.dot(measured.covariance.inverse() * error);
   if (std::isfinite(squared)) score.normalised_errors.push_back(squared / 2.0);
 }
@@ -155,6 +141,22 @@ VisionScore& VisionScore::operator+=(const VisionScore& other) {
   append(disparity_errors_px, other.disparity_errors_px);
   append(normalised_errors, other.normalised_errors);
   return *this;
+}
+
+std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
+                                                  std::span<const vision::BallObservation> observations) {
+  const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<vision::BallObservation> straight(observations.begin(), observations.end());
+  for (vision::BallObservation& observation : straight) {
+    observation.left_px = vision::pinhole_point(rig, observation.left_px).value_or(nowhere);
+    observation.right_px = vision::pinhole_point(rig, observation.right_px).value_or(nowhere);
+  }
+  return straight;
+}
+
+double disparity_error_px(const BallOutline& ball, const vision::BallObservation& straight) {
+  if (!straight.has_pixels) return std::numeric_limits<double>::quiet_NaN();
+  return straight.left_px.x() - straight.right_px.x() - (ball.left.centre_px.x() - ball.right.centre_px.x());
 }
 
 VisionScore score_observations(const VisionTruth& truth,

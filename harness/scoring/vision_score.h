@@ -41,6 +41,14 @@ struct VisionScore {
 VisionScore score_observations(const VisionTruth& truth,
                                std::span<const vision::BallObservation> observations);
 
+/// The observations with their centres where a true rig without distortion would have them; NaN where there
+/// is no such place.
+std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
+                                                  std::span<const vision::BallObservation> observations);
+
+/// Measured minus true. @param straight one of `straightened` @return NaN for one without pixels
+double disparity_error_px(const BallOutline& ball, const vision::BallObservation& straight);
+
 /// Whose the observations of one pair are, by the same rule.
 /// @return the index of the ball for each observation, kUnknown where there is none
 std::vector<int> balls_observed(const VisionTruth& truth,
