@@ -22,7 +22,7 @@ namespace {
 using harness::ExitCode;
 
 struct Arguments {
-  std::string seeds = "0..39";
+  std::string seeds = "0..159";
   int fields = 4;
   int jobs = 2;
   std::filesystem::path out;
@@ -39,16 +39,14 @@ void add_options(CLI::App& program, Arguments& arguments) {
       ->capture_default_str();
   program.add_option("--out,-o", arguments.out, "the same as JSON")->type_name("FILE");
   program.footer(
-      "Renders balls and paints others, lets vision measure them, and prints what is measured beside its\n"
-      "limit. By depth stand balls of 9 cm radius before plain walls, under 2 levels of noise, in galleries "
-      "as\n"
-      "`stereobench calibrate` makes them; what is +- is the 95 % interval, and what it reaches across a "
-      "limit\n"
-      "more --seeds decide. Balls that are whole, painted between pixels, hidden in part, or among things "
-      "that\n"
-      "look like them follow.\n"
+      "Prints what vision measures beside its limits: whole balls by depth (9 cm radius, plain walls, 2 "
+      "levels\n"
+      "of noise, in galleries as `stereobench calibrate` makes them), painted balls by where they lie "
+      "between\n"
+      "pixels, balls among things that look like them, and balls that are hidden in part. +- is the 95 %\n"
+      "interval; where it reaches across a limit, more --seeds decide.\n"
       "Exit codes: 0 all limits are met, 1 one is short, 2 bad usage, 4 a process crashed.\n\n"
-      "Example: stereobench_vision_accuracy --seeds 0..159 --out accuracy.json");
+      "Example: stereobench_vision_accuracy --seeds 160..319 --out accuracy.json");
 }
 
 std::vector<std::uint64_t> seeds_of(const Arguments& arguments) {
