@@ -70,7 +70,7 @@ const Quantity kQuantities[] = {
      {},
      [](const CalibrationBin& bin) { return bin.correlation.x(); },
      [](const CalibrationBin& bin) { return k95 / std::sqrt(static_cast<double>(used(bin))); }},
-    {"the same as stated, mean", {}, [](const CalibrationBin& bin) { return bin.correlation.y(); }},
+    {"correlation as stated, mean", {}, [](const CalibrationBin& bin) { return bin.correlation.y(); }},
 };
 
 worlds::Scenario eyes() {
