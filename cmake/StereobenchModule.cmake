@@ -4,13 +4,13 @@
 add_library(stereobench_options INTERFACE)
 target_compile_features(stereobench_options INTERFACE cxx_std_20)
 target_include_directories(stereobench_options INTERFACE ${CMAKE_SOURCE_DIR})
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # GCC 12 sees overflows in what sanitizers make of the library's code
+  set(warnings_fail -Werror)
+endif()
 target_compile_options(stereobench_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wdouble-promotion
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wdouble-promotion ${warnings_fail}
   -Wno-missing-field-initializers  # fields of our aggregates have defaults
   -ffp-contract=off)  # results do not depend on whether the machine has fused multiply-add
-if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # GCC 12 sees overflows in what sanitizers make of the library's code
-  target_compile_options(stereobench_options INTERFACE -Werror)
-endif()
 target_compile_definitions(stereobench_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 
 option(STEREOBENCH_TIDY "run clang-tidy on every source" OFF)

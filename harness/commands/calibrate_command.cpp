@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include "harness/calibration/calibration_result.h"
+#include "harness/calibration/galleries.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/atomic_file.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
-#include "harness/run/serialise.h"
 #include "vision/observe.h"
 #include "worlds/gallery.h"
 #include "worlds/seeds.h"
@@ -34,20 +32,6 @@ worlds::Scenario read_stereo_scenario(const CalibrateArguments& arguments) {
   return scenario;
 }
 
-std::vector<CalibrationTake> take_all(const worlds::Scenario& scenario,
-                                      const worlds::GallerySettings& settings,
-                                      const std::vector<std::uint64_t>& seeds, const ScenarioArguments& how) {
-  Progress progress("calibrate " + scenario.name, static_cast<double>(seeds.size()));
-  const auto take = [&](std::size_t index, const std::function<void(double)>&) {
-    return to_bytes(take_samples(worlds::gallery(scenario, settings, seeds[index]), how.backend));
-  };
-  std::vector<CalibrationTake> takes;
-  for (const std::string& bytes :
-       run_in_processes(seeds.size(), how.run.jobs, take, [&](double done) { progress.show(done); }))
-    takes.push_back(calibration_take_from_bytes(bytes));
-  return takes;
-}
-
 int run_calibration(const CalibrateArguments& arguments) {
   const worlds::Scenario scenario = read_stereo_scenario(arguments);
   const std::vector<std::uint64_t>& seeds = arguments.scenario.run.seeds;
@@ -57,7 +41,8 @@ int run_calibration(const CalibrateArguments& arguments) {
   prepare_output_folder(out);
   const worlds::GalleryDepths depths = worlds::measurable_depths(scenario.rig, scenario.world.ball_radius_m(),
                                                                  vision::ObserverSettings{}.min_radius_px);
-  const auto takes = take_all(scenario, {depths, arguments.plain}, seeds, arguments.scenario);
+  const auto takes = take_galleries(scenario, {depths, arguments.plain}, seeds, arguments.scenario.backend,
+                                    arguments.scenario.run.jobs);
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;
   result.detector = scenario.detector.command.empty() ? "stereobench" : scenario.detector.command;

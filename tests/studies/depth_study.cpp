@@ -4,11 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/calibration/galleries.h"
 #include "harness/commands/scenario_arguments.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
-#include "harness/run/serialise.h"
-#include "worlds/gallery.h"
 
 namespace stereobench {
 namespace {
@@ -84,18 +81,10 @@ worlds::Scenario eyes() {
 }  // namespace
 
 std::vector<Section> study_depths(const std::vector<std::uint64_t>& seeds, int jobs) {
-  const worlds::Scenario scenario = eyes();
-  harness::Progress progress("galleries", static_cast<double>(seeds.size()));
-  const auto take = [&](std::size_t index, const std::function<void(double)>&) {
-    const worlds::Scenario gallery = worlds::gallery(scenario, {kDepths, true}, seeds[index]);
-    return harness::to_bytes(harness::take_samples(gallery, renderer::Backend::kOsmesa));
-  };
   std::vector<harness::CalibrationSample> samples;
-  for (const std::string& bytes :
-       harness::run_in_processes(seeds.size(), jobs, take, [&](double done) { progress.show(done); })) {
-    const harness::CalibrationTake taken = harness::calibration_take_from_bytes(bytes);
-    samples.insert(samples.end(), taken.samples.begin(), taken.samples.end());
-  }
+  for (const harness::CalibrationTake& take :
+       harness::take_galleries(eyes(), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
+    samples.insert(samples.end(), take.samples.begin(), take.samples.end());
   const harness::FittedNoise as_stated;
   return depth_sections(
       harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins));
