@@ -16,9 +16,12 @@ constexpr double kUnknownShade = 0.12;  // sd of the ball's brightness at the ri
 constexpr double kLeastShade = 0.01;    // the same where the shading suits all that is seen
 constexpr double kShadeAtRim = 2.0;     // times as uncertain as beside it
 constexpr double kTextureSigmas = 2.0;
-constexpr std::size_t kTextureArcs = 1;    // to either side
-constexpr double kTextureElsewhere = 0.4;  // of the arcs' mean deviation, as a variance
-constexpr double kMeanSquareShare = 0.4;   // of either colour in a rim pixel
+constexpr std::size_t kTextureArcs = 1;     // to either side
+constexpr double kTextureElsewhere = 0.25;  // of the arcs' mean deviation, as a variance
+constexpr std::size_t kGradientArcs = 3;    // to either side
+constexpr double kGradientByChance = 11.3;  // chi-square with three degrees of freedom: one in a hundred
+constexpr double kSmoothSigmas = 3.0;
+constexpr double kMeanSquareShare = 0.4;  // of either colour in a rim pixel
 constexpr double kMinContrast_levels = 14.0;
 constexpr double kMaxAlphaSd = 0.5;  // a pixel that knows its share no better says nothing
 
@@ -96,6 +99,52 @@ Eigen::Matrix3d texture_around(const ScratchVector<RimArc>& arcs, std::size_t ar
   return texture(around.scatter(), around.count() - 1.0, noise_variance);
 }
 
+// How the background beside one arc changes with its distance from the rim: `products` / `squares`, per px.
+struct Gradient {
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();
+  double squares = 0.0;
+  bool is_smooth = false;  // nothing but noise is left
+};
+
+Gradient gradient(const BackgroundSums& outside, double noise_variance) {
+  const double freedom = 3.0 * (outside.count() - 2.0);
+  if (!(freedom > 0.0)) return {};
+  const double distance = outside.mean_distance_px();
+  Gradient result;
+  result.products = outside.by_distance.head<3>() - distance * outside.moments.col(3).head<3>();
+  result.squares = outside.distance2 - distance * outside.by_distance.w();
+  if (!(result.squares > 0.0)) return {};
+  const double rest = outside.scatter().trace() - result.products.squaredNorm() / result.squares;
+  result.is_smooth = rest < noise_variance * (freedom + kSmoothSigmas * std::sqrt(2.0 * freedom));
+  return result;
+}
+
+// Of each arc; none are smooth while the outline is not where the rim is, and the ring may show some of it.
+ScratchVector<Gradient> gradients_beside(const Rim& rim, double noise_variance) {
+  ScratchVector<Gradient> gradients(rim.arcs.size());
+  if (!rim.has_shades) return gradients;
+  for (std::size_t i = 0; i < gradients.size(); ++i)
+    gradients[i] = gradient(rim.arcs[i].outside, noise_variance);
+  return gradients;
+}
+
+// The background's colour where the rim is. Beside a ball that stands behind, the colours of the ring are
+// not those at the rim; a step in them, which no gradient explains, is texture.
+Eigen::Vector3d background_at_rim(const BackgroundSums& outside, const ScratchVector<Gradient>& gradients,
+                                  std::size_t arc, double noise_variance) {
+  if (!gradients[arc].is_smooth) return outside.mean();
+  Gradient around;
+  visit_around(gradients, arc, kGradientArcs, [&](const Gradient& other) {
+    if (!other.is_smooth) return;
+    around.products += other.products;
+    around.squares += other.squares;
+  });
+  const double squares = around.products.squaredNorm() / (around.squares * noise_variance);
+  if (!(squares > kGradientByChance)) return outside.mean();
+  const Eigen::Vector3d per_px = believed_part(squares, 3.0) / around.squares * around.products;
+  return outside.mean() - outside.mean_distance_px() * per_px;
+}
+
 // How well the ball's colours at the rim of an arc are known.
 struct ShadeTrust {
   double beyond_shade = 1.0;  // part of what is shown beyond the shading that is not noise
@@ -160,6 +209,7 @@ ArcColours unmixed(const Mixture& mixture) {
 ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& settings) {
   const double noise_variance = pixel_variance(settings.noise_sd_levels);
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
+  const auto gradients = gradients_beside(rim, noise_variance);
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -168,7 +218,7 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
     const BallSums& inside = balls[i].inside;
     const ShadeTrust trust = rim.has_shades ? trust_around(balls, i, noise_variance) : ShadeTrust{};
     const Eigen::Vector3d beyond_shade = trust.beyond_shade * (inside.mean() - inside.mean_shade());
-    arcs[i] = unmixed({.background = seen.outside.mean(),
+    arcs[i] = unmixed({.background = background_at_rim(seen.outside, gradients, i, noise_variance),
                        .ball = seen.crossed.mean_shade() + beyond_shade,
                        .beyond_shade = beyond_shade,
                        .texture = elsewhere + texture_around(rim.arcs, i, noise_variance),

@@ -18,17 +18,18 @@ constexpr double kPi = 3.14159265358979323846;
 // background is an error that an arc's pixels share too, as far as texture reaches.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
-constexpr double kNoiseFactor = 1.12;          // k of a large ball
+constexpr double kNoiseFactor = 1.06;          // k of a large ball
 constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kTextureFactor = 0.7;
 constexpr double kTextureLength_px = 3.2;  // longer arcs see more than one of what disturbs them
+constexpr double kLeastEdge_px = 0.25;     // that an arc must show
 
 constexpr double kContradictionSigmas = 3.0;
 
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kCutOff = 3.0;  // times the Huber threshold
-constexpr double kMinArcShare = 1.0 / 3.0;
+constexpr double kMinArcShare = 0.25;
 
 double robust_weight(double residual_px, double threshold_px) {
   const double size = std::abs(residual_px) / threshold_px;
@@ -92,8 +93,9 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
     arc.normal += slope * slope * point.normal;
     information[pixel.sector] += slope * slope;
   }
+  const double ramp_px = std::max(1.0, 2.0 * ramp_half_width_px);  // along which a pixel of edge is spread
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (!(information[i] > 0.25)) continue;
+    if (!(information[i] * ramp_px > kLeastEdge_px)) continue;
     arcs[i].offset_px /= information[i];
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
@@ -110,6 +112,7 @@ void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_
 
 std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px) {
   OutlineStep step;
+  const auto count = static_cast<double>(arcs.size());
   for (int pass = 0; pass < kReweightings; ++pass) {
     Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
@@ -122,7 +125,8 @@ std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tol
       right_side += weight * arc.offset_px * along;
       share += arc.weight;
     }
-    if (!(share > kMinArcShare * static_cast<double>(arcs.size()))) return std::nullopt;
+    step.share = share / count;
+    if (!(step.share > kMinArcShare)) return std::nullopt;
     const Eigen::LDLT<Eigen::Matrix3d> solver(normal_matrix);
     step.change_px = solver.solve(right_side);
     step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());

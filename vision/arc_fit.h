@@ -26,6 +26,7 @@ struct OutlineStep {
   /// How much more the arcs scatter than they should, as a ratio of variances; 1 if no more than by chance.
   /// The covariance allows for it.
   double contradiction = 1.0;
+  double share = 0.0;  ///< of the arcs, that the change is the mean of, in (0, 1]
 };
 
 /// A pixel that the outline may cross, told apart into ball and background.
@@ -53,7 +54,7 @@ void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_
 /// Weighted least squares over the arcs; those at odds with the solution lose weight (Huber, then cut off).
 /// @param arcs their weights are updated
 /// @param tolerance_px offsets from the solution that are fine whatever the noise says
-/// @return empty when the arcs left span less than a third of the outline
+/// @return empty when the arcs left span less than a quarter of the outline
 std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px);
 
 }  // namespace stereobench::vision

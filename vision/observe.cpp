@@ -23,14 +23,15 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;           // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;        // of an outline's area; what shows less of itself is not a ball
-constexpr double kMostContradiction = 6.0;  // beyond it arcs are of two things
-constexpr double kVague_px = 0.05;          // sd of a disparity that contradicting arcs may have
-constexpr double kInFocus_px = 0.2;         // a blur below this is the pixels' own
-constexpr int kMostLooks = 3;               // at a picture out of focus
-constexpr double kSameBlur = 0.1;           // relative
-constexpr double kSamePlace = 0.5;          // radii between the centres of two outlines that are one
+constexpr double kMinPatch = 0.3;             // of the smallest outline's area that shows its colour clearly
+constexpr double kMinVisible = 0.25;          // of an outline's area; what shows less of itself is not a ball
+constexpr double kLeastArcShare = 1.0 / 3.0;  // of an outline in each eye, to be trusted
+constexpr double kMostContradiction = 6.0;    // beyond it arcs are of two things
+constexpr double kVague_px = 0.05;            // sd of a disparity that contradicting arcs may have
+constexpr double kInFocus_px = 0.2;           // a blur below this is the pixels' own
+constexpr int kMostLooks = 3;                 // at a picture out of focus
+constexpr double kSameBlur = 0.1;             // relative
+constexpr double kSamePlace = 0.5;            // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -130,6 +131,11 @@ void share_lamp(std::span<Found> eyes, const ObserverSettings& settings) {
   }
 }
 
+// Whether each eye sees enough of the outline.
+bool shows_enough(const OutlinePair& pair) {
+  return std::min(pair.left.arc_share, pair.right.arc_share) > kLeastArcShare;
+}
+
 // Whether the arcs of an outline are of two things, as far as they tell.
 bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
   const double contradiction = std::max(pair.left.contradiction, pair.right.contradiction);
@@ -149,7 +155,7 @@ BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
   ball.ball_in_camera = pair.ball.ball_in_camera;
   ball.range_bearing = range_bearing(ball.ball_in_camera, pair.ball.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  if (!pair.sizes_agree || contradicts_itself(pair, rig)) {
+  if (!pair.sizes_agree || !shows_enough(pair) || contradicts_itself(pair, rig)) {
     ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
     ball.occluded = !ball.truncated;
   }

@@ -25,11 +25,12 @@ constexpr double kLookAgainAbove_px = 0.3;
 constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball is about as round as it is
 constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
 constexpr int kSharpSteps = 12;
-constexpr int kShadedSteps = 2;
+constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
+constexpr int kMostShadedSteps = 8;
 constexpr double kConverged_px = 0.02;       // before the shading is looked at
 constexpr double kTolerance_px = 0.02;       // between arcs of one sharp outline, whatever the noise says
 constexpr double kRimDepth_px = 1.2;         // inside of it a pixel is wholly the ball's
-constexpr double kRimSd_px = 0.005;          // of all arcs together: what a camera and a lamp make of a rim
+constexpr double kRimSd_px = 0.002;          // of all arcs together: what a camera and a lamp make of a rim
 constexpr double kCentreSd_px = 0.0003;      // the same of opposite ones
 constexpr double kCentreSdPerBlur = 0.0007;  // more of that for each px of blur
 constexpr double kMinFill = 0.25;            // of the bounding box; a disc has 0.79
@@ -47,6 +48,7 @@ struct Fit {
   double moved_px = 0.0;          // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
   double contradiction = 1.0;
+  double arc_share = 0.0;
   BallLight light;
 };
 
@@ -88,6 +90,7 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
       OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius, settings.blur_px);
   fit.covariance_px2 = step->covariance_px2;
   fit.contradiction = step->contradiction;
+  fit.arc_share = step->share;
   move_outline(fit.arcs, change);
   fit.moved_px += change.cwiseAbs().maxCoeff();
   return change.cwiseAbs().maxCoeff();
@@ -140,8 +143,12 @@ bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, co
                                    pixel_variance(settings.noise_sd_levels), lamp);
   if (shading) fit.light = shading->light();
   look(fit, image, unmix, 0.0, shading);
-  for (int i = 0; i < kShadedSteps; ++i)
-    if (!improve(fit, settings, 0.0, 0.0)) return false;
+  double off = 0.0;
+  for (int i = 0; i < kShadedSteps || (i < kMostShadedSteps && off > kConverged_px); ++i) {
+    const auto change = improve(fit, settings, 0.0, 0.0);
+    if (!change) return false;
+    off = *change;
+  }
   return true;
 }
 
@@ -261,6 +268,7 @@ MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettin
   const double centre_sd = kCentreSd_px + kCentreSdPerBlur * fit.outline.blur_px();
   result.covariance_px2.diagonal() += Eigen::Vector3d(centre_sd, centre_sd, kRimSd_px).cwiseAbs2();
   result.contradiction = fit.contradiction;
+  result.arc_share = fit.arc_share;
   const Shades shades(unmix.ball_bgr, unmix.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit.outline) / (kPi * radius * radius);

@@ -10,8 +10,11 @@ namespace stereobench::vision {
 namespace {
 
 constexpr double kArcLength_px = 3.0;
+constexpr double kFewestArcs = 9.0;
+constexpr double kMostArcs = 192.0;
 constexpr double kRingWidth_px = 2.0;
-constexpr double kNoBall_px = 1.71;  // outside of an outline that may yet move by a pixel
+constexpr double kWideRing_px = 5.0;  // tells the background to half of the noise that the rim itself has
+constexpr double kNoBall_px = 1.71;   // outside of an outline that may yet move by a pixel
 constexpr double kPi = 3.14159265358979323846;
 
 // Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
@@ -41,8 +44,9 @@ class RimCollector {
         gap_px_(gap_px),
         near_px_(std::max(gap_px, kCrossed_px + outline.blur_reach_px())),
         no_ball_px_(kNoBall_px + outline.blur_reach_px()),
-        reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()) {
-    const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, 9.0, 96.0);
+        inner_reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()),
+        outer_reach_px_(gap_px + (shading ? kWideRing_px : kRingWidth_px) + outline.blur_reach_px()) {
+    const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, kFewestArcs, kMostArcs);
     rim_.arcs.resize(static_cast<std::size_t>(arcs));
     rim_.has_shades = shading.has_value();
     rim_.pixels.reserve(
@@ -50,14 +54,15 @@ class RimCollector {
   }
 
   Rim collect() && {
-    const double relative_reach = reach_px_ / outline_.semi_minor_px();
-    const double extent = outline_.semi_major_px() * (1.0 + relative_reach);
+    const double outermost = 1.0 + outer_reach_px_ / outline_.semi_minor_px();
+    const double innermost = 1.0 - inner_reach_px_ / outline_.semi_minor_px();
+    const double extent = outline_.semi_major_px() * outermost;
     const double centre = outline_.centre_px().y();
     const int first = std::max(0, static_cast<int>(std::ceil(centre - extent)));
     const int last = std::min(image_.rows - 1, static_cast<int>(std::floor(centre + extent)));
     for (int y = first; y <= last; ++y) {
-      const ColumnSpan outer = outline_.columns_within(1.0 + relative_reach, y);
-      const ColumnSpan inner = outline_.columns_within(1.0 - relative_reach, y);
+      const ColumnSpan outer = outline_.columns_within(outermost, y);
+      const ColumnSpan inner = outline_.columns_within(innermost, y);
       if (inner.last > inner.first) {  // the middle of the ball is not the rim
         add({outer.first, inner.first}, y);
         add({inner.last, outer.last}, y);
@@ -79,7 +84,7 @@ class RimCollector {
       const Four distances = outline_.distances_px(beside, below);
       const Four sectors = turns(beside, below) * static_cast<double>(rim_.arcs.size());
       for (int i = 0; i < kAtOnce && x + i <= last; ++i, bgr += 3) {
-        if (!(std::abs(distances[i]) <= reach_px_)) continue;
+        if (!(distances[i] >= -inner_reach_px_ && distances[i] <= outer_reach_px_)) continue;
         const auto sector = static_cast<std::size_t>(sectors[i]);
         add({.position_px = Eigen::Vector2d(x + i, y),
              .colour = Colour(bgr[0], bgr[1], bgr[2], 1.0),
@@ -92,7 +97,7 @@ class RimCollector {
 
   void add(RimPixel&& pixel) {
     RimArc& arc = rim_.arcs[pixel.sector];
-    if (pixel.distance_px >= gap_px_) arc.outside.add(pixel.colour);
+    if (pixel.distance_px >= gap_px_) arc.outside.add(pixel.colour, pixel.distance_px);
     if (pixel.distance_px >= near_px_) return;
     if (shading_ && pixel.distance_px < no_ball_px_) pixel.shade.head<3>() = shade_of(pixel.position_px);
     if (pixel.distance_px < gap_px_) (pixel.distance_px <= -gap_px_ ? arc.inside : arc.crossed).add(pixel);
@@ -113,7 +118,8 @@ class RimCollector {
   double gap_px_;
   double near_px_;
   double no_ball_px_;
-  double reach_px_;
+  double inner_reach_px_;
+  double outer_reach_px_;
   Rim rim_;
 };
 

@@ -48,9 +48,16 @@ struct BallSums {
 /// Sums over pixels that show the background alone.
 struct BackgroundSums {
   Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();  ///< of each colour with itself
+  Colour by_distance = Colour::Zero();                ///< of each colour with its distance from the outline
+  double distance2 = 0.0;
 
-  void add(const Colour& colour) { moments.noalias() += colour * colour.transpose(); }
+  void add(const Colour& colour, double distance_px) {
+    moments.noalias() += colour * colour.transpose();
+    by_distance.noalias() += distance_px * colour;
+    distance2 += distance_px * distance_px;
+  }
   double count() const { return moments(3, 3); }
+  double mean_distance_px() const { return by_distance.w() / count(); }
   Eigen::Vector3d mean() const { return moments.col(3).hnormalized(); }
 
   /// Sum of the squares about the mean, channel by channel.
@@ -59,7 +66,7 @@ struct BackgroundSums {
   }
 };
 
-/// What is seen along one arc of an outline.
+/// What is seen along one arc of an outline, of about three pixels' length.
 struct RimArc {
   BallSums inside;         ///< just inside of the outline
   BallSums crossed;        ///< where the outline goes
@@ -77,7 +84,7 @@ struct Rim {
 inline constexpr double kCrossed_px = 1.5;
 
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where
-/// it is blurred.
+/// it is blurred; outside of an outline whose shading is known, of five.
 /// @param image CV_8UC3; pixels outside it are missing from the rim
 /// @param gap_px between the outline and either ring; nearer pixels may be of both colours
 /// @param shading of the ball, where it is known

@@ -239,12 +239,14 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   }
   double seen = 0.0;
   for (const EdgePoint& point : edges.points) seen += point.weight > 0.0 ? 1.0 : 0.0;
-  if (seen < kMinArc * (edges.rays + edges.outside)) return std::nullopt;
+  const double arc_share = seen / (edges.rays + edges.outside);
+  if (arc_share < kMinArc) return std::nullopt;
   MeasuredOutline outline;
   outline.colour = blob.colour;
   outline.centre_px = circle.centre_px;
   outline.radius_px = circle.radius_px;
   outline.covariance_px2 = fit->covariance;
+  outline.arc_share = arc_share;
   outline.outside_fraction = outside_share(image, circle);
   outline.hidden_fraction = hidden_share(image, circle, blob.colour, table);
   outline.seen_px = blob.area_px;

@@ -9,7 +9,7 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kSamplesPerRadius = 60.0;  // px: the noise of so many is small beside that of the rim
+constexpr double kSamplesPerRadius = 200.0;  // px: the noise of so many is small beside that of the rim
 constexpr std::size_t kFewestSamples = 24;
 constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
 constexpr int kMostTurns = 12;
@@ -56,7 +56,11 @@ ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surfa
 class LampFit {
  public:
   /// Takes a sample in, lit or not as it is said to be.
-  void add(const Sample& sample) { add(sample.is_lit ? sample.light : Eigen::Vector4d::Unit(0), sample); }
+  void add(const Sample& sample) {
+    if (sample.is_lit) return add(sample.light, sample);
+    squares_(0, 0) += 1.0;
+    products_.row(0) += sample.bgr;
+  }
 
   /// @param sign 1 to let the lamp shine on a sample that was taken in, -1 to take it away again
   void turn(const Sample& sample, double sign) {
