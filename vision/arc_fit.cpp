@@ -14,12 +14,13 @@ constexpr double kPi = 3.14159265358979323846;
 // calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
 // a whole outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). The smaller a ball, the
 // fewer pixels tell its shading, and k grows. What k has beyond 1 is of the colours beside an arc, which its
-// pixels share, and moves an edge by as much more as it crosses more pixels (edge_width_px). Texture in the
+// pixels share, and moves an edge by more the more pixels it crosses (edge_width_px). Texture in the
 // background is an error that an arc's pixels share too, as far as texture reaches.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
 constexpr double kNoiseFactor = 1.06;          // k of a large ball
 constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
+constexpr double kNoisePerEdge = 3.0;          // of what k has beyond 1, for each pixel more of an edge
 constexpr double kTextureFactor = 0.7;
 constexpr double kTextureLength_px = 3.2;  // longer arcs see more than one of what disturbs them
 constexpr double kLeastEdge_px = 0.25;     // that an arc must show
@@ -78,7 +79,8 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
   ScratchVector<ArcOffset> arcs(colours.size());
   ScratchVector<double> information(colours.size(), 0.0);
   const double in_focus = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
-  const double noise_factor = in_focus + (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
+  const double noise_factor =
+      in_focus + kNoisePerEdge * (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
   const double beyond_noise = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
   const double arc_length_px = 2.0 * kPi * outline.radius_px() / static_cast<double>(arcs.size());
   const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
