@@ -20,7 +20,7 @@ struct MeasuredOutline {
   double radius_px = 0.0;                                    ///< of the circle of the same area
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();  ///< of (centre, radius)
   double contradiction = 1.0;     ///< how much more its arcs scatter than they should (variances), at least 1
-  double arc_share = 0.0;         ///< of the outline, that speaks for it, in (0.25, 1]
+  double arc_share = 0.0;         ///< of the outline, that speaks for it; above 0.25, or 0.2 if learned
   double hidden_fraction = 0.0;   ///< of the outline's area, hidden by something in front of it, in [0, 1]
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by

@@ -13,7 +13,7 @@ constexpr double kArcLength_px = 3.0;
 constexpr double kFewestArcs = 9.0;
 constexpr double kMostArcs = 192.0;
 constexpr double kRingWidth_px = 2.0;
-constexpr double kWideRing_px = 5.0;  // tells the background to half of the noise that the rim itself has
+constexpr double kWideRing_px = 5.0;  // the background's noise adds 1 / (4 . 5) of the edge's own variance
 constexpr double kNoBall_px = 1.71;   // outside of an outline that may yet move by a pixel
 constexpr double kPi = 3.14159265358979323846;
 
