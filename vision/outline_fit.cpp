@@ -201,7 +201,7 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
   const double covered = fit.outline.coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
   if (covered <= 0.0) return 0.0;
-  if (!colours.usable) return shades.contain(pixel.colour.head<3>()) ? 0.0 : covered;
+  if (!colours.usable) return shades.contain(pixel.colour.head<3>().cast<double>()) ? 0.0 : covered;
   if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
   return std::clamp(covered - colours.shown(pixel) / colours.whole(pixel), 0.0, covered);
 }
