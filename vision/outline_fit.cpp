@@ -27,6 +27,8 @@ constexpr double kStraight_px = 0.02;  // of an outline's way, along which cover
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
 constexpr int kMostShadedSteps = 8;
+constexpr int kShadedLooks = 3;              // at most
+constexpr double kPulled_px = 0.3;           // that hidden arcs pull outlines aside
 constexpr double kConverged_px = 0.02;       // before the shading is looked at
 constexpr double kTolerance_px = 0.02;       // between arcs of one sharp outline, whatever the noise says
 constexpr double kRimDepth_px = 1.2;         // inside of it a pixel is wholly the ball's
@@ -68,6 +70,10 @@ OutlineModel first_guess(const Blob& blob, const FitSettings& settings) {
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
   return {settings.camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px,
           settings.blur_px};
+}
+
+double distance_px(const OutlineModel& a, const OutlineModel& b) {
+  return (a.centre_px() - b.centre_px()).norm() + std::abs(a.radius_px() - b.radius_px());
 }
 
 // Compares what is seen with the outline as it is.
@@ -135,19 +141,44 @@ bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& setting
   return true;
 }
 
-// The last steps, by the shades that the ball must have at its rim.
-bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
-                 const std::optional<SharedLamp>& lamp) {
+// Looks at the rim by the shades that the ball must have there.
+void look_by_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
+                    const std::optional<SharedLamp>& lamp) {
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   const auto shading = fit_shading(image, settings.camera, fit.outline, shades,
                                    pixel_variance(settings.noise_sd_levels), lamp);
   if (shading) fit.light = shading->light();
   look(fit, image, unmix, 0.0, shading);
+}
+
+// Steps until the outline stands still. Where hidden arcs had pulled it aside, too few suit any one outline
+// at first: then they may be at odds by as much as that, and by less with each step.
+bool settle(Fit& fit, const FitSettings& settings) {
+  double pulled = 0.0;
   double off = 0.0;
   for (int i = 0; i < kShadedSteps || (i < kMostShadedSteps && off > kConverged_px); ++i) {
-    const auto change = improve(fit, settings, 0.0, 0.0);
+    auto change = improve(fit, settings, 0.0, pulled);
+    if (!change && i == 0) {
+      compare(fit, 0.0);
+      pulled = kPulled_px;
+      change = improve(fit, settings, 0.0, pulled);
+    }
     if (!change) return false;
-    off = *change;
+    pulled *= kPatience;
+    off = std::max(*change, pulled);
+  }
+  return true;
+}
+
+// The last steps, by the shades that the ball must have at its rim; they are looked at again from where that
+// leads.
+bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
+                 const std::optional<SharedLamp>& lamp) {
+  for (int i = 0; i < kShadedLooks; ++i) {
+    const OutlineModel before = fit.outline;
+    look_by_shades(fit, image, settings, unmix, lamp);
+    if (!settle(fit, settings)) return false;
+    if (distance_px(before, fit.outline) < kLookAgainAbove_px) break;
   }
   return true;
 }
