@@ -20,7 +20,6 @@ constexpr double kFinestRamp_px = 1.5;
 constexpr double kLostRim_px = 0.15;      // that boxes lack on average
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
-constexpr double kPatience = 0.4;         // arcs that are hidden may pull for some steps
 constexpr double kLookAgainAbove_px = 0.3;
 constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball is about as round as it is
 constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
@@ -28,7 +27,6 @@ constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
 constexpr int kMostShadedSteps = 8;
 constexpr int kShadedLooks = 3;              // at most
-constexpr double kPulled_px = 0.3;           // that hidden arcs pull outlines aside
 constexpr double kConverged_px = 0.02;       // before the shading is looked at
 constexpr double kTolerance_px = 0.02;       // between arcs of one sharp outline, whatever the noise says
 constexpr double kRimDepth_px = 1.2;         // inside of it a pixel is wholly the ball's
@@ -151,21 +149,13 @@ void look_by_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings,
   look(fit, image, unmix, 0.0, shading);
 }
 
-// Steps until the outline stands still. Where hidden arcs had pulled it aside, too few suit any one outline
-// at first: then they may be at odds by as much as that, and by less with each step.
+// Steps until the outline stands still.
 bool settle(Fit& fit, const FitSettings& settings) {
-  double pulled = 0.0;
   double off = 0.0;
   for (int i = 0; i < kShadedSteps || (i < kMostShadedSteps && off > kConverged_px); ++i) {
-    auto change = improve(fit, settings, 0.0, pulled);
-    if (!change && i == 0) {
-      compare(fit, 0.0);
-      pulled = kPulled_px;
-      change = improve(fit, settings, 0.0, pulled);
-    }
+    const auto change = improve(fit, settings, 0.0, 0.0);
     if (!change) return false;
-    pulled *= kPatience;
-    off = std::max(*change, pulled);
+    off = *change;
   }
   return true;
 }
@@ -190,12 +180,12 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     fit.outline = start;
     if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
   }
-  double off = kFirstSharp_px;
+  double off = 0.0;
   for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
     const auto change = improve(fit, settings, 0.0, off);
     if (!change) return std::nullopt;
     if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
-    off = std::max(*change, kPatience * off);
+    off = *change;
   }
   // An outline that the ball's own shades do not suit was pulled aside, and is better looked for from
   // elsewhere.
