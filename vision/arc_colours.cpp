@@ -111,8 +111,8 @@ Gradient gradient(const BackgroundSums& outside, double noise_variance) {
   if (!(freedom > 0.0)) return {};
   const double distance = outside.mean_distance_px();
   Gradient result;
-  result.products = outside.by_distance.head<3>() - distance * outside.moments.col(3).head<3>();
-  result.squares = outside.distance2 - distance * outside.by_distance.w();
+  result.products = outside.sums_by_distance().head<3>() - distance * outside.sums().head<3>();
+  result.squares = outside.distance2 - distance * outside.sums_by_distance().w();
   if (!(result.squares > 0.0)) return {};
   const double rest = outside.scatter().trace() - result.products.squaredNorm() / result.squares;
   result.is_smooth = rest < noise_variance * (freedom + kSmoothSigmas * std::sqrt(2.0 * freedom));

@@ -18,10 +18,10 @@ struct ArcColours {
   bool usable = false;            ///< the ball's colour inside, another one outside, enough contrast
 
   /// How much of the ball a pixel shows, in the unit of `whole`.
-  double shown(const RimPixel& pixel) const { return unmix.dot(pixel.colour); }
+  double shown(const RimPixel& pixel) const { return unmix.dot(pixel.colour.cast<double>()); }
 
   /// How much it would show if the ball covered it.
-  double whole(const RimPixel& pixel) const { return unmix.dot(pixel.shade) + beyond_shade; }
+  double whole(const RimPixel& pixel) const { return unmix.dot(pixel.shade.cast<double>()) + beyond_shade; }
 };
 
 /// What arc colours are judged by.

@@ -1,9 +1,11 @@
 #include "vision/arc_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace stereobench::vision {
 namespace {
@@ -30,7 +32,9 @@ constexpr double kContradictionSigmas = 3.0;
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kCutOff = 3.0;  // times the Huber threshold
-constexpr double kMinArcShare = 0.25;
+constexpr double kMinArcShare = 0.2;
+constexpr std::size_t kTriples = 24;                             // of arcs, around the outline
+constexpr std::array<std::size_t, 3> kTripleParts = {12, 8, 5};  // of the outline, from one to the next
 
 double robust_weight(double residual_px, double threshold_px) {
   const double size = std::abs(residual_px) / threshold_px;
@@ -40,6 +44,77 @@ double robust_weight(double residual_px, double threshold_px) {
 
 Eigen::Vector3d direction(const ArcOffset& arc) {
   return {arc.normal.x(), arc.normal.y(), 1.0};
+}
+
+// How well an arc agrees with a change of the outline: 1 as far as chance goes, 0 when it does not.
+double agreement(const ArcOffset& arc, const Eigen::Vector3d& change_px, double tolerance_px) {
+  const double residual = arc.offset_px - direction(arc).dot(change_px);
+  return robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
+}
+
+// @return whether any weight is another one than before
+bool weigh(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px, double tolerance_px) {
+  bool any_changed = false;
+  for (ArcOffset& arc : arcs) {
+    if (arc.variance_px2 <= 0.0) continue;
+    const double weight = agreement(arc, change_px, tolerance_px);
+    any_changed = any_changed || weight != arc.weight;
+    arc.weight = weight;
+  }
+  return any_changed;
+}
+
+double agreement_of_all(const ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
+                        double tolerance_px) {
+  double sum = 0.0;
+  for (const ArcOffset& arc : arcs) {
+    if (arc.variance_px2 > 0.0) sum += agreement(arc, change_px, tolerance_px);
+  }
+  return sum;
+}
+
+bool any_denied(const ScratchVector<ArcOffset>& arcs) {
+  return std::ranges::any_of(
+      arcs, [](const ArcOffset& arc) { return arc.variance_px2 > 0.0 && arc.weight <= 0.0; });
+}
+
+using Triple = std::array<const ArcOffset*, 3>;
+
+// The change by which three arcs are right; not finite when they do not tell it.
+Eigen::Vector3d change_by(const Triple& triple) {
+  Eigen::Matrix3d directions;
+  Eigen::Vector3d offsets;
+  for (int i = 0; i < 3; ++i) {
+    const ArcOffset& arc = *triple[static_cast<std::size_t>(i)];
+    directions.row(i) = direction(arc).transpose();
+    offsets[i] = arc.offset_px;
+  }
+  return directions.inverse() * offsets;
+}
+
+// Of `change_px` and what triples of arcs say, the change that most arcs agree with (Fischler and Bolles
+// 1981, with triples that are not drawn but taken all around). Least squares are led astray where arcs that
+// are hidden one beside the other show one edge.
+Eigen::Vector3d most_agreed(const ScratchVector<ArcOffset>& arcs, Eigen::Vector3d change_px,
+                            double tolerance_px) {
+  double most = agreement_of_all(arcs, change_px, tolerance_px);
+  for (const std::size_t part : kTripleParts) {
+    const std::size_t apart = std::max<std::size_t>(1, arcs.size() / part);
+    for (std::size_t i = 0; i < kTriples; ++i) {
+      const std::size_t first = i * arcs.size() / kTriples;
+      const Triple triple = {&arcs[first], &arcs[(first + apart) % arcs.size()],
+                             &arcs[(first + 2 * apart) % arcs.size()]};
+      if (std::ranges::any_of(triple, [](const ArcOffset* arc) { return arc->variance_px2 <= 0.0; }))
+        continue;
+      const Eigen::Vector3d change = change_by(triple);
+      if (!change.allFinite()) continue;
+      const double agreed = agreement_of_all(arcs, change, tolerance_px);
+      if (agreed <= most) continue;
+      most = agreed;
+      change_px = change;
+    }
+  }
+  return change_px;
 }
 
 // What the arcs' variances are to be multiplied by where they contradict each other more than by chance
@@ -133,16 +208,9 @@ std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tol
     step.change_px = solver.solve(right_side);
     step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());
     if (!step.change_px.allFinite()) return std::nullopt;
-    bool any_changed = false;
-    for (ArcOffset& arc : arcs) {
-      if (arc.variance_px2 <= 0.0) continue;
-      const double residual = arc.offset_px - direction(arc).dot(step.change_px);
-      const double weight =
-          robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
-      any_changed = any_changed || weight != arc.weight;
-      arc.weight = weight;
-    }
-    if (!any_changed) break;
+    if (!weigh(arcs, step.change_px, tolerance_px)) break;
+    if (pass == 0 && any_denied(arcs))
+      weigh(arcs, most_agreed(arcs, step.change_px, tolerance_px), tolerance_px);
   }
   step.contradiction = contradiction(arcs, step.change_px, tolerance_px);
   step.covariance_px2 *= step.contradiction;

@@ -54,7 +54,7 @@ void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_
 /// Weighted least squares over the arcs; those at odds with the solution lose weight (Huber, then cut off).
 /// @param arcs their weights are updated
 /// @param tolerance_px offsets from the solution that are fine whatever the noise says
-/// @return empty when the arcs left span less than a quarter of the outline
+/// @return empty when the arcs left span less than a fifth of the outline
 std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px);
 
 }  // namespace stereobench::vision

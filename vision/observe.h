@@ -40,7 +40,7 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 /// How far a picture is out of focus is measured in it (edge_profile.h); a blur of 0.2 px or more is one of
 /// the model's from then on.
 ///
-/// Of a ball that is hidden or cut in part, at least a quarter of the outline must speak for it in each eye,
+/// Of a ball that is hidden or cut in part, at least a fifth of the outline must speak for it in each eye,
 /// and a third for it to be trusted. It is measured by that and by the size that balls have (ball_fit.h),
 /// with the covariance that is left.
 /// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball, or of which

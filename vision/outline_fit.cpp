@@ -20,13 +20,13 @@ constexpr double kFinestRamp_px = 1.5;
 constexpr double kLostRim_px = 0.15;      // that boxes lack on average
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
 constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
-constexpr double kPatience = 0.4;         // arcs that are hidden may pull for some steps
 constexpr double kLookAgainAbove_px = 0.3;
 constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball is about as round as it is
 constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
 constexpr int kMostShadedSteps = 8;
+constexpr int kShadedLooks = 3;              // at most
 constexpr double kConverged_px = 0.02;       // before the shading is looked at
 constexpr double kTolerance_px = 0.02;       // between arcs of one sharp outline, whatever the noise says
 constexpr double kRimDepth_px = 1.2;         // inside of it a pixel is wholly the ball's
@@ -68,6 +68,10 @@ OutlineModel first_guess(const Blob& blob, const FitSettings& settings) {
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
   return {settings.camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px,
           settings.blur_px};
+}
+
+double distance_px(const OutlineModel& a, const OutlineModel& b) {
+  return (a.centre_px() - b.centre_px()).norm() + std::abs(a.radius_px() - b.radius_px());
 }
 
 // Compares what is seen with the outline as it is.
@@ -135,19 +139,36 @@ bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& setting
   return true;
 }
 
-// The last steps, by the shades that the ball must have at its rim.
-bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
-                 const std::optional<SharedLamp>& lamp) {
+// Looks at the rim by the shades that the ball must have there.
+void look_by_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
+                    const std::optional<SharedLamp>& lamp) {
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   const auto shading = fit_shading(image, settings.camera, fit.outline, shades,
                                    pixel_variance(settings.noise_sd_levels), lamp);
   if (shading) fit.light = shading->light();
   look(fit, image, unmix, 0.0, shading);
+}
+
+// Steps until the outline stands still.
+bool settle(Fit& fit, const FitSettings& settings) {
   double off = 0.0;
   for (int i = 0; i < kShadedSteps || (i < kMostShadedSteps && off > kConverged_px); ++i) {
     const auto change = improve(fit, settings, 0.0, 0.0);
     if (!change) return false;
     off = *change;
+  }
+  return true;
+}
+
+// The last steps, by the shades that the ball must have at its rim; they are looked at again from where that
+// leads.
+bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
+                 const std::optional<SharedLamp>& lamp) {
+  for (int i = 0; i < kShadedLooks; ++i) {
+    const OutlineModel before = fit.outline;
+    look_by_shades(fit, image, settings, unmix, lamp);
+    if (!settle(fit, settings)) return false;
+    if (distance_px(before, fit.outline) < kLookAgainAbove_px) break;
   }
   return true;
 }
@@ -159,12 +180,12 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     fit.outline = start;
     if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
   }
-  double off = kFirstSharp_px;
+  double off = 0.0;
   for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
     const auto change = improve(fit, settings, 0.0, off);
     if (!change) return std::nullopt;
     if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
-    off = std::max(*change, kPatience * off);
+    off = *change;
   }
   // An outline that the ball's own shades do not suit was pulled aside, and is better looked for from
   // elsewhere.
@@ -201,7 +222,7 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
   const double covered = fit.outline.coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
   if (covered <= 0.0) return 0.0;
-  if (!colours.usable) return shades.contain(pixel.colour.head<3>()) ? 0.0 : covered;
+  if (!colours.usable) return shades.contain(pixel.colour.head<3>().cast<double>()) ? 0.0 : covered;
   if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
   return std::clamp(covered - colours.shown(pixel) / colours.whole(pixel), 0.0, covered);
 }

@@ -1,9 +1,11 @@
 /// The outline that a ball of a given centre and size must have, and what it covers of each pixel.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
+#include <opencv2/core/types.hpp>
 
 #include "vision/edge.h"
 #include "vision/types.h"
@@ -82,5 +84,30 @@ class OutlineModel {
   double semi_major_px_;
   Eigen::Matrix2d form_;  // offset' form offset = 1 on the outline
 };
+
+/// Visits the rows of an image that cross the ring between two similar ellipses, and in each the columns that
+/// lie within it: one span, or two to either side of the ring's middle.
+/// @param innermost, outermost relative sizes of the ellipses
+/// @param row_step visits every so manyth row
+/// @param visit takes a ColumnSpan within the image and a row
+template <typename Visit>
+void visit_ring(const OutlineModel& outline, double innermost, double outermost, const cv::Size& image,
+                int row_step, const Visit& visit) {
+  const double extent = outline.semi_major_px() * outermost;
+  const double centre = outline.centre_px().y();
+  const int first = std::max(0, static_cast<int>(std::ceil(centre - extent)));
+  const int last = std::min(image.height - 1, static_cast<int>(std::floor(centre + extent)));
+  for (int y = first; y <= last; y += row_step) {
+    const ColumnSpan outer = outline.columns_within(outermost, y);
+    const ColumnSpan inner = outline.columns_within(innermost, y);
+    const int right = image.width - 1;
+    if (inner.last > inner.first) {
+      visit(ColumnSpan{std::max(0, outer.first), std::min(right, inner.first)}, y);
+      visit(ColumnSpan{std::max(0, inner.last), std::min(right, outer.last)}, y);
+    } else {
+      visit(ColumnSpan{std::max(0, outer.first), std::min(right, outer.last)}, y);
+    }
+  }
+}
 
 }  // namespace stereobench::vision

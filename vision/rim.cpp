@@ -14,7 +14,6 @@ constexpr double kFewestArcs = 9.0;
 constexpr double kMostArcs = 192.0;
 constexpr double kRingWidth_px = 2.0;
 constexpr double kWideRing_px = 5.0;  // the background's noise adds 1 / (4 . 5) of the edge's own variance
-constexpr double kNoBall_px = 1.71;   // outside of an outline that may yet move by a pixel
 constexpr double kPi = 3.14159265358979323846;
 
 // Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
@@ -43,7 +42,6 @@ class RimCollector {
         shading_(shading),
         gap_px_(gap_px),
         near_px_(std::max(gap_px, kCrossed_px + outline.blur_reach_px())),
-        no_ball_px_(kNoBall_px + outline.blur_reach_px()),
         inner_reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()),
         outer_reach_px_(gap_px + (shading ? kWideRing_px : kRingWidth_px) + outline.blur_reach_px()) {
     const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / kArcLength_px, kFewestArcs, kMostArcs);
@@ -56,39 +54,25 @@ class RimCollector {
   Rim collect() && {
     const double outermost = 1.0 + outer_reach_px_ / outline_.semi_minor_px();
     const double innermost = 1.0 - inner_reach_px_ / outline_.semi_minor_px();
-    const double extent = outline_.semi_major_px() * outermost;
-    const double centre = outline_.centre_px().y();
-    const int first = std::max(0, static_cast<int>(std::ceil(centre - extent)));
-    const int last = std::min(image_.rows - 1, static_cast<int>(std::floor(centre + extent)));
-    for (int y = first; y <= last; ++y) {
-      const ColumnSpan outer = outline_.columns_within(outermost, y);
-      const ColumnSpan inner = outline_.columns_within(innermost, y);
-      if (inner.last > inner.first) {  // the middle of the ball is not the rim
-        add({outer.first, inner.first}, y);
-        add({inner.last, outer.last}, y);
-      } else {
-        add(outer, y);
-      }
-    }
+    visit_ring(outline_, innermost, outermost, image_.size(), 1,
+               [this](const ColumnSpan& columns, int y) { add(columns, y); });
     return std::move(rim_);
   }
 
  private:
   void add(ColumnSpan columns, int y) {
-    const int first = std::max(0, columns.first);
-    const int last = std::min(image_.cols - 1, columns.last);
-    const auto* bgr = image_.ptr<std::uint8_t>(y) + 3 * first;
+    const auto* bgr = image_.ptr<std::uint8_t>(y) + 3 * columns.first;
     const double below = y - outline_.centre_px().y();
-    for (int x = first; x <= last; x += kAtOnce) {
+    for (int x = columns.first; x <= columns.last; x += kAtOnce) {
       const Four beside = x - outline_.centre_px().x() + Four(0.0, 1.0, 2.0, 3.0);
       const Four distances = outline_.distances_px(beside, below);
       const Four sectors = turns(beside, below) * static_cast<double>(rim_.arcs.size());
-      for (int i = 0; i < kAtOnce && x + i <= last; ++i, bgr += 3) {
+      for (int i = 0; i < kAtOnce && x + i <= columns.last; ++i, bgr += 3) {
         if (!(distances[i] >= -inner_reach_px_ && distances[i] <= outer_reach_px_)) continue;
         const auto sector = static_cast<std::size_t>(sectors[i]);
         add({.position_px = Eigen::Vector2d(x + i, y),
-             .colour = Colour(bgr[0], bgr[1], bgr[2], 1.0),
-             .shade = Colour(0.0, 0.0, 0.0, 1.0),
+             .colour = Colour(bgr[0], bgr[1], bgr[2], 1.0F),
+             .shade = Colour::UnitW(),
              .distance_px = distances[i],
              .sector = sector < rim_.arcs.size() ? sector : 0});
       }
@@ -99,7 +83,7 @@ class RimCollector {
     RimArc& arc = rim_.arcs[pixel.sector];
     if (pixel.distance_px >= gap_px_) arc.outside.add(pixel.colour, pixel.distance_px);
     if (pixel.distance_px >= near_px_) return;
-    if (shading_ && pixel.distance_px < no_ball_px_) pixel.shade.head<3>() = shade_of(pixel.position_px);
+    if (shading_) pixel.shade.head<3>() = shade_of(pixel.position_px).cast<float>();
     if (pixel.distance_px < gap_px_) (pixel.distance_px <= -gap_px_ ? arc.inside : arc.crossed).add(pixel);
     if (pixel.distance_px > -near_px_) rim_.pixels.push_back(pixel);
   }
@@ -117,7 +101,6 @@ class RimCollector {
   const std::optional<Shading>& shading_;
   double gap_px_;
   double near_px_;
-  double no_ball_px_;
   double inner_reach_px_;
   double outer_reach_px_;
   Rim rim_;

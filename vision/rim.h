@@ -14,14 +14,15 @@
 namespace stereobench::vision {
 
 /// Colours are (B, G, R, 1) here, so that sums count what they sum and means and noise come out of one
-/// matrix.
-using Colour = Eigen::Vector4d;
+/// matrix. Sums over the pixels of an arc and of their products are whole numbers that single precision
+/// holds.
+using Colour = Eigen::Vector4f;
 
 /// A pixel that an outline may cross.
 struct RimPixel {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
   Colour colour = Colour::Zero();
-  /// What the ball would show here as far as its shading is known; black when nothing is, and far outside.
+  /// What the ball would show here as far as its shading is known; black while nothing is.
   Colour shade = Colour::Zero();
   double distance_px = 0.0;  ///< from the outline that it was collected for, positive outside
   std::size_t sector = 0;    ///< which arc of the outline it belongs to
@@ -41,28 +42,30 @@ struct BallSums {
     shade += other.shade;
   }
   double count() const { return colour.w(); }
-  Eigen::Vector3d mean() const { return colour.hnormalized(); }
-  Eigen::Vector3d mean_shade() const { return shade.hnormalized(); }
+  Eigen::Vector3d mean() const { return colour.cast<double>().hnormalized(); }
+  Eigen::Vector3d mean_shade() const { return shade.cast<double>().hnormalized(); }
 };
 
 /// Sums over pixels that show the background alone.
 struct BackgroundSums {
-  Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();  ///< of each colour with itself
+  Eigen::Matrix4f moments = Eigen::Matrix4f::Zero();  ///< of each colour with itself
   Colour by_distance = Colour::Zero();                ///< of each colour with its distance from the outline
   double distance2 = 0.0;
 
   void add(const Colour& colour, double distance_px) {
     moments.noalias() += colour * colour.transpose();
-    by_distance.noalias() += distance_px * colour;
+    by_distance.noalias() += static_cast<float>(distance_px) * colour;
     distance2 += distance_px * distance_px;
   }
   double count() const { return moments(3, 3); }
-  double mean_distance_px() const { return by_distance.w() / count(); }
-  Eigen::Vector3d mean() const { return moments.col(3).hnormalized(); }
+  Eigen::Vector4d sums() const { return moments.col(3).cast<double>(); }
+  Eigen::Vector4d sums_by_distance() const { return by_distance.cast<double>(); }
+  double mean_distance_px() const { return sums_by_distance().w() / count(); }
+  Eigen::Vector3d mean() const { return sums().hnormalized(); }
 
   /// Sum of the squares about the mean, channel by channel.
   Eigen::Matrix3d scatter() const {
-    return moments.topLeftCorner<3, 3>() - moments.col(3).head<3>() * mean().transpose();
+    return moments.topLeftCorner<3, 3>().cast<double>() - sums().head<3>() * mean().transpose();
   }
 };
 

@@ -10,6 +10,8 @@ namespace stereobench::vision {
 namespace {
 
 constexpr double kSamplesPerRadius = 200.0;  // px: the noise of so many is small beside that of the rim
+constexpr double kSampledDepth = 0.25;       // radii; the rim's shade is told as well from near by as by all
+constexpr double kSampledDepth_px = 8.0;     // at least: all of a small ball
 constexpr std::size_t kFewestSamples = 24;
 constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
 constexpr int kMostTurns = 12;
@@ -31,24 +33,22 @@ Eigen::Vector4d as_light(const Eigen::Vector3d& normal) {
 ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surface,
                                   const OutlineModel& outline, const Shades& shades) {
   ScratchVector<Sample> samples;
-  const double inside = 1.0 - outline.pure_px() / outline.semi_minor_px();
-  const double extent = outline.semi_major_px();
-  const double area = 3.14 * outline.radius_px() * outline.radius_px();
-  const double most = kSamplesPerRadius * outline.radius_px();
+  const double radius = outline.radius_px();
+  const double outermost = 1.0 - outline.pure_px() / outline.semi_minor_px();
+  const double innermost = std::max(0.0, outermost - std::max(kSampledDepth, kSampledDepth_px / radius));
+  const double most = kSamplesPerRadius * radius;
+  const double area = 3.14 * radius * radius * (outermost * outermost - innermost * innermost);
   const int row_step = std::max(1, static_cast<int>(std::sqrt(area / most)));
   const int step = std::max(1, static_cast<int>(std::ceil(area / (most * row_step))));
-  const int first_y = std::max(0, static_cast<int>(std::ceil(outline.centre_px().y() - extent)));
-  const int last_y = std::min(image.rows - 1, static_cast<int>(std::floor(outline.centre_px().y() + extent)));
-  for (int y = first_y; y <= last_y; y += row_step) {
-    const ColumnSpan columns = outline.columns_within(inside, y);
+  visit_ring(outline, innermost, outermost, image.size(), row_step, [&](const ColumnSpan& columns, int y) {
     const auto* row = image.ptr<std::uint8_t>(y);
-    for (int x = std::max(0, columns.first); x <= std::min(image.cols - 1, columns.last); x += step) {
+    for (int x = columns.first; x <= columns.last; x += step) {
       const std::uint8_t* bgr = row + 3 * x;
       const Eigen::Vector3d colour(bgr[0], bgr[1], bgr[2]);
       if (shades.contain(colour))
         samples.push_back({as_light(surface.normal(Eigen::Vector2d(x, y))), colour});
     }
-  }
+  });
   return samples;
 }
 

@@ -63,7 +63,7 @@ TEST_P(HiddenBalls, AreMeasuredByWhatIsLeftOfThem) {
 }
 
 // Where hardly a third of an outline is seen, balls are reported, if not trusted, and what is told of them
-// holds. Mutations: less than a third of the arcs make no outline; what little they make is trusted.
+// holds. Mutations: less than a quarter of the arcs make no outline; what little they make is trusted.
 TEST(HiddenMostly, BallsAreReported) {
   const StereoRig rig = painter::rig_of_hidden_balls();
   ObserverSettings settings;
@@ -89,24 +89,32 @@ TEST(HiddenMostly, BallsAreReported) {
     }
   }
   EXPECT_GE(balls, 15);
-  EXPECT_GE(reported, balls - 1);
+  EXPECT_GE(reported, balls);
   EXPECT_GE(flagged, 1);
 }
 
-// A wall as high as a sliver of the ball, which pulls the outline where the first look puts it: two of 120
-// may be left to distrust. Mutations: arcs that may not be at odds from the first sharp look on; two steps by
-// the shades, however far they lead.
-TEST(HiddenSlivers, LeaveTheBallToBeFound) {
+struct Sliver {
+  double noise_levels;
+  double most_rms_m;
+};
+
+class HiddenSlivers : public testing::TestWithParam<Sliver> {};
+
+// A wall as high as a sliver of the ball, whose edge pulls the outline aside where the first look puts it.
+// Mutations: least squares alone tell which arcs agree; shades are looked at once, from where the edge pulled
+// the outline.
+TEST_P(HiddenSlivers, LeaveTheBallToBeFound) {
   const StereoRig rig = painter::rig_of_hidden_balls();
   ObserverSettings settings;
-  settings.noise_sd_levels = painter::kHiddenNoise_levels;
+  settings.noise_sd_levels = GetParam().noise_levels;
   int found = 0;
+  double squares_m2 = 0.0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     Dice dice(5000 + seed);
     const double depth = dice.uniform(1.5, 3.0);
     const Eigen::Vector3d place(dice.uniform(-0.1, 0.2), dice.uniform(-0.1, 0.1), 1.0);
     Scene scene;
-    scene.noise_sd_levels = painter::kHiddenNoise_levels;
+    scene.noise_sd_levels = GetParam().noise_levels;
     scene.seed = seed;
     scene.balls = {{place * depth, static_cast<int>(dice.uniform(0.0, 18.0))}};
     const double top = place.y() * depth + dice.uniform(0.85, 0.97) * painter::kHiddenRadius_m;
@@ -114,18 +122,24 @@ TEST(HiddenSlivers, LeaveTheBallToBeFound) {
     for (const BallObservation& seen : observe(painter::paint(scene, rig), rig, settings)) {
       if (seen.colour != scene.balls[0].colour || !seen.trusted()) continue;
       ++found;
-      EXPECT_LT(std::abs(painter::range_bearing_error(seen, scene.balls[0], rig).x()), 0.005)
-          << "seed " << seed;
+      const double error_m = painter::range_bearing_error(seen, scene.balls[0], rig).x();
+      squares_m2 += error_m * error_m;
+      EXPECT_LT(std::abs(error_m), 0.005) << "seed " << seed;
     }
   }
-  EXPECT_GE(found, 118);
-  EXPECT_LE(found, 120);
+  EXPECT_EQ(found, 120);
+  EXPECT_LT(std::sqrt(squares_m2 / found), GetParam().most_rms_m);
 }
 
 std::string name_of(const testing::TestParamInfo<Hider>& hider) {
   if (hider.param == Hider::kEdge) return "ByAnEdge";
   return hider.param == Hider::kBall ? "ByABall" : "ByTheBorder";
 }
+
+INSTANTIATE_TEST_SUITE_P(Noise, HiddenSlivers, testing::Values(Sliver{0.0, 0.00015}, Sliver{2.0, 0.0003}),
+                         [](const testing::TestParamInfo<Sliver>& sliver) {
+                           return sliver.param.noise_levels > 0.0 ? "OfTwoLevels" : "Without";
+                         });
 
 INSTANTIATE_TEST_SUITE_P(All, HiddenBalls, testing::Values(Hider::kEdge, Hider::kBall, Hider::kBorder),
                          name_of);

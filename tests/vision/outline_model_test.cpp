@@ -43,5 +43,27 @@ TEST(OutlineModel, ColumnsOfARowAreThoseWithinTheLevel) {
   }
 }
 
+// Mutations: the left span as far as the inner one's end; rows from the inner ellipse's first.
+TEST(OutlineModel, RingsAreVisitedOncePixelByPixel) {
+  const cv::Size image(120, 90);
+  for (const Eigen::Vector2d& centre : {Eigen::Vector2d(60.2, 45.7), Eigen::Vector2d(8.4, 80.1)}) {
+    const OutlineModel model({.cx_px = 700.0}, centre, 21.4);
+    for (const double innermost : {-0.2, 0.0, 0.6, 0.98}) {
+      cv::Mat visits(image, CV_8U, cv::Scalar(0));
+      visit_ring(model, innermost, 1.1, image, 1, [&](const ColumnSpan& columns, int y) {
+        for (int x = columns.first; x <= columns.last; ++x) ++visits.at<std::uint8_t>(y, x);
+      });
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const double level = model.level(Eigen::Vector2d(x, y));
+          const int visited = visits.at<std::uint8_t>(y, x);
+          ASSERT_LE(visited, level <= 1.1 ? 1 : 0) << x << ", " << y;
+          ASSERT_GE(visited, level > innermost && level <= 1.1 ? 1 : 0) << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace stereobench::vision
