@@ -180,7 +180,7 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     fit.outline = start;
     if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
   }
-  double off = 0.0;
+  double off = kFirstSharp_px;
   for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
     const auto change = improve(fit, settings, 0.0, off);
     if (!change) return std::nullopt;
