@@ -101,8 +101,7 @@ struct Sliver {
 class HiddenSlivers : public testing::TestWithParam<Sliver> {};
 
 // A wall as high as a sliver of the ball, whose edge pulls the outline aside where the first look puts it.
-// Mutations: least squares alone tell which arcs agree; shades are looked at once, from where the edge pulled
-// the outline.
+// Mutation: least squares alone tell which arcs agree.
 TEST_P(HiddenSlivers, LeaveTheBallToBeFound) {
   const StereoRig rig = painter::rig_of_hidden_balls();
   ObserverSettings settings;
