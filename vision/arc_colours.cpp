@@ -53,8 +53,11 @@ Balls balls_beside(const ScratchVector<RimArc>& arcs, const UnmixSettings& setti
 template <typename Arc, typename Visit>
 void visit_around(const ScratchVector<Arc>& arcs, std::size_t arc, std::size_t reach, const Visit& visit) {
   const std::size_t count = std::min(2 * reach + 1, arcs.size());
-  for (std::size_t step = 0; step < count; ++step)
-    visit(arcs[(arc + arcs.size() - reach % arcs.size() + step) % arcs.size()]);
+  std::size_t next = arc >= reach ? arc - reach : arc + arcs.size() - std::min(reach, arcs.size());
+  for (std::size_t step = 0; step < count; ++step) {
+    visit(arcs[next]);
+    if (++next == arcs.size()) next = 0;
+  }
 }
 
 // How much of a difference is believed whose square is `squares` times its noise's, of so many degrees of
@@ -145,31 +148,48 @@ Eigen::Vector3d background_at_rim(const BackgroundSums& outside, const ScratchVe
   return outside.mean() - outside.mean_distance_px() * per_px;
 }
 
+// What the ball beside one arc says of how good its shading is.
+struct ShadeCheck {
+  double squares = 0.0;  // of what is seen beyond the shading, in noise
+  double freedom = 0.0;
+  double of_brightness = 0.0;  // squares along the ball's own colour, less noise
+  double brightness = 0.0;     // squared
+};
+
+ScratchVector<ShadeCheck> check_shades(const Balls& balls, double noise_variance) {
+  ScratchVector<ShadeCheck> checks(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    if (!balls[i].shows_ball) continue;
+    const BallSums& inside = balls[i].inside;
+    const Eigen::Vector3d mean = inside.mean();
+    const Eigen::Vector3d beyond = mean - inside.mean_shade();
+    const double along = beyond.dot(mean);
+    checks[i] = {.squares = inside.count() * beyond.squaredNorm() / noise_variance,
+                 .freedom = 3.0,
+                 .of_brightness = inside.count() * along * along / mean.squaredNorm() - noise_variance,
+                 .brightness = inside.count() * mean.squaredNorm()};
+  }
+  return checks;
+}
+
 // How well the ball's colours at the rim of an arc are known.
 struct ShadeTrust {
   double beyond_shade = 1.0;  // part of what is shown beyond the shading that is not noise
   double relative_sd = kUnknownShade;
 };
 
-ShadeTrust trust_around(const Balls& balls, std::size_t arc, double noise_variance) {
-  double squares = 0.0;
-  double freedom = -2.0;
-  double of_brightness = 0.0;
-  double brightness = 0.0;
-  visit_around(balls, arc, kShadeArcs, [&](const BallBeside& other) {
-    if (!other.shows_ball) return;
-    const Eigen::Vector3d mean = other.inside.mean();
-    const Eigen::Vector3d beyond = mean - other.inside.mean_shade();
-    const double along = beyond.dot(mean);
-    squares += other.inside.count() * beyond.squaredNorm() / noise_variance;
-    freedom += 3.0;
-    of_brightness += other.inside.count() * along * along / mean.squaredNorm() - noise_variance;
-    brightness += other.inside.count() * mean.squaredNorm();
+ShadeTrust trust_around(const ScratchVector<ShadeCheck>& checks, std::size_t arc) {
+  ShadeCheck around{.freedom = -2.0};
+  visit_around(checks, arc, kShadeArcs, [&](const ShadeCheck& other) {
+    around.squares += other.squares;
+    around.freedom += other.freedom;
+    around.of_brightness += other.of_brightness;
+    around.brightness += other.brightness;
   });
-  if (!(freedom > 0.0)) return {};
-  const double beside = std::max(0.0, of_brightness / brightness);
+  if (!(around.freedom > 0.0)) return {};
+  const double beside = std::max(0.0, around.of_brightness / around.brightness);
   const double at_rim = std::sqrt(kShadeAtRim * kShadeAtRim * beside + kLeastShade * kLeastShade);
-  return {believed_part(squares, freedom), std::min(kUnknownShade, at_rim)};
+  return {believed_part(around.squares, around.freedom), std::min(kUnknownShade, at_rim)};
 }
 
 // The two colours of an arc, and what disturbs them.
@@ -210,13 +230,14 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
   const double noise_variance = pixel_variance(settings.noise_sd_levels);
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const auto gradients = gradients_beside(rim, noise_variance);
+  const auto checks = check_shades(balls, noise_variance);
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const RimArc& seen = rim.arcs[i];
     if (!balls[i].shows_ball || seen.outside.count() < 2.0 || seen.crossed.count() < 1.0) continue;
     const BallSums& inside = balls[i].inside;
-    const ShadeTrust trust = rim.has_shades ? trust_around(balls, i, noise_variance) : ShadeTrust{};
+    const ShadeTrust trust = rim.has_shades ? trust_around(checks, i) : ShadeTrust{};
     const Eigen::Vector3d beyond_shade = trust.beyond_shade * (inside.mean() - inside.mean_shade());
     arcs[i] = unmixed({.background = background_at_rim(seen.outside, gradients, i, noise_variance),
                        .ball = seen.crossed.mean_shade() + beyond_shade,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -117,6 +118,13 @@ Eigen::Vector3d most_agreed(const ScratchVector<ArcOffset>& arcs, Eigen::Vector3
   return change_px;
 }
 
+// How far from the outline a pixel may be that it crosses.
+double crossed_reach_px(const OutlineModel& outline, double ramp_half_width_px) {
+  constexpr double kHalfDiagonal_px = 0.7072;
+  if (ramp_half_width_px > 0.0) return ramp_half_width_px;
+  return outline.blur_px() > 0.0 ? std::numeric_limits<double>::infinity() : kHalfDiagonal_px;
+}
+
 // What the arcs' variances are to be multiplied by where they contradict each other more than by chance
 // (Birge's ratio, squared).
 double contradiction(const ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
@@ -159,7 +167,12 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
   const double beyond_noise = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
   const double arc_length_px = 2.0 * kPi * outline.radius_px() / static_cast<double>(arcs.size());
   const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
+  const double crossed = crossed_reach_px(outline, ramp_half_width_px) / outline.semi_minor_px();
+  const double innermost = std::max(0.0, 1.0 - crossed);
+  const double outermost = 1.0 + crossed;
   for (const UnmixedPixel& pixel : pixels) {
+    const double level2 = outline.level2(pixel.position_px);
+    if (!(level2 >= innermost * innermost && level2 <= outermost * outermost)) continue;
     const RimPoint point = outline.rim_point(pixel.position_px);
     const Coverage covered =
         ramp_half_width_px > 0.0 ? ramp_coverage(point, ramp_half_width_px) : outline.coverage(point);

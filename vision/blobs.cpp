@@ -1,6 +1,8 @@
 #include "vision/blobs.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <opencv2/core/hal/intrin.hpp>
@@ -66,14 +68,27 @@ class BlobForest {
   ScratchVector<Blob> blobs_;
 };
 
-constexpr int kAtOnce = cv::v_uint8x16::nlanes;
+using Bytes = cv::v_uint8x16;
+
+constexpr int kAtOnce = Bytes::nlanes;  // pixels
+
+// The bytes that a pixel starts with.
+constexpr std::array<std::uint8_t, kAtOnce> kStarts = [] {
+  std::array<std::uint8_t, kAtOnce> starts{};
+  for (std::size_t i = 0; i < starts.size(); i += 3) starts[i] = 255;
+  return starts;
+}();
 
 // Whether the next kAtOnce pixels are all greyer than any colour of a table, as most of most images are.
-bool is_grey(const std::uint8_t* bgr, const cv::v_uint8x16& least_spread) {
-  cv::v_uint8x16 b, g, r;
-  cv::v_load_deinterleave(bgr, b, g, r);
-  const cv::v_uint8x16 spread = cv::v_max(cv::v_max(b, g), r) - cv::v_min(cv::v_min(b, g), r);
-  return cv::v_check_all(spread < least_spread);
+bool is_grey(const std::uint8_t* bgr, const Bytes& least_spread) {
+  Bytes spread = cv::v_setzero_u8();
+  for (int pixel = 0; pixel + 6 <= kAtOnce; pixel += 5) {
+    const Bytes b = cv::v_load(bgr + 3 * pixel);
+    const Bytes g = cv::v_load(bgr + 3 * pixel + 1);
+    const Bytes r = cv::v_load(bgr + 3 * pixel + 2);
+    spread = cv::v_max(spread, cv::v_max(cv::v_max(b, g), r) - cv::v_min(cv::v_min(b, g), r));
+  }
+  return cv::v_check_all((spread & cv::v_load(kStarts.data())) < least_spread);
 }
 
 void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, ScratchVector<Run>& runs) {
@@ -82,9 +97,8 @@ void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, Scr
       cv::v_setall_u8(static_cast<std::uint8_t>(std::min(255, table.least_spread_levels())));
   std::uint8_t current = kBackground;
   for (int x = 0; x < width;) {
-    if (current == kBackground && x + kAtOnce <= width && is_grey(bgr + 3 * x, least_spread)) {
-      x += kAtOnce;
-      continue;
+    if (current == kBackground) {
+      while (x + kAtOnce <= width && is_grey(bgr + 3 * x, least_spread)) x += kAtOnce;
     }
     for (const int end = std::min(width, x + kAtOnce); x < end; ++x) {
       const std::uint8_t* pixel = bgr + 3 * x;

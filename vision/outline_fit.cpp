@@ -219,11 +219,10 @@ std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSe
 
 // How much of a rim pixel something else covers, of the part that the ball should.
 double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) {
-  const double covered = fit.outline.coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   const ArcColours& colours = fit.colours[pixel.sector];
+  const double covered = fit.outline.coverage(fit.outline.rim_point(pixel.position_px)).fraction;
   if (covered <= 0.0) return 0.0;
   if (!colours.usable) return shades.contain(pixel.colour.head<3>().cast<double>()) ? 0.0 : covered;
-  if (fit.arcs[pixel.sector].weight > 0.0) return 0.0;
   return std::clamp(covered - colours.shown(pixel) / colours.whole(pixel), 0.0, covered);
 }
 
@@ -233,21 +232,17 @@ double hidden_area(const cv::Mat& image, const Fit& fit, const Shades& shades) {
   const double blur_reach = fit.outline.blur_reach_px();
   const double inside = 1.0 - (kRimDepth_px + blur_reach) / fit.outline.semi_minor_px();
   for (const RimPixel& pixel : fit.rim.pixels) {
+    if (fit.arcs[pixel.sector].weight > 0.0) continue;
     if (pixel.distance_px < 1.0 + blur_reach && fit.outline.level(pixel.position_px) > inside)
       hidden += hidden_part(fit, pixel, shades);
   }
-  const double extent = fit.outline.semi_major_px();
-  const int first_y = std::max(0, static_cast<int>(std::ceil(fit.outline.centre_px().y() - extent)));
-  const int last_y =
-      std::min(image.rows - 1, static_cast<int>(std::floor(fit.outline.centre_px().y() + extent)));
-  for (int y = first_y; y <= last_y; ++y) {
-    const ColumnSpan columns = fit.outline.columns_within(inside, y);
+  visit_ring(fit.outline, 0.0, inside, image.size(), 1, [&](const ColumnSpan& columns, int y) {
     const auto* row = image.ptr<std::uint8_t>(y);
-    for (int x = std::max(0, columns.first); x <= std::min(image.cols - 1, columns.last); ++x) {
+    for (int x = columns.first; x <= columns.last; ++x) {
       const std::uint8_t* bgr = row + 3 * x;
       if (!shades.contain(Eigen::Vector3d(bgr[0], bgr[1], bgr[2]))) hidden += 1.0;
     }
-  }
+  });
   return hidden;
 }
 

@@ -57,9 +57,12 @@ class OutlineModel {
   }
 
   /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.
-  double level(const Eigen::Vector2d& pixel_px) const {
+  double level(const Eigen::Vector2d& pixel_px) const { return std::sqrt(level2(pixel_px)); }
+
+  /// The same, squared.
+  double level2(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector2d offset = pixel_px - centre_px_;
-    return std::sqrt(offset.dot(form_ * offset));
+    return offset.dot(form_ * offset);
   }
 
   /// The columns of a row whose pixel centres lie within the similar ellipse of relative size `level`.
@@ -85,27 +88,30 @@ class OutlineModel {
   Eigen::Matrix2d form_;  // offset' form offset = 1 on the outline
 };
 
-/// Visits the rows of an image that cross the ring between two similar ellipses, and in each the columns that
-/// lie within it: one span, or two to either side of the ring's middle.
-/// @param innermost, outermost relative sizes of the ellipses
+/// Visits what an image shows of the ring between two similar ellipses, row by row: one span of columns, or
+/// two to either side of the ring's middle.
+/// @param innermost, outermost relative sizes of the ellipses; nothing is left out in the middle for 0
 /// @param row_step visits every so manyth row
-/// @param visit takes a ColumnSpan within the image and a row
+/// @param visit takes a ColumnSpan within the image, not empty, and a row
 template <typename Visit>
 void visit_ring(const OutlineModel& outline, double innermost, double outermost, const cv::Size& image,
                 int row_step, const Visit& visit) {
   const double extent = outline.semi_major_px() * outermost;
   const double centre = outline.centre_px().y();
-  const int first = std::max(0, static_cast<int>(std::ceil(centre - extent)));
-  const int last = std::min(image.height - 1, static_cast<int>(std::floor(centre + extent)));
-  for (int y = first; y <= last; y += row_step) {
+  const int first_row = std::max(0, static_cast<int>(std::ceil(centre - extent)));
+  const int last_row = std::min(image.height - 1, static_cast<int>(std::floor(centre + extent)));
+  for (int y = first_row; y <= last_row; y += row_step) {
+    const auto visit_seen = [&](int first, int last) {
+      const ColumnSpan seen{std::max(0, first), std::min(image.width - 1, last)};
+      if (seen.first <= seen.last) visit(seen, y);
+    };
     const ColumnSpan outer = outline.columns_within(outermost, y);
     const ColumnSpan inner = outline.columns_within(innermost, y);
-    const int right = image.width - 1;
     if (inner.last > inner.first) {
-      visit(ColumnSpan{std::max(0, outer.first), std::min(right, inner.first)}, y);
-      visit(ColumnSpan{std::max(0, inner.last), std::min(right, outer.last)}, y);
+      visit_seen(outer.first, inner.first);
+      visit_seen(inner.last, outer.last);
     } else {
-      visit(ColumnSpan{std::max(0, outer.first), std::min(right, outer.last)}, y);
+      visit_seen(outer.first, outer.last);
     }
   }
 }

@@ -87,7 +87,8 @@ struct Rim {
 inline constexpr double kCrossed_px = 1.5;
 
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where
-/// it is blurred; outside of an outline whose shading is known, of five.
+/// it is blurred; outside of an outline whose shading is known, of five. Of a large one whose shading is not
+/// known every other row is passed over where rows cross it steeply.
 /// @param image CV_8UC3; pixels outside it are missing from the rim
 /// @param gap_px between the outline and either ring; nearer pixels may be of both colours
 /// @param shading of the ball, where it is known

@@ -40,6 +40,7 @@ ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surfa
   const double area = 3.14 * radius * radius * (outermost * outermost - innermost * innermost);
   const int row_step = std::max(1, static_cast<int>(std::sqrt(area / most)));
   const int step = std::max(1, static_cast<int>(std::ceil(area / (most * row_step))));
+  samples.reserve(static_cast<std::size_t>(1.1 * area / (row_step * step)));
   visit_ring(outline, innermost, outermost, image.size(), row_step, [&](const ColumnSpan& columns, int y) {
     const auto* row = image.ptr<std::uint8_t>(y);
     for (int x = columns.first; x <= columns.last; x += step) {

@@ -2,6 +2,7 @@
 #include "vision/arc_fit.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,31 @@ TEST(ArcOffsets, LongArcsAverageWhatDisturbsThem) {
   EXPECT_NEAR(disturbed(400) / shorter, 1.0, 1e-9) << "both shorter than texture";
   EXPECT_NEAR(disturbed(25) / disturbed(50), 0.5, 1e-9);
   EXPECT_LT(disturbed(50) / shorter, 0.3);
+}
+
+// Pixels that are far off are passed over before it is known what the edge leaves of them.
+// Mutations: pixels whose corner alone is crossed passed over; those of a ramp by the sharp edge's reach.
+TEST(ArcOffsets, EveryPixelSpeaksThatTheEdgeCrosses) {
+  const Intrinsics camera;
+  const Eigen::Vector2d centre(camera.cx_px + 150.0, camera.cy_px - 90.0);
+  for (const auto& [blur_px, ramp_px] : {std::pair(0.0, 0.0), std::pair(0.0, 2.5), std::pair(0.8, 0.0)}) {
+    const OutlineModel outline(camera, centre, 12.0, blur_px);
+    ScratchVector<ArcColours> colours(1);
+    colours[0].noise_variance = 1.0;
+    int crossed = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const double turn = 0.37 * i;
+      const double reach_px = 12.0 + 4.0 * std::sin(1.7 * i);
+      const Eigen::Vector2d pixel = centre + reach_px * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+      const RimPoint rim = outline.rim_point(pixel);
+      const Coverage covered = ramp_px > 0.0 ? ramp_coverage(rim, ramp_px) : outline.coverage(rim);
+      const ScratchVector<UnmixedPixel> pixels = {{.position_px = pixel, .shown = 0.5, .whole = 1e6}};
+      const bool speaks = arc_offsets(pixels, colours, outline, ramp_px)[0].weight > 0.0;
+      ASSERT_EQ(speaks, covered.per_px * 1e6 > 1.0) << rim.distance_px << " px off";
+      crossed += speaks;
+    }
+    EXPECT_GT(crossed, 300);
+  }
 }
 
 }  // namespace

@@ -130,6 +130,26 @@ TEST(Blobs, AreThoseOfFloodFilling) {
   }
 }
 
+// Whichever channel it is that differs, and wherever among the pixels that are looked at together.
+// Mutations: pixels told apart from their second byte on; the last five of those looked at together passed
+// over.
+TEST(Blobs, OneColouredPixelIsSeenWhereverItIs) {
+  int seen = 0;
+  for (int x = 0; x < 40; ++x) {
+    for (int channel = 0; channel < 3; ++channel) {
+      for (const int level : {0, 255}) {
+        cv::Mat image(1, 40, CV_8UC3, cv::Scalar(128, 128, 128));
+        auto& pixel = image.at<cv::Vec3b>(0, x);
+        pixel[channel] = static_cast<std::uint8_t>(level);
+        const bool is_coloured = palette_table().classify(pixel[0], pixel[1], pixel[2]) != kBackground;
+        ASSERT_EQ(find_blobs(image, 1).size(), is_coloured ? 1U : 0U) << x;
+        seen += is_coloured;
+      }
+    }
+  }
+  EXPECT_GE(seen, 40 * 3);
+}
+
 TEST(Blobs, AreTheSameInAnImageWithRowPadding) {
   const cv::Mat wide = random_picture(7, 30, 60);
   const cv::Mat part = wide(cv::Rect(5, 3, 41, 20));

@@ -43,7 +43,7 @@ TEST(OutlineModel, ColumnsOfARowAreThoseWithinTheLevel) {
   }
 }
 
-// Mutations: the left span as far as the inner one's end; rows from the inner ellipse's first.
+// Mutations: the left span as far as the inner one's end; the inner ellipse's columns for the outer's.
 TEST(OutlineModel, RingsAreVisitedOncePixelByPixel) {
   const cv::Size image(120, 90);
   for (const Eigen::Vector2d& centre : {Eigen::Vector2d(60.2, 45.7), Eigen::Vector2d(8.4, 80.1)}) {
@@ -51,6 +51,7 @@ TEST(OutlineModel, RingsAreVisitedOncePixelByPixel) {
     for (const double innermost : {-0.2, 0.0, 0.6, 0.98}) {
       cv::Mat visits(image, CV_8U, cv::Scalar(0));
       visit_ring(model, innermost, 1.1, image, 1, [&](const ColumnSpan& columns, int y) {
+        ASSERT_LE(columns.first, columns.last);
         for (int x = columns.first; x <= columns.last; ++x) ++visits.at<std::uint8_t>(y, x);
       });
       for (int y = 0; y < image.height; ++y) {
