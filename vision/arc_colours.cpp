@@ -216,7 +216,7 @@ ArcColours unmixed(const Mixture& mixture) {
   const double strength = contrast.dot(weighted);
   if (!(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return arc;
   const Eigen::Vector3d by_channel = weighted / strength;
-  arc.unmix << by_channel, -by_channel.dot(mixture.background);
+  arc.unmix << by_channel.cast<float>(), static_cast<float>(-by_channel.dot(mixture.background));
   arc.beyond_shade = by_channel.dot(mixture.beyond_shade);
   arc.noise_variance = mixture.noise_variance * by_channel.squaredNorm();
   arc.texture_variance = std::max(0.0, by_channel.dot(mixture.texture * by_channel));

@@ -11,17 +11,19 @@ namespace stereobench::vision {
 /// a pixel is the shading's (RimPixel::shade) plus what the arc shows beyond it.
 struct ArcColours {
   /// How much of the ball a colour is: 0 for the background just outside, about 1 for the ball.
-  Eigen::Vector4d unmix = Eigen::Vector4d::Zero();
+  Colour unmix = Colour::Zero();
   double beyond_shade = 0.0;      ///< what the ball is worth beyond its shade
   double noise_variance = 0.0;    ///< of a pixel's share of the ball, from image noise
   double texture_variance = 0.0;  ///< the same, since texture is not the same at the rim as beside it
   bool usable = false;            ///< the ball's colour inside, another one outside, enough contrast
 
   /// How much of the ball a pixel shows, in the unit of `whole`.
-  double shown(const RimPixel& pixel) const { return unmix.dot(pixel.colour.cast<double>()); }
+  double shown(const RimPixel& pixel) const { return static_cast<double>(unmix.dot(pixel.colour)); }
 
   /// How much it would show if the ball covered it.
-  double whole(const RimPixel& pixel) const { return unmix.dot(pixel.shade.cast<double>()) + beyond_shade; }
+  double whole(const RimPixel& pixel) const {
+    return static_cast<double>(unmix.dot(pixel.shade)) + beyond_shade;
+  }
 };
 
 /// What arc colours are judged by.
