@@ -102,8 +102,8 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
 
 // Looks again at the image, around where the outline is by now.
 void look(Fit& fit, const cv::Mat& image, const UnmixSettings& settings, double ramp_px,
-          const std::optional<Shading>& shading = std::nullopt) {
-  fit.rim = collect_rim(image, fit.outline, std::max(fit.outline.pure_px(), ramp_px), shading);
+          const std::optional<Shading>& shading = std::nullopt, Detail detail = Detail::kAll) {
+  fit.rim = collect_rim(image, fit.outline, std::max(fit.outline.pure_px(), ramp_px), shading, detail);
   fit.colours = arc_colours(fit.rim, settings);
   fit.pixels = unmix(fit.rim, fit.colours);
   compare(fit, ramp_px);
@@ -120,7 +120,7 @@ double support(const Fit& fit) {
 
 // Begins with a sharp edge where a whole ball's first guess is about right, as most are.
 bool starts_sharp(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix) {
-  look(fit, image, unmix, 0.0);
+  look(fit, image, unmix, 0.0, std::nullopt, Detail::kGlance);
   const auto change = improve(fit, settings, 0.0, kFirstSharp_px);
   return change && *change < kLookAgainAbove_px && support(fit) >= kWhole * fit.outline.radius_px();
 }

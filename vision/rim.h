@@ -86,13 +86,16 @@ struct Rim {
 /// How far from the outline a pixel may be that an outline in focus crosses, once it is about right.
 inline constexpr double kCrossed_px = 1.5;
 
+/// How much of a rim is looked at: all, or of a large one every other row where rows cross it steeply.
+enum class Detail { kAll, kGlance };
+
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where
-/// it is blurred; outside of an outline whose shading is known, of five. Of a large one whose shading is not
-/// known every other row is passed over where rows cross it steeply.
+/// it is blurred; outside of an outline whose shading is known, of five.
 /// @param image CV_8UC3; pixels outside it are missing from the rim
 /// @param gap_px between the outline and either ring; nearer pixels may be of both colours
 /// @param shading of the ball, where it is known
+/// @param detail a glance is enough to see whether a ball is whole and about where the outline is
 Rim collect_rim(const cv::Mat& image, const OutlineModel& outline, double gap_px,
-                const std::optional<Shading>& shading);
+                const std::optional<Shading>& shading, Detail detail);
 
 }  // namespace stereobench::vision
