@@ -35,6 +35,7 @@ constexpr double kCentreSd_px = 0.0003;      // the same of opposite ones
 constexpr double kCentreSdPerBlur = 0.0007;  // more of that for each px of blur
 constexpr double kMinFill = 0.25;            // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 3.0;
+constexpr double kTooSmall = 0.98;  // of the least radius: what is as large is not lost by its own error
 constexpr double kMaxRadius_px = 1000.0;
 constexpr double kRoughness_px = 0.75;  // of a patch's edge, in noise
 constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for it, a part may be hidden
@@ -300,7 +301,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   if (!may_be_ball(blob)) return std::nullopt;
   const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels};
   const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
-  if (!fit || fit->outline.radius_px() < settings.min_radius_px) return std::nullopt;
+  if (!fit || fit->outline.radius_px() < kTooSmall * settings.min_radius_px) return std::nullopt;
   return measured(*fit, image, unmix, {.colour = blob.colour, .seen_px = blob.area_px});
 }
 

@@ -69,7 +69,7 @@ struct BackgroundSums {
   }
 };
 
-/// What is seen along one arc of an outline, of about three pixels' length.
+/// What is seen along one arc of an outline.
 struct RimArc {
   BallSums inside;         ///< just inside of the outline
   BallSums crossed;        ///< where the outline goes
@@ -86,7 +86,8 @@ struct Rim {
 /// How far from the outline a pixel may be that an outline in focus crosses, once it is about right.
 inline constexpr double kCrossed_px = 1.5;
 
-/// How much of a rim is looked at: all, or of a large one every other row where rows cross it steeply.
+/// How much of a rim is looked at: all of it, or of a large one every other row where rows cross it steeply,
+/// in arcs twice as long.
 enum class Detail { kAll, kGlance };
 
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where

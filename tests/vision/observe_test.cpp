@@ -44,6 +44,27 @@ double centre_error(const StereoRig& rig, const PaintedBall& ball, const BallObs
                   (observation.right_px - outline_centre(rig, ball, Eye::kRight)).norm());
 }
 
+// Mutation: outlines that are measured below the least radius are dropped.
+TEST(Observe, BallsOfTheLeastSizeAreFoundAndSmallerOnesAreNot) {
+  const StereoRig rig = small_rig();
+  const double depth_m =
+      ObserverSettings{}.ball_radius_m * rig.camera.focal_px / ObserverSettings{}.min_radius_px;
+  for (const bool is_smaller : {false, true}) {
+    std::size_t found = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      painter::Dice dice(700 + seed);
+      const Eigen::Vector3d towards(dice.uniform(-0.1, 0.1), dice.uniform(-0.1, 0.1), 1.0);
+      Scene scene;
+      scene.seed = seed;
+      scene.noise_sd_levels = 2.0;
+      scene.backdrop = Backdrop::kPlain;
+      scene.balls = {{towards * depth_m * (is_smaller ? 1.1 : 1.0), static_cast<int>(seed % 18)}};
+      found += observed(scene, rig).size();
+    }
+    EXPECT_EQ(found, is_smaller ? 0U : 30U);
+  }
+}
+
 class EveryNoise : public testing::TestWithParam<double> {};
 
 // Catches: half a pixel anywhere, a third colour at the rims, speckle taken for balls, a wrong identity.
