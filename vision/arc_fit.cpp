@@ -21,6 +21,7 @@ constexpr double kPi = 3.14159265358979323846;
 // background is an error that an arc's pixels share too, as far as texture reaches.
 constexpr double kQuantisation = 0.004;        // c
 constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
+constexpr double kResampled = 0.042;           // c between pixels: no two edges look alike
 constexpr double kNoiseFactor = 1.06;          // k of a large ball
 constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
 constexpr double kNoisePerEdge = 3.0;          // of what k has beyond 1, for each pixel more of an edge
@@ -158,13 +159,14 @@ ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours
 
 ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
                                      const ScratchVector<ArcColours>& colours, const OutlineModel& outline,
-                                     double ramp_half_width_px) {
+                                     double ramp_half_width_px, bool is_resampled) {
   ScratchVector<ArcOffset> arcs(colours.size());
   ScratchVector<double> information(colours.size(), 0.0);
   const double in_focus = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
   const double noise_factor =
       in_focus + kNoisePerEdge * (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
-  const double beyond_noise = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
+  const double in_picture = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
+  const double beyond_noise = is_resampled ? kResampled : in_picture;
   const double arc_length_px = 2.0 * kPi * outline.radius_px() / static_cast<double>(arcs.size());
   const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
   const double crossed = crossed_reach_px(outline, ramp_half_width_px) / outline.semi_minor_px();

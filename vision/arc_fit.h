@@ -43,10 +43,11 @@ ScratchVector<UnmixedPixel> unmix(const Rim& rim, const ScratchVector<ArcColours
 
 /// Compares each arc's coverage with the model's.
 /// @param ramp_half_width_px of the model's edge; 0 for what the picture makes of a sharp one
+/// @param is_resampled whether the picture was interpolated
 /// @return one for each arc, weight 1 where it says something
 ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
                                      const ScratchVector<ArcColours>& colours, const OutlineModel& outline,
-                                     double ramp_half_width_px);
+                                     double ramp_half_width_px, bool is_resampled);
 
 /// The offsets from an outline that has been changed, as long as the change is small.
 void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px);

@@ -99,7 +99,12 @@ double blur_of(const Outlines& outlines) {
 // are measured again.
 Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSettings& settings) {
   check_settings(settings);
-  Found found{image, {camera, settings.noise_sd_levels, settings.min_radius_px}, {}};
+  Found found{image,
+              {.camera = camera,
+               .noise_sd_levels = settings.noise_sd_levels,
+               .min_radius_px = settings.min_radius_px,
+               .resampled = settings.resampled},
+              {}};
   if (settings.learned != nullptr) {
     const auto patches = find_round_patches(image, *settings.learned, settings.min_radius_px);
     found.outlines.assign(patches.begin(), patches.end());
@@ -196,9 +201,11 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
 std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
                                      const ObserverSettings& settings) {
   constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
+  if (rectification.is_nothing()) return observe(pair, rectification.rig(), settings);
+  ObserverSettings of_straightened = settings;
+  of_straightened.resampled = true;
   std::vector<BallObservation> observations =
-      observe(rectification.apply(pair), rectification.rig(), settings);
-  if (rectification.is_nothing()) return observations;
+      observe(rectification.apply(pair), rectification.rig(), of_straightened);
   for (BallObservation& seen : observations) {
     const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
                        rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);

@@ -18,6 +18,8 @@ struct ObserverSettings {
   double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
   double min_radius_px = 5.0;    ///< outlines of less than 0.98 of it are not measured
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
+  /// Whether the pictures were interpolated, as those that were straightened are: edges are then less alike.
+  bool resampled = false;
   /// Colours that were learned (learned_palette.h), in place of kPalette's; must outlive the settings.
   const ColourTable* learned = nullptr;
 };

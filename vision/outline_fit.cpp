@@ -42,6 +42,7 @@ constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for 
 
 struct Fit {
   OutlineModel outline;
+  bool is_resampled = false;
   Rim rim;
   ScratchVector<ArcColours> colours;
   ScratchVector<UnmixedPixel> pixels;
@@ -77,7 +78,7 @@ double distance_px(const OutlineModel& a, const OutlineModel& b) {
 
 // Compares what is seen with the outline as it is.
 void compare(Fit& fit, double ramp_px) {
-  fit.arcs = arc_offsets(fit.pixels, fit.colours, fit.outline, ramp_px);
+  fit.arcs = arc_offsets(fit.pixels, fit.colours, fit.outline, ramp_px, fit.is_resampled);
   fit.moved_px = 0.0;
 }
 
@@ -176,7 +177,7 @@ bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, co
 
 std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, const FitSettings& settings,
                             const UnmixSettings& unmix) {
-  Fit fit{.outline = start};
+  Fit fit{.outline = start, .is_resampled = settings.resampled};
   if (!starts_sharp(fit, image, settings, unmix)) {
     fit.outline = start;
     if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
@@ -308,7 +309,8 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
 MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
                                const FitSettings& settings) {
   const UnmixSettings unmix{palette_bgr(outline.colour), settings.noise_sd_levels};
-  Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px, settings.blur_px}};
+  Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px, settings.blur_px},
+          .is_resampled = settings.resampled};
   if (!suit_shades(fit, image, settings, unmix, lamp)) return outline;
   return measured(fit, image, unmix, outline);
 }

@@ -34,6 +34,7 @@ struct FitSettings {
   double noise_sd_levels = 0.0;
   double min_radius_px = 3.0;  ///< outlines of less than 0.98 of it are not measured
   double blur_px = 0.0;        ///< standard deviation of the Gaussian that the picture makes of a point
+  bool resampled = false;      ///< whether the picture was interpolated
 };
 
 /// Fits a ball's outline (centre and radius of an ellipse of known shape) around a patch of colour.

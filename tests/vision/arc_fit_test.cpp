@@ -18,7 +18,7 @@ double variance_beside_texture(double radius_px, std::size_t arcs, double textur
   colours[0].usable = true;
   const ScratchVector<UnmixedPixel> pixels = {
       {.position_px = {camera.cx_px + radius_px, camera.cy_px}, .shown = 0.5, .whole = 1.0}};
-  return arc_offsets(pixels, colours, outline, 0.0)[0].variance_px2;
+  return arc_offsets(pixels, colours, outline, 0.0, false)[0].variance_px2;
 }
 
 // An arc as long as four bits of texture averages them; one that is shorter than a bit sees one all the same.
@@ -52,7 +52,7 @@ TEST(ArcOffsets, EveryPixelSpeaksThatTheEdgeCrosses) {
       const RimPoint rim = outline.rim_point(pixel);
       const Coverage covered = ramp_px > 0.0 ? ramp_coverage(rim, ramp_px) : outline.coverage(rim);
       const ScratchVector<UnmixedPixel> pixels = {{.position_px = pixel, .shown = 0.5, .whole = 1e6}};
-      const bool speaks = arc_offsets(pixels, colours, outline, ramp_px)[0].weight > 0.0;
+      const bool speaks = arc_offsets(pixels, colours, outline, ramp_px, false)[0].weight > 0.0;
       ASSERT_EQ(speaks, covered.per_px * 1e6 > 1.0) << rim.distance_px << " px off";
       crossed += speaks;
     }
