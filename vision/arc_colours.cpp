@@ -230,7 +230,7 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
   const double noise_variance = pixel_variance(settings.noise_sd_levels);
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const auto gradients = gradients_beside(rim, noise_variance);
-  const auto checks = check_shades(balls, noise_variance);
+  const auto checks = rim.has_shades ? check_shades(balls, noise_variance) : ScratchVector<ShadeCheck>();
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {

@@ -82,7 +82,9 @@ constexpr std::array<std::uint8_t, kAtOnce> kStarts = [] {
 // Whether the next kAtOnce pixels are all greyer than any colour of a table, as most of most images are.
 bool is_grey(const std::uint8_t* bgr, const Bytes& least_spread) {
   Bytes spread = cv::v_setzero_u8();
-  for (int pixel = 0; pixel + 6 <= kAtOnce; pixel += 5) {
+  constexpr int kStartsAtOnce =
+      6;  // in as many bytes as pixels; the last is looked at again as the next's first
+  for (int pixel = 0; pixel + kStartsAtOnce <= kAtOnce; pixel += kStartsAtOnce - 1) {
     const Bytes b = cv::v_load(bgr + 3 * pixel);
     const Bytes g = cv::v_load(bgr + 3 * pixel + 1);
     const Bytes r = cv::v_load(bgr + 3 * pixel + 2);
