@@ -86,6 +86,7 @@ struct Corridor {
 
 struct LoopScore {
   double rms_m = 0.0;
+  double end_m = 0.0;  // 20 m after the loop is closed
   double reckoned_end_m = 0.0;
   int mapped_wrongly = 0;
 };
@@ -115,25 +116,30 @@ LoopScore drive_loop(const std::string& name, std::uint64_t seed) {
     score.rms_m += off(filter) * off(filter) / static_cast<double>(controls.size());
   }
   score.rms_m = std::sqrt(score.rms_m);
+  score.end_m = off(filter);
   score.reckoned_end_m = off(reckoning);
   score.mapped_wrongly = corridor.mapped_wrongly(estimate(filter));
   return score;
 }
 
-// Catches a loop that is closed on the wrong ball, and a second copy of the first balls after a lap of drift.
+// A closed loop takes the error back to the start's: from 0.3 to 0.9 m half-way around to 0.02 to 0.15 m at
+// the end, where dead reckoning is off by 2.6 m. Limits are what these seeds give plus three standard errors
+// of their mean. Catches a loop that is closed on the wrong ball, and a second copy of the first balls after
+// a lap of drift. Mutation: weights that know nothing of what was seen (0.43 and 0.73 m).
 TEST(CorridorLoop, MapsEveryBallOnceAndClosesTheLoop) {
   constexpr int kSeeds = 8;
   for (const std::string name : {"fastslam2", "ufastslam"}) {
-    double rms_m = 0.0;
-    double reckoned_end_m = 0.0;
+    LoopScore mean;
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       const LoopScore score = drive_loop(name, seed);
-      rms_m += score.rms_m / kSeeds;
-      reckoned_end_m += score.reckoned_end_m / kSeeds;
+      mean.rms_m += score.rms_m / kSeeds;
+      mean.end_m += score.end_m / kSeeds;
+      mean.reckoned_end_m += score.reckoned_end_m / kSeeds;
       EXPECT_EQ(score.mapped_wrongly, 0) << name << " seed " << seed;
     }
-    EXPECT_GE(reckoned_end_m, 2.5);
-    EXPECT_LE(rms_m, 0.7) << name;
+    EXPECT_GE(mean.reckoned_end_m, 2.5);
+    EXPECT_LE(mean.end_m, 0.14) << name;
+    EXPECT_LE(mean.rms_m, 0.70) << name;
   }
 }
 

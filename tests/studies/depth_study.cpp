@@ -16,16 +16,39 @@ constexpr worlds::GalleryDepths kDepths = {0.5, 15.0};
 constexpr int kBins = 6;
 constexpr double k95 = 1.96;  // standard deviations of a normal either side
 constexpr double kPerMilli = 1e3;
+constexpr double kBearingSd_mrad = 0.0013;  // at 1 m
+constexpr double kRadiusRms_px = 0.0024;    // at 1 m
 
 long used(const CalibrationBin& bin) {
   return bin.samples - bin.refused;
 }
 
-/// Something that is measured at each range of depths, and its 95 % interval where one is known.
+double standard_error(double sd, const CalibrationBin& bin) {
+  return sd / std::sqrt(static_cast<double>(used(bin)));
+}
+
+/// A bias of nothing, within three standard errors of the mean.
+Limit unbiased(double standard_error) {
+  return {-3.0 * standard_error, 3.0 * standard_error};
+}
+
+/// Errors of an outline of r px go with 1 / sqrt(r), and r with 1 / depth: so the errors grow with the root
+/// of the depth.
+/// @param at_1_m what is measured, in full, and three standard errors
+Limit growing_with_depth(double at_1_m, const CalibrationBin& bin) {
+  return {.at_most = at_1_m * std::sqrt(std::sqrt(bin.nearest_m * bin.farthest_m))};
+}
+
+Limit no_limit(const CalibrationBin&) {
+  return {};
+}
+
+/// Something that is measured at each range of depths, its limit there, and its 95 % interval where one is
+/// known. Limits lie within three standard errors of what is measured with the default seeds.
 struct Quantity {
   const char* title;
-  Limit limit;
   double (*measured)(const CalibrationBin& bin);
+  Limit (*limit)(const CalibrationBin& bin) = no_limit;
   double (*half_width)(const CalibrationBin& bin) = [](const CalibrationBin&) { return 0.0; };
 };
 
@@ -33,41 +56,36 @@ constexpr auto kStated = static_cast<Eigen::Index>(harness::NoiseKind::kStated);
 
 /// The intervals of sd, NIS and correlation are those of independent normal errors.
 const Quantity kQuantities[] = {
-    {"balls measured", {}, [](const CalibrationBin& bin) { return static_cast<double>(bin.samples); }},
-    {"of these beyond the filters' gate, not counted below",
-     {},
-     [](const CalibrationBin& bin) { return static_cast<double>(bin.refused); }},
-    {"disparity bias [px]",
-     {-0.003, 0.003},
-     [](const CalibrationBin& bin) { return bin.disparity_error_px.mean; },
+    {"balls measured", [](const CalibrationBin& bin) { return static_cast<double>(bin.samples); }},
+    {"share of these beyond the filters' gate, not counted below",
+     [](const CalibrationBin& bin) {
+       return static_cast<double>(bin.refused) / static_cast<double>(bin.samples);
+     },
+     [](const CalibrationBin&) { return Limit{.at_most = 0.01}; }},
+    {"disparity bias [px]", [](const CalibrationBin& bin) { return bin.disparity_error_px.mean; },
+     [](const CalibrationBin& bin) { return unbiased(bin.disparity_error_px.half_width / k95); },
      [](const CalibrationBin& bin) { return bin.disparity_error_px.half_width; }},
-    {"range sd / Cramer-Rao bound",
-     {.at_most = 1.25},
-     [](const CalibrationBin& bin) { return bin.over_bound.x(); },
+    {"range sd / Cramer-Rao bound", [](const CalibrationBin& bin) { return bin.over_bound.x(); },
+     [](const CalibrationBin&) { return Limit{.at_most = 1.25}; },
      [](const CalibrationBin& bin) {
        return k95 * bin.over_bound.x() / std::sqrt(2.0 * static_cast<double>(used(bin)));
      }},
-    {"bearing sd [mrad]",
-     {.at_most = 0.02},
-     [](const CalibrationBin& bin) { return kPerMilli * bin.sd.y(); }},
-    {"bearing bias [mrad]",
-     {-0.005, 0.005},
-     [](const CalibrationBin& bin) { return kPerMilli * bin.bias.y(); },
-     [](const CalibrationBin& bin) {
-       return k95 * kPerMilli * bin.sd.y() / std::sqrt(static_cast<double>(used(bin)));
-     }},
-    {"error of fitted radii, rms [px]",
-     {.at_most = 0.1},
-     [](const CalibrationBin& bin) { return bin.radius_rms_px; }},
-    {"NIS / 2 as stated",
-     {0.9, 1.1},
-     [](const CalibrationBin& bin) { return bin.half_nis[kStated]; },
-     [](const CalibrationBin& bin) { return k95 / std::sqrt(static_cast<double>(used(bin))); }},
-    {"correlation of range and bearing",
-     {},
-     [](const CalibrationBin& bin) { return bin.correlation.x(); },
-     [](const CalibrationBin& bin) { return k95 / std::sqrt(static_cast<double>(used(bin))); }},
-    {"correlation as stated, mean", {}, [](const CalibrationBin& bin) { return bin.correlation.y(); }},
+    {"bearing sd [mrad]", [](const CalibrationBin& bin) { return kPerMilli * bin.sd.y(); },
+     [](const CalibrationBin& bin) { return growing_with_depth(kBearingSd_mrad, bin); }},
+    {"bearing bias [mrad]", [](const CalibrationBin& bin) { return kPerMilli * bin.bias.y(); },
+     [](const CalibrationBin& bin) { return unbiased(kPerMilli * standard_error(bin.sd.y(), bin)); },
+     [](const CalibrationBin& bin) { return k95 * kPerMilli * standard_error(bin.sd.y(), bin); }},
+    {"error of fitted radii, rms [px]", [](const CalibrationBin& bin) { return bin.radius_rms_px; },
+     [](const CalibrationBin& bin) { return growing_with_depth(kRadiusRms_px, bin); }},
+    {"NIS / 2 as stated", [](const CalibrationBin& bin) { return bin.half_nis[kStated]; },
+     [](const CalibrationBin&) {
+       return Limit{0.9, 1.1};
+     },
+     [](const CalibrationBin& bin) { return k95 * standard_error(1.0, bin); }},
+    {"correlation of range and bearing, beyond what is stated",
+     [](const CalibrationBin& bin) { return bin.correlation.x() - bin.correlation.y(); },
+     [](const CalibrationBin& bin) { return unbiased(standard_error(1.0, bin)); },
+     [](const CalibrationBin& bin) { return k95 * standard_error(1.0, bin); }},
 };
 
 worlds::Scenario eyes() {
@@ -97,7 +115,7 @@ std::vector<Section> depth_sections(std::span<const CalibrationBin> bins) {
     for (const CalibrationBin& bin : bins) {
       if (!bin.whole) continue;
       section.lines.push_back({fmt::format("{:.2f} .. {:.2f} m", bin.nearest_m, bin.farthest_m),
-                               quantity.measured(bin), quantity.half_width(bin), quantity.limit});
+                               quantity.measured(bin), quantity.half_width(bin), quantity.limit(bin)});
     }
     sections.push_back(section);
   }

@@ -14,7 +14,9 @@ struct Balance {
   double recall;
 };
 
-constexpr Balance kBalances[] = {{5, 0.99}, {10, 0.95}};
+// All of 2,659 balls were found with 5 %, all but one with 10 %: less three standard errors (the rule of
+// three).
+constexpr Balance kBalances[] = {{5, 0.9988}, {10, 0.998}};
 
 /// @param number of the field, from 0
 worlds::Scenario field(int number, int off_percent) {

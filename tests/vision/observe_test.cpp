@@ -44,6 +44,12 @@ double centre_error(const StereoRig& rig, const PaintedBall& ball, const BallObs
                   (observation.right_px - outline_centre(rig, ball, Eye::kRight)).norm());
 }
 
+double rms(const std::vector<double>& errors) {
+  double sum = 0.0;
+  for (const double error : errors) sum += error * error;
+  return std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
 // Mutation: outlines that are measured below the least radius are dropped.
 TEST(Observe, BallsOfTheLeastSizeAreFoundAndSmallerOnesAreNot) {
   const StereoRig rig = small_rig();
@@ -153,27 +159,33 @@ TEST(Observe, MeasuresBallsBesideAnEdgeThatMovesIn) {
   }
 }
 
+// 52 whole balls, with errors of 0.0033 px (rms, at most 0.0093), and 51 parts of balls that other balls
+// hide, 0.0046 px (0.0118). The limits on rms are these and three standard errors, 3 / sqrt(2 * 2 * 51) of
+// them: an error has two coordinates. Mutation: arcs that disagree keep their weight (whole balls are not
+// trusted).
 TEST(Observe, MeasuresBallsBehindOtherBalls) {
   const StereoRig rig = small_rig();
-  int partly = 0;
+  std::vector<double> whole_px, partly_px;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Scene scene;
     scene.balls = painter::scattered_balls(rig, 0.7, 2.5, 100 + seed, false);
-    const StereoPair pair = painter::paint(scene, rig);
-    const auto balls = observe(pair, rig, {});
+    const auto balls = observe(painter::paint(scene, rig), rig, {});
     for (std::size_t i = 0; i < scene.balls.size(); ++i) {
       const auto found = of_colour(balls, scene.balls[i].colour);
-      const double visible = painter::visible_share(scene, rig, i);
-      if (visible >= 0.95) {
-        ASSERT_TRUE(found && found->trusted()) << "seed " << seed << " ball " << i;
-        ASSERT_LT(centre_error(rig, scene.balls[i], *found), 0.12) << "seed " << seed << " ball " << i;
-      } else if (found && found->trusted()) {
-        ASSERT_LT(centre_error(rig, scene.balls[i], *found), 0.5) << "seed " << seed << " ball " << i;
-        ++partly;
+      const bool trusted = found && found->trusted();
+      const bool whole = painter::visible_share(scene, rig, i) >= 0.95;
+      if (whole) {
+        ASSERT_TRUE(trusted) << "seed " << seed << " ball " << i;
       }
+      if (trusted) (whole ? whole_px : partly_px).push_back(centre_error(rig, scene.balls[i], *found));
     }
   }
-  EXPECT_GT(partly, 10);
+  EXPECT_GE(whole_px.size(), 52u);
+  EXPECT_GE(partly_px.size(), 51u);
+  EXPECT_LT(rms(whole_px), 0.0040);
+  EXPECT_LT(rms(partly_px), 0.0056);
+  EXPECT_LT(std::ranges::max(whole_px), 0.0105);
+  EXPECT_LT(std::ranges::max(partly_px), 0.0135);
 }
 
 // Catches: balls at the border taken for whole ones.

@@ -215,6 +215,8 @@ TEST(BallCircle, BehindALensIsSeenAsWellAsClaimed) {
 
 struct RealLog {
   const char* folder;
+  double ate_aligned_m;  ///< mean of five seeds plus three of its standard errors, of the worse filter
+  double map_aligned_m;  ///< the same of the landmarks
 };
 void PrintTo(const RealLog& log, std::ostream* out) {
   *out << log.folder;
@@ -222,9 +224,11 @@ void PrintTo(const RealLog& log, std::ostream* out) {
 
 class RealRobot : public testing::TestWithParam<RealLog> {};
 
-// UTIAS MRCLAM set 7 with the settings that any log gets; robot 5 in both of the formats. Seeds are pinned,
-// but another CPU's last bits make other particles: 0.15 m is 1.5 times robot 5's map and more than two
-// standard deviations of a mean of five seeds above it (docs/results.md). Mutation: trusting the stamps.
+// UTIAS MRCLAM set 7 with the settings that any log gets; robot 5 in both of the formats. Measured, mean +-
+// standard error of five seeds, FastSLAM 2.0: robot 2 0.135 +- 0.004 m, its map 0.032 +- 0.004 m; robot 5
+// 0.161
+// +- 0.009 m, its map 0.127 +- 0.012 m. Mutations: trusting the stamps (the delay); odometry believed to be
+// three times as good (0.36 to 0.69 m).
 TEST_P(RealRobot, IsMapped) {
   const std::filesystem::path log =
       std::filesystem::path(STEREOBENCH_SOURCE_DIR) / "../shared/data" / GetParam().folder;
@@ -233,15 +237,17 @@ TEST_P(RealRobot, IsMapped) {
       result_of({"slam", log.string(), "--particles", "50", "--seeds", "0..4", "--jobs", "2"}, "run.json"));
   EXPECT_NEAR(json["log"]["odometry_delay_s"].get<double>(), 0.25, 0.051);
   for (const char* name : {"fastslam2", "ufastslam"}) {
-    EXPECT_LE(json["filters"][name]["ate_aligned_median_m"].get<double>(), 0.30) << name;
-    EXPECT_LE(json["filters"][name]["landmark_aligned_rms_m"]["mean"].get<double>(), 0.15) << name;
-    EXPECT_EQ(json["filters"][name]["failures"], 0) << name;
+    const auto& filter = json["filters"][name];
+    EXPECT_LE(filter["ate_aligned_rms_m"]["mean"].get<double>(), GetParam().ate_aligned_m) << name;
+    EXPECT_LE(filter["landmark_aligned_rms_m"]["mean"].get<double>(), GetParam().map_aligned_m) << name;
+    EXPECT_EQ(filter["failures"], 0) << name;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Mrclam, RealRobot,
-                         testing::Values(RealLog{"mrclam/ds7/robot2"}, RealLog{"mrclam/ds7/robot5"},
-                                         RealLog{"mrclam_original/ds7_robot5"}));
+                         testing::Values(RealLog{"mrclam/ds7/robot2", 0.146, 0.045},
+                                         RealLog{"mrclam/ds7/robot5", 0.187, 0.165},
+                                         RealLog{"mrclam_original/ds7_robot5", 0.187, 0.165}));
 
 TEST(DoctorCommand, SaysWhatItRunsOnAndThatATestFrameIsRight) {
   const Outcome outcome = run_stereobench({"doctor"});
