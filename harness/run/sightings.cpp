@@ -3,6 +3,16 @@
 #include <algorithm>
 
 namespace stereobench::harness {
+namespace {
+
+/// The identity that a colour stands for; see sightings_of.
+int identity_of(int colour, std::span<const worlds::Ball> balls) {
+  const auto ball = std::ranges::find(balls, colour, &worlds::Ball::colour);
+  const auto index = static_cast<int>(ball - balls.begin());
+  return ball == balls.end() ? index + colour : index;
+}
+
+}  // namespace
 
 Sightings sightings_of(std::span<const vision::BallObservation> observations,
                        std::span<const int> balls_observed, std::span<const worlds::Ball> balls,
@@ -14,10 +24,8 @@ Sightings sightings_of(std::span<const vision::BallObservation> observations,
     slam::RangeBearing measurement = observation.range_bearing;
     if (identity == worlds::Identity::kNone) measurement.colour_class = slam::kUnknown;
     if (identity == worlds::Identity::kKnown) {
-      const auto ball = std::find_if(balls.begin(), balls.end(),
-                                     [&](const worlds::Ball& b) { return b.colour == observation.colour; });
-      if (ball == balls.end()) continue;  // a colour that no landmark has
-      measurement.landmark_id = static_cast<int>(ball - balls.begin());
+      if (observation.colour == slam::kUnknown) continue;
+      measurement.landmark_id = identity_of(observation.colour, balls);
     }
     seen.measurements.push_back(measurement);
     seen.balls.push_back(balls_observed[i]);

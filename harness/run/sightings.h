@@ -10,15 +10,21 @@
 
 namespace stereobench::harness {
 
-/// What a robot senses at a step of its path, and whose each measurement is.
+/// The measurements of one step, and the true ball of each.
 struct Sightings {
   std::vector<slam::RangeBearing> measurements;
   std::vector<int> balls;  ///< index of the ball, which no filter is told, or kUnknown
 };
 
-/// The measurements a filter is given: trusted ones only, and where colours are unique the ball's identity,
-/// which the robot knows by its colour.
-/// @param balls_observed whose each observation is
+/// Turns observations into the measurements that filters are given: all that are trusted.
+///
+/// Where identities are known, a colour is an identity: the index of the ball that has it. A colour that no
+/// ball has is an identity as well, the number of balls plus the colour, since a robot does not know which
+/// colours the world holds: what a detector imagines reaches the filters. An observation without a colour has
+/// no identity then and is left out.
+/// @param observations of one pair
+/// @param balls_observed the true ball of each observation, by index, or kUnknown
+/// @param balls of the world; read for their colours alone
 Sightings sightings_of(std::span<const vision::BallObservation> observations,
                        std::span<const int> balls_observed, std::span<const worlds::Ball> balls,
                        worlds::Identity identity);
