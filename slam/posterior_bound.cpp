@@ -19,13 +19,13 @@ Eigen::Matrix3d lever(const Pose& from, const Pose& to) {
   return slope;
 }
 
-/// W with W' W = C' S^+ C, for a semidefinite S and a C that vanishes where S does.
-Eigen::MatrixXd whitened(const Eigen::MatrixXd& c, const Eigen::MatrixXd& s) {
+/// W with W' W = S^+ for a semidefinite S, on vectors that vanish where S does.
+Eigen::MatrixXd whitener(const Eigen::MatrixXd& s) {
   constexpr double kVanishing = 1e-12;  // of correlations, in which metres and radians are alike
   const Eigen::VectorXd scale =
       (s.diagonal().array() > 0.0).select(s.diagonal().array().rsqrt(), 0.0).matrix();
   const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * s * scale.asDiagonal());
-  Eigen::MatrixXd w = factor.transpositionsP() * (scale.asDiagonal() * c);
+  Eigen::MatrixXd w = factor.transpositionsP() * Eigen::MatrixXd(scale.asDiagonal());
   factor.matrixL().solveInPlace(w);
   for (Eigen::Index k = 0; k < w.rows(); ++k) {
     const double pivot = factor.vectorD()[k];
@@ -50,7 +50,9 @@ void PosteriorBound::move(const Control& control) {
   long repairs = 0;  // a first-order motion mends nothing
   const PoseBelief moved = Linearised().move(pose_, control, standard_deviations(control, noise_), repairs);
   const Eigen::Index rest = size_ - 3;
-  joint_.block(3, 0, rest, 3) *= lever(pose_.mean, moved.mean).transpose();
+  const Eigen::Matrix3d slope = lever(pose_.mean, moved.mean);
+  smoother_.move(slope);
+  joint_.block(3, 0, rest, 3) *= slope.transpose();
   joint_.block(0, 3, 3, rest) = joint_.block(3, 0, rest, 3).transpose();
   joint_.topLeftCorner<3, 3>() = moved.covariance;
   pose_ = moved;
@@ -68,6 +70,7 @@ void PosteriorBound::look(std::span<const TrueSighting> frame) {
     }
   }
   if (!known.empty()) inform(known);
+  smoother_.keep(joint_.topLeftCorner(3, size_));
 }
 
 std::optional<Eigen::Matrix2d> PosteriorBound::landmark(int index) const {
@@ -91,27 +94,31 @@ void PosteriorBound::add(const TrueSighting& sighting) {
   joint_.block<2, 2>(row, row) = joint_.block<2, 3>(row, 0) * slope.transpose() + own;
   row_[index] = row;
   size_ += 2;
+  smoother_.append(slope);
 }
 
 /// Sightings of landmarks that have been seen before, all at once.
 void PosteriorBound::inform(std::span<const TrueSighting> frame) {
   const auto rows = static_cast<Eigen::Index>(2 * frame.size());
   auto joint = joint_.topLeftCorner(size_, size_);
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(rows, size_);
-  Eigen::MatrixXd cross(rows, size_);
+  Eigen::SparseMatrix<double> slope(rows, size_);
   Eigen::MatrixXd surprise = Eigen::MatrixXd::Zero(rows, rows);
   for (Eigen::Index k = 0; k < rows; k += 2) {
     const TrueSighting& sighting = frame[static_cast<std::size_t>(k / 2)];
     const auto index = static_cast<std::size_t>(sighting.landmark);
     const LinearSighting linear = linearise_sighting(pose_.mean, landmarks_[index]);
-    slope.block<2, 3>(k, 0) = linear.by_pose();
-    slope.block<2, 2>(k, row_[index]) = linear.by_landmark;
-    cross.middleRows<2>(k) =
-        linear.by_pose() * joint.topRows<3>() + linear.by_landmark * joint.middleRows<2>(row_[index]);
+    for (Eigen::Index i = k; i < k + 2; ++i) {
+      for (Eigen::Index j = 0; j < 3; ++j) slope.insert(i, j) = linear.by_pose()(i - k, j);
+      for (Eigen::Index j = 0; j < 2; ++j) slope.insert(i, row_[index] + j) = linear.by_landmark(i - k, j);
+    }
     surprise.block<2, 2>(k, k) = sighting.noise;
   }
+  const Eigen::MatrixXd cross = slope * joint;
   surprise += cross * slope.transpose();
-  joint.selfadjointView<Eigen::Lower>().rankUpdate(whitened(cross, surprise).transpose(), -1.0);
+  const Eigen::MatrixXd white = whitener(surprise);
+  const Eigen::MatrixXd white_cross = white * cross;
+  joint.selfadjointView<Eigen::Lower>().rankUpdate(white_cross.transpose(), -1.0);
+  smoother_.correct(std::move(slope), white, white_cross);
   joint.triangularView<Eigen::StrictlyUpper>() = joint.transpose();
   pose_.covariance = joint.topLeftCorner<3, 3>();
 }

@@ -1,4 +1,4 @@
-/// How well a filter can do at best: the posterior Cramer-Rao bound, computed from the truth.
+/// How well filters and smoothers can do at best: posterior Cramer-Rao bounds, computed from the truth.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/belief.h"
+#include "slam/covariance_smoother.h"
 
 namespace stereobench::slam {
 
@@ -15,8 +16,10 @@ struct TrueSighting {
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< of (range, bearing): m^2, m rad, rad^2
 };
 
-/// The bound on the covariance of pose and landmarks at each instant, given the controls and sightings up to
-/// it: what an unbiased filter cannot beat (Tichavsky, Muravchik and Nehorai 1998).
+/// The bounds on the covariance of pose and landmarks at each instant (Tichavsky, Muravchik and Nehorai
+/// 1998): the filtering bound, given the controls and sightings up to that instant, which no unbiased filter
+/// can beat, and the smoothing bound, given those of the whole drive, for estimates that know what came
+/// later.
 ///
 /// With Gaussian noise the information recursion is that of an extended Kalman filter whose Jacobians are all
 /// taken at the truth. It is kept as a covariance, in the form P - P H' S^+ H P: a start without uncertainty
@@ -39,8 +42,13 @@ class PosteriorBound {
   /// @throws std::invalid_argument when there is no such landmark
   void look(std::span<const TrueSighting> frame);
 
-  /// @return the true pose, and the least covariance of (x, y, heading) an estimate of it can have
+  /// @return the true pose, and the least covariance of (x, y, heading) that a filter's estimate can have
   const PoseBelief& pose() const { return pose_; }
+
+  /// The smoothing bound: the blocks of the poses in the inverse of the information in the whole drive.
+  /// @return for each look() so far, the least covariance of (x, y, heading) that an estimate can have which
+  /// knows all that has happened until now
+  std::vector<Eigen::Matrix3d> smoothed_poses() const { return smoother_.covariances(); }
 
   /// @return the least covariance of a landmark's place, m^2; none before it has been seen
   std::optional<Eigen::Matrix2d> landmark(int index) const;
@@ -55,6 +63,7 @@ class PosteriorBound {
   std::vector<Eigen::Index> row_;  ///< by landmark: where its block begins, or 0 before it is seen
   Eigen::Index size_ = 3;          ///< of the part of the joint covariance that is in use
   Eigen::MatrixXd joint_;          ///< of the pose and the landmarks in order of discovery; symmetric
+  CovarianceSmoother smoother_;
 };
 
 }  // namespace stereobench::slam

@@ -13,23 +13,6 @@
 namespace stereobench::slam {
 namespace {
 
-std::vector<BatchStep> log_of(const Course& course) {
-  std::vector<BatchStep> log;
-  for (const DenseStep& step : course.steps) {
-    BatchStep out{step.controls, {}};
-    for (const DenseSighting& seen : step.sightings) {
-      RangeBearing sighting;
-      sighting.range_m = seen.range_bearing.x();
-      sighting.bearing_rad = seen.range_bearing.y();
-      sighting.covariance = seen.noise;
-      sighting.landmark_id = seen.landmark;
-      out.sightings.push_back(sighting);
-    }
-    log.push_back(out);
-  }
-  return log;
-}
-
 /// Nothing but the noise that there is: no floors, no gate.
 FilterConfig bare(const OdometryNoise& noise) {
   return {.odometry_noise = noise, .range_floor_m = 0.0, .bearing_floor_rad = 0.0, .gate_probability = 1.0};
@@ -83,7 +66,7 @@ TEST_P(BatchLaw, IsTheOptimumOverTheControlsErrors) {
       const DenseDrive dense(course.noise, course.start, measured.steps, 5);
       const Eigen::VectorXd best = dense.solve(dense.unknowns_at(kCoursePlaces));
       const Eigen::MatrixXd covariance = dense.covariance(best, measured.steps.size());
-      const BatchEstimate batch = estimate_batch(bare(course.noise), course.start, log_of(measured));
+      const BatchEstimate batch = estimate_batch(bare(course.noise), course.start, batch_log(measured));
       ASSERT_TRUE(batch.converged);
       const std::vector<Eigen::Vector3d> path = dense.path(best);
       for (std::size_t k = 0; k < path.size(); ++k) {
@@ -105,7 +88,8 @@ TEST_P(BatchLaw, IsTheOptimumOverTheControlsErrors) {
 // Mutations: the first step's motion left out; covariances of the filter kept.
 TEST_P(BatchLaw, WithoutNoiseIsTheTruth) {
   const Course course(GetParam(), 2);
-  const BatchEstimate batch = estimate_batch({.odometry_noise = course.noise}, course.start, log_of(course));
+  const BatchEstimate batch =
+      estimate_batch({.odometry_noise = course.noise}, course.start, batch_log(course));
   Pose truth = course.start;
   for (std::size_t k = 0; k < course.steps.size(); ++k) {
     for (const Control& control : course.steps[k].controls) truth = advance(truth, control);
@@ -122,7 +106,8 @@ TEST_P(BatchLaw, WithoutNoiseIsTheTruth) {
 TEST_P(BatchLaw, WithNothingToSeeIsDeadReckoning) {
   Course course = Course(GetParam(), 2).measured(GetParam());
   for (DenseStep& step : course.steps) step.sightings.clear();
-  const BatchEstimate batch = estimate_batch({.odometry_noise = course.noise}, course.start, log_of(course));
+  const BatchEstimate batch =
+      estimate_batch({.odometry_noise = course.noise}, course.start, batch_log(course));
   Pose reckoned = course.start;
   for (std::size_t k = 0; k < course.steps.size(); ++k) {
     for (const Control& control : course.steps[k].controls) reckoned = advance(reckoned, control);
@@ -137,8 +122,8 @@ TEST_P(BatchLaw, MovesWithItsStart) {
   const Course course = Course(GetParam()).measured(GetParam());
   const FilterConfig config = bare(course.noise);
   const Pose elsewhere{-3.0, 7.0, 2.5};
-  const BatchEstimate here = estimate_batch(config, {}, log_of(course));
-  const BatchEstimate there = estimate_batch(config, elsewhere, log_of(course));
+  const BatchEstimate here = estimate_batch(config, {}, batch_log(course));
+  const BatchEstimate there = estimate_batch(config, elsewhere, batch_log(course));
   for (std::size_t k = 0; k < here.path.size(); ++k)
     EXPECT_TRUE(near(there.path[k], compose(elsewhere, here.path[k]), 1e-4));
 }
@@ -148,7 +133,7 @@ TEST_P(BatchLaw, HeadingsAreWrapped) {
   Course course(GetParam());
   course.start.heading_rad = M_PI;
   for (DenseStep& step : course.steps) step.controls = {{0.0, 0.0, 0.5}};
-  const BatchEstimate batch = estimate_batch(bare(course.noise), course.start, log_of(course.measured(1)));
+  const BatchEstimate batch = estimate_batch(bare(course.noise), course.start, batch_log(course.measured(1)));
   for (const Pose& pose : batch.path) EXPECT_LE(std::abs(pose.heading_rad), M_PI);
 }
 
@@ -158,11 +143,11 @@ TEST_P(BatchLaw, AFloorIsNoiseOfTheSensor) {
   FilterConfig floored = bare(course.noise);
   floored.range_floor_m = 0.3;
   floored.bearing_floor_rad = 0.2;
-  const BatchEstimate batch = estimate_batch(floored, course.start, log_of(course));
+  const BatchEstimate batch = estimate_batch(floored, course.start, batch_log(course));
   for (DenseStep& step : course.steps)
     for (DenseSighting& sighting : step.sightings)
       sighting.noise.diagonal() += Eigen::Vector2d(0.3, 0.2).cwiseAbs2();
-  const BatchEstimate noisy = estimate_batch(bare(course.noise), course.start, log_of(course));
+  const BatchEstimate noisy = estimate_batch(bare(course.noise), course.start, batch_log(course));
   for (std::size_t k = 0; k < batch.path.size(); ++k) EXPECT_TRUE(near(batch.path[k], noisy.path[k], 1e-9));
 }
 
@@ -205,7 +190,7 @@ TEST(Batch, ErrsAsLittleAsAllOfTheLogAllows) {
   double squares = 0.0;
   for (std::uint64_t seed = 0; seed < kLogs; ++seed) {
     const BatchEstimate batch =
-        estimate_batch({.odometry_noise = course.noise}, course.start, log_of(course.measured(seed)));
+        estimate_batch({.odometry_noise = course.noise}, course.start, batch_log(course.measured(seed)));
     double share = 0.0;
     for (std::size_t k = 0; k < path.size(); ++k)
       share += (Eigen::Vector2d(batch.path[k].x_m, batch.path[k].y_m) - path[k].head<2>()).squaredNorm() /
@@ -289,7 +274,7 @@ TEST(Batch, ColoursDoWhereIdentitiesAreNotKnown) {
 TEST(Batch, SurvivesImpossibleLogs) {
   const Course course = Course(3).measured(3);
   const FilterConfig config{.odometry_noise = course.noise};
-  std::vector<BatchStep> log = log_of(course);
+  std::vector<BatchStep> log = batch_log(course);
   const BatchEstimate clean = estimate_batch(config, course.start, log);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   log[2].controls.push_back({kNaN, 0.0, 1.0});
@@ -307,7 +292,7 @@ TEST(Batch, SurvivesNoiseOfZero) {
   Course course(5);
   for (DenseStep& step : course.steps)
     for (DenseSighting& sighting : step.sightings) sighting.noise.setZero();
-  const BatchEstimate batch = estimate_batch(bare({}), course.start, log_of(course));
+  const BatchEstimate batch = estimate_batch(bare({}), course.start, batch_log(course));
   EXPECT_TRUE(batch.converged);
   for (const LandmarkEstimate& landmark : batch.landmarks)
     EXPECT_LE((landmark.position_m - kCoursePlaces[static_cast<std::size_t>(landmark.landmark_id)]).norm(),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "slam/batch.h"
 #include "tests/slam/dense_drive.h"
 
 namespace stereobench::slam {
@@ -58,5 +59,23 @@ struct Course {
     return noisy;
   }
 };
+
+// A course as the batch reads it, with identities.
+inline std::vector<BatchStep> batch_log(const Course& course) {
+  std::vector<BatchStep> log;
+  for (const DenseStep& step : course.steps) {
+    BatchStep out{step.controls, {}};
+    for (const DenseSighting& seen : step.sightings) {
+      RangeBearing sighting;
+      sighting.range_m = seen.range_bearing.x();
+      sighting.bearing_rad = seen.range_bearing.y();
+      sighting.covariance = seen.noise;
+      sighting.landmark_id = seen.landmark;
+      out.sightings.push_back(sighting);
+    }
+    log.push_back(out);
+  }
+  return log;
+}
 
 }  // namespace stereobench::slam
