@@ -32,8 +32,8 @@ struct BatchEstimate {
 /// found out first; a gate at probability 1 makes it the plain sum of squares. Invalid input is passed over,
 /// as the filters do. Equal arguments give equal bytes.
 ///
-/// @param config what is believed: odometry noise, noise law, floors, gate and colour spacing; particles are
-/// not read
+/// @param config what is believed: odometry noise, noise law, floors, gate and colour spacing; particles and
+/// refit are not read
 /// @param start world_from_robot before the first control, known exactly
 /// @throws std::invalid_argument for a setting out of range or a start that is not finite
 BatchEstimate estimate_batch(const FilterConfig& config, const Pose& start, std::span<const BatchStep> steps);

@@ -37,7 +37,7 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
   const long gated_before = counters_.gated_measurements;
   JointBelief predicted = belief_;
   correct_one_by_one(decided);
-  if (counters_.gated_measurements > gated_before) {
+  if (config_.refit && counters_.gated_measurements > gated_before) {
     predicted.covariance.move_pose(Eigen::Vector2d::Zero(), bend_covariance(motion));
     if (auto fitted = fit_at_once(predicted, decided)) {
       belief_ = *std::move(fitted);

@@ -37,9 +37,9 @@ enum class Association {
   kJoint,       ///< where sightings or landmarks compete, the largest set of pairs that one pose explains
 };
 
-/// What the sensor says of itself, where it says so: how far and wide it sees, and how well.
+/// What a filter believes of its sensor: how far and wide it sees, and how well.
 struct SensorSector {
-  double range_m = 0.0;         ///< 0 = nothing is declared
+  double range_m = 0.0;         ///< 0 = nothing is declared, and every landmark is real
   double half_angle_rad = 0.0;  ///< to each side of straight ahead
   double miss_probability = 0.0;
   double false_per_look = 0.0;  ///< sightings of nothing, on average
@@ -66,6 +66,10 @@ struct FilterConfig {
   double resample_below = 0.5;  ///< resample when the effective particles fall below this fraction of M
   double gate_probability =
       0.9999;  ///< a sighting is refused beyond this quantile of chi-square(2); 1 = never
+
+  /// Whether a frame with a refused sighting is fitted once more as a whole (fit_frame). Neither FastSLAM 2.0
+  /// nor UFastSLAM is published with such a refit: false gives those filters as they are.
+  bool refit = true;
 
   /// Two landmarks of one colour class are known to be at least this far apart; 0 = nothing is known. A
   /// sighting that lies within half of it of a landmark of its colour is that landmark, however sure the

@@ -66,6 +66,7 @@ PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates update
       near_m_(0.5 * config.colour_spacing_m),
       association_(config.association),
       existence_(config.sector),
+      refit_(config.refit),
       report_(config.report_updates) {}
 
 template <class Model>
@@ -86,7 +87,7 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
     targets[k].fate = use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
     if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
   }
-  if (counters.gated_measurements > gated_before) {
+  if (refit_ && counters.gated_measurements > gated_before) {
     matches_.clear();
     for (const std::size_t k : order_)
       matches_.push_back({landmark_of(particle, frame[k], targets[k]).belief, frame[k].observation});

@@ -39,7 +39,7 @@ enum class Updates {
 /// **Second look.** When a sighting falls beyond the gate, the frame is looked at as a whole (fit_frame).
 /// After coarse odometry a precise sensor may be refused for what first order leaves out, and that is
 /// granted. And when two or more landmarks agree on one pose, it is the odometry that is wrong: outliers do
-/// not agree with each other.
+/// not agree with each other. With FilterConfig::refit false there is none.
 ///
 /// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
 /// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
@@ -107,6 +107,7 @@ class PoseCorrection {
   double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
   Association association_;
   Existence existence_;
+  bool refit_;
   bool report_;
   std::vector<ExpectedSighting> expected_;
   std::vector<Candidate> candidates_;

@@ -67,6 +67,16 @@ struct FilterCounters {
   long rejected_inputs = 0;     ///< non-finite or impossible controls and measurements that were ignored
   long joint_searches_cut =
       0;  ///< joint associations that would have taken too long and were settled greedily
+
+  FilterCounters& operator+=(const FilterCounters& other) {
+    resamplings += other.resamplings;
+    covariance_repairs += other.covariance_repairs;
+    weight_collapses += other.weight_collapses;
+    gated_measurements += other.gated_measurements;
+    rejected_inputs += other.rejected_inputs;
+    joint_searches_cut += other.joint_searches_cut;
+    return *this;
+  }
 };
 
 /// What a filter believes after a step.

@@ -9,6 +9,9 @@
 
 namespace stereobench::worlds {
 
+/// The sector and the rates of an oracle, as filters would have to know them.
+slam::SensorSector sector_of(const OracleSensor& sensor);
+
 /// What was seen, and beside it what nobody is told: whose it is.
 struct OracleLook {
   std::vector<slam::RangeBearing> sightings;

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "vision/distortion.h"
+#include "worlds/oracle.h"
 #include "worlds/scenario_parts.h"
 
 namespace stereobench::worlds {
@@ -127,6 +128,14 @@ MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optio
   return read_noise_law(YamlValue(document, "", document.root, document.root.Mark()), rig);
 }
 
+namespace {
+
+constexpr Interval kFieldOfView_deg = {0.1, 360.0};
+constexpr Interval kMisses = {0.0, 0.99};
+constexpr Interval kFalse = {0.0, 100.0};
+
+}  // namespace
+
 OracleSensor read_oracle(const YamlValue& value) {
   const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg",
                             "miss_probability", "false_per_look"});
@@ -134,10 +143,21 @@ OracleSensor read_oracle(const YamlValue& value) {
   sensor.range_sd_m = map.number("range_sd_m", kNoise);
   sensor.bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree;
   sensor.max_range_m = map.number("max_range_m", kSize_m);
-  sensor.field_of_view_rad = map.number("field_of_view_deg", {0.1, 360.0}) * kDegree;
-  sensor.miss_probability = map.number("miss_probability", {0.0, 0.99}, 0.0);
-  sensor.false_per_look = map.number("false_per_look", {0.0, 100.0}, 0.0);
+  sensor.field_of_view_rad = map.number("field_of_view_deg", kFieldOfView_deg) * kDegree;
+  sensor.miss_probability = map.number("miss_probability", kMisses, 0.0);
+  sensor.false_per_look = map.number("false_per_look", kFalse, 0.0);
   return sensor;
+}
+
+slam::SensorSector read_believed_oracle(const YamlValue& value, const OracleSensor& oracle) {
+  const YamlMap map(value, {"max_range_m", "field_of_view_deg", "miss_probability", "false_per_look"});
+  slam::SensorSector believed = sector_of(oracle);
+  believed.range_m = map.number("max_range_m", {0.0, kSize_m.most}, believed.range_m);
+  if (const auto view = map.find("field_of_view_deg"))
+    believed.half_angle_rad = view->number(kFieldOfView_deg) * kDegree / 2.0;
+  believed.miss_probability = map.number("miss_probability", kMisses, believed.miss_probability);
+  believed.false_per_look = map.number("false_per_look", kFalse, believed.false_per_look);
+  return believed;
 }
 
 }  // namespace stereobench::worlds

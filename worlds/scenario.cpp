@@ -49,8 +49,18 @@ void read_run(const YamlMap& map, Scenario& scenario) {
   if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
   if (const auto particles = map.find("particles")) scenario.particles = particles->integer(1, 100000);
   if (const auto draw_every = map.find("draw_every")) scenario.draw_every = draw_every->integer(1, 100000);
+  if (const auto refit = map.find("refit")) scenario.refit = refit->flag();
   if (const auto seeds = map.find("seeds")) scenario.seeds = read_seeds(*seeds);
   if (const auto gates = map.find("gates")) scenario.gates = read_gates(*gates);
+}
+
+void read_oracles(const YamlMap& map, Scenario& scenario) {
+  const bool needed = scenario.sensor == SensorKind::kOracle;
+  const auto oracle = needed ? map.at("oracle") : map.find("oracle");
+  if (oracle) scenario.oracle = read_oracle(*oracle);
+  const auto believed = map.find("believed_oracle");
+  if (believed && !oracle) believed->refuse("expected `oracle:` beside it, the sensor as it is");
+  if (believed) scenario.believed_sector = read_believed_oracle(*believed, scenario.oracle);
 }
 
 void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scenario& scenario) {
@@ -79,8 +89,7 @@ void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scena
     scenario.believed_measurement_noise = told.law;
     scenario.stated_sd_scale = told.stated_sd_scale;
   }
-  if (const auto oracle = stereo ? map.find("oracle") : map.at("oracle"))
-    scenario.oracle = read_oracle(*oracle);
+  read_oracles(map, scenario);
 }
 
 void read_odometry(const YamlMap& map, Scenario& scenario) {
@@ -130,6 +139,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "filters",
                      "particles",
                      "draw_every",
+                     "refit",
                      "seeds",
                      "gates",
                      "sensor",
@@ -143,6 +153,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                      "detector",
                      "detector_timeout_s",
                      "oracle",
+                     "believed_oracle",
                      "odometry_noise",
                      "believed_odometry_noise",
                      "believed_measurement_noise",

@@ -83,6 +83,9 @@ MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optio
 /// `oracle:` the pixel-free sensor.
 OracleSensor read_oracle(const YamlValue& value);
 
+/// `believed_oracle:` what filters are told of its sector and rates; what is left out is as it really is.
+slam::SensorSector read_believed_oracle(const YamlValue& value, const OracleSensor& oracle);
+
 /// `gates:` limits on metrics of the run.
 std::vector<Gate> read_gates(const YamlValue& value);
 

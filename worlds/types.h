@@ -157,6 +157,8 @@ struct Scenario {
   Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
+  /// What filters are told of the oracle's sector and rates; none: what they are. A camera declares nothing.
+  std::optional<slam::SensorSector> believed_sector;
   CameraSensor camera;
   Shutter shutter;
   DetectorProgram detector;
@@ -167,6 +169,7 @@ struct Scenario {
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
   int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block, of the filters that have blocks
+  bool refit = slam::FilterConfig{}.refit;  ///< whether filters fit a frame with a refused sighting once more
   std::vector<std::uint64_t> seeds = {0};
   std::vector<Gate> gates;
 };

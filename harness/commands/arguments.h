@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace stereobench::harness {
 /// Options that every command which runs filters takes; empty means "as the scenario says".
 struct RunArguments {
   std::vector<std::string> filters;
-  int particles = 0;  ///< 0: as the scenario says
+  int particles = 0;          ///< 0: as the scenario says
+  std::optional<bool> refit;  ///< none: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
   std::filesystem::path out;  ///< empty: out/<name>
@@ -36,7 +38,7 @@ void check_identities(const std::vector<std::string>& filters, bool known, const
 /// Adds --seeds, --jobs and --out to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
 
-/// Adds --filters and --particles, and the options above.
+/// Adds --filters, --particles and --refit, and the options above.
 void add_run_options(CLI::App& command, RunArguments& arguments);
 
 /// Adds --set KEY=VALUE, a change of the scenario.

@@ -45,6 +45,7 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   check_identities(scenario.filters, scenario.identity == worlds::Identity::kKnown,
                    arguments.scenario.string());
   if (run.particles > 0) scenario.particles = run.particles;
+  if (run.refit) scenario.refit = *run.refit;
   if (!run.seeds.empty()) scenario.seeds = run.seeds;
   if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;
   if (arguments.detector.empty()) return scenario;

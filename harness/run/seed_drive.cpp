@@ -9,6 +9,7 @@
 #include "harness/run/stopwatch.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
+#include "worlds/oracle.h"
 
 namespace stereobench::harness {
 namespace {
@@ -36,16 +37,14 @@ slam::FilterConfig filter_config(const worlds::Scenario& scenario) {
   slam::FilterConfig config;
   config.particles = scenario.particles;
   config.draw_every = scenario.draw_every;
+  config.refit = scenario.refit;
   config.odometry_noise = scenario.believed_odometry_noise;
   config.noise_law = scenario.believed_measurement_noise;
   config.stated_sd_scale = scenario.stated_sd_scale;
   config.colour_spacing_m = scenario.colour_spacing_m;
   config.association = scenario.association;
-  if (scenario.sensor == worlds::SensorKind::kOracle) {
-    const worlds::OracleSensor& oracle = scenario.oracle;
-    config.sector = {oracle.max_range_m, oracle.field_of_view_rad / 2.0, oracle.miss_probability,
-                     oracle.false_per_look};
-  }
+  if (scenario.sensor == worlds::SensorKind::kOracle)
+    config.sector = scenario.believed_sector.value_or(worlds::sector_of(scenario.oracle));
   return config;
 }
 

@@ -173,6 +173,22 @@ TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
   for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
 }
 
+// The filters as they were published refuse both. Mutation: the setting is not read.
+TYPED_TEST(Corrections, WithoutTheRefitNothingOverrulesTheOdometry) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  this->config_.refit = false;
+  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  std::vector<Sighting> frame;
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(3.0, 1.0), Eigen::Vector2d(2.0, -2.0)}) {
+    const auto slot = static_cast<int>(frame.size());
+    this->know_well(place);
+    frame.push_back({{predict_sighting(truth, place), 1e-6 * Eigen::Matrix2d::Identity()}, slot, kUnknown});
+  }
+  EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+  EXPECT_EQ(this->counters_.gated_measurements, 2);
+}
+
 // One landmark is where it should be, and the pose would have to turn about it to please the other. That is
 // granted as far as chi-square(4) goes; beyond, one outlier is likelier than slip. Catches a limit of half
 // the degrees of freedom, and slip that is believed because it is possible.

@@ -288,6 +288,9 @@ constexpr BadOverride kBadOverrides[] = {
     {"camera=[1", "--set camera: expected a YAML value ("},
     {"path.radius_m=10000", "--set path.radius_m: expected at most"},
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
+    {"believed_oracle.max_range_m=8",
+     "--set believed_oracle: expected `oracle:` beside it, the sensor as it is"},
+    {"refit=maybe", "--set refit: expected true or false (got maybe)"},
     {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
     {"believed_measurement_noise.kind=laser",
      "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got "

@@ -112,6 +112,35 @@ TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
   EXPECT_EQ(scenario.believed_odometry_noise.w_constant_radps, scenario.odometry_noise.w_constant_radps);
 }
 
+// What filters are told of an oracle's sector and rates is a line of its own. Catches: the truth told in any
+// case, and what is left out taken for 0.
+TEST(Scenario, BelievesTheTrueOracleUnlessToldOtherwise) {
+  const std::vector<std::string> oracle = {
+      "sensor=oracle",
+      "oracle={range_sd_m: 0.1, bearing_sd_deg: 1, max_range_m: 8, field_of_view_deg: 90, "
+      "miss_probability: 0.1, false_per_look: 2}"};
+  EXPECT_FALSE(read_small(oracle).believed_sector);
+  std::vector<std::string> lines = oracle;
+  lines.emplace_back("believed_oracle.false_per_look=0.5");
+  const slam::SensorSector rarer = read_small(lines).believed_sector.value();
+  EXPECT_EQ(rarer.false_per_look, 0.5);
+  EXPECT_EQ(rarer.range_m, 8.0);
+  EXPECT_EQ(rarer.half_angle_rad, std::numbers::pi / 4.0);
+  EXPECT_EQ(rarer.miss_probability, 0.1);
+  lines.back() = "believed_oracle={max_range_m: 0, field_of_view_deg: 60, miss_probability: 0.3}";
+  const slam::SensorSector none = read_small(lines).believed_sector.value();
+  EXPECT_EQ(none.range_m, 0.0) << "nothing is declared";
+  EXPECT_NEAR(none.half_angle_rad, std::numbers::pi / 6.0, 1e-15);
+  EXPECT_EQ(none.miss_probability, 0.3);
+  EXPECT_EQ(none.false_per_look, 2.0);
+  EXPECT_EQ(read_small(lines).oracle.false_per_look, 2.0) << "the sensor stays as it is";
+}
+
+TEST(Scenario, SaysWhetherFiltersRefit) {
+  EXPECT_TRUE(read_small().refit);
+  EXPECT_FALSE(read_small({"refit=false"}).refit);
+}
+
 // 500 px and 0.1 m. Catches: pixels that are taken for metres, and a law that is told to nobody's rig.
 TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
   EXPECT_FALSE(read_small().believed_measurement_noise);

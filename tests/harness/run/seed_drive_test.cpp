@@ -133,6 +133,24 @@ TEST(DriveSeed, TellsTheFiltersWhatToBelieveOfTheSensor) {
   EXPECT_NE(stated.runs.back().poses.back().x_m, other.runs.back().poses.back().x_m);
 }
 
+// The oracle is what it is, and filters may be told otherwise. Mutations: the true sector, or the default
+// refit, whatever the scenario says; a sector for cameras.
+TEST(FilterConfigOfAScenario, IsWhatFiltersAreToBelieve) {
+  worlds::Scenario scenario = short_drive();
+  scenario.oracle.max_range_m = 12.0;
+  scenario.oracle.false_per_look = 2.0;
+  EXPECT_EQ(filter_config(scenario).sector.range_m, 12.0);
+  EXPECT_EQ(filter_config(scenario).sector.false_per_look, 2.0);
+  EXPECT_TRUE(filter_config(scenario).refit);
+  scenario.believed_sector = slam::SensorSector{6.0, 0.5, 0.2, 0.1};
+  scenario.refit = false;
+  EXPECT_EQ(filter_config(scenario).sector.range_m, 6.0);
+  EXPECT_EQ(filter_config(scenario).sector.false_per_look, 0.1);
+  EXPECT_FALSE(filter_config(scenario).refit);
+  scenario.sensor = worlds::SensorKind::kStereo;
+  EXPECT_EQ(filter_config(scenario).sector.range_m, 0.0);
+}
+
 // Mutations: filters seeded by the worker's process, or all alike.
 TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
   const worlds::Scenario scenario = short_drive();
