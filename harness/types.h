@@ -32,7 +32,10 @@ struct LandmarkTruth {
 /// Everything that the SLAM stage is given, and the truth it is scored against. Rendered runs and
 /// recorded logs of real robots come to the filters as this one type.
 struct MeasurementLog {
-  slam::Pose start;            ///< where the filters begin
+  slam::Pose start;  ///< where the filters begin
+  /// Whether the truth says that this is the start. False: the filters begin at the origin of a frame of
+  /// their own, and nothing of it can be compared with the truth as it stands.
+  bool start_is_true = true;
   std::vector<LogStep> steps;  ///< in order of time
   std::vector<LandmarkTruth> landmarks;
 };
@@ -68,10 +71,11 @@ struct FilterRun {
   std::string failure;                          ///< why, and at which step; empty when it did not fail
 };
 
-/// The least covariances that any filter's estimates over a log can have.
+/// The least covariances that estimates over a log can have (slam/posterior_bound.h).
 struct BoundRun {
-  std::vector<Eigen::Matrix3d> poses;      ///< of (x, y, heading), one a step
-  std::vector<Eigen::Matrix2d> landmarks;  ///< in the end, of those that were seen
+  std::vector<Eigen::Matrix3d> poses;           ///< of (x, y, heading), one a step, given the log up to it
+  std::vector<Eigen::Matrix3d> smoothed_poses;  ///< the same, given the whole log
+  std::vector<Eigen::Matrix2d> landmarks;       ///< in the end, of those that were seen
 };
 
 /// What filters are held against, beside the truth.

@@ -44,7 +44,7 @@ std::vector<Entry> offset_entries(const RigFit& fit) {
 }
 
 std::string value_with_sd(const Entry& entry) {
-  return entry.sd > 0.0 ? format_mean_sd(entry.value, entry.sd) : fmt::format("{:g}", entry.value);
+  return entry.sd > 0.0 ? format_with_sd(entry.value, entry.sd) : fmt::format("{:g}", entry.value);
 }
 
 Json json_of(const std::vector<Entry>& entries) {

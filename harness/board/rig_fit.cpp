@@ -212,7 +212,7 @@ void check_known(const RigFit& fit) {
   for (std::size_t eye = 0; eye < 2; ++eye)
     if (!(fit.eyes_sd[eye][0] < kWorstKnown * fit.eyes[eye][0]))
       throw std::runtime_error(
-          fmt::format("the views do not determine the focal length ({:.0f} +- {:.0f} px): tilt the board",
+          fmt::format("the views do not determine the focal length ({:.0f} px, sd {:.0f}): tilt the board",
                       fit.eyes[eye][0], fit.eyes_sd[eye][0]));
 }
 

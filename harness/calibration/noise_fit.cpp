@@ -83,41 +83,64 @@ double correlation(const Eigen::Matrix2d& covariance) {
   return covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1));
 }
 
+/// The spread of errors about their mean.
+struct Spread {
+  Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sd = Eigen::Vector2d::Zero();
+  Eigen::Vector2d over_bound = Eigen::Vector2d::Zero();
+  double correlation = 0.0;  ///< of errors in units of what is stated of them
+};
+
+Spread spread_of(std::span<const CalibrationSample* const> samples) {
+  Spread spread;
+  const auto count = static_cast<double>(samples.size());
+  for (const CalibrationSample* sample : samples) spread.bias += sample->error / count;
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  Eigen::Vector2d bounded_squares = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d pulls = Eigen::Matrix2d::Zero();
+  long bounded = 0;
+  for (const CalibrationSample* sample : samples) {
+    const Eigen::Vector2d off = sample->error - spread.bias;
+    squares += off.cwiseAbs2();
+    const Eigen::Vector2d pull = off.cwiseQuotient(sample->stated.diagonal().cwiseSqrt());
+    pulls += pull * pull.transpose();
+    if (!(sample->bound.determinant() > 0.0)) continue;
+    bounded_squares += off.cwiseAbs2().cwiseQuotient(sample->bound.diagonal());
+    ++bounded;
+  }
+  spread.sd = (squares / (count - 1.0)).cwiseSqrt();
+  spread.over_bound = (bounded_squares / static_cast<double>(bounded)).cwiseSqrt();  // 0 / 0 without a bound
+  spread.correlation = correlation(pulls);
+  return spread;
+}
+
 CalibrationBin summarise(std::span<const CalibrationSample* const> samples, const FittedNoise& noise) {
   const double gate = slam::chi_square_2_quantile(slam::FilterConfig{}.gate_probability);
   CalibrationBin bin;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d pulls = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d over_bound = Eigen::Vector2d::Zero();
   double stated_correlation = 0.0;
-  long bounded = 0;
   std::vector<double> disparity_errors_px, radius_squares_px2;
+  std::vector<const CalibrationSample*> believed;
   for (const CalibrationSample* sample : samples) {
     ++bin.samples;
     if (!(squared_length(*sample, covariance_of(*sample, noise, NoiseKind::kScaled)) <= gate)) {
       ++bin.refused;
       continue;
     }
-    bin.bias += sample->error;
-    squares += sample->error * sample->error.transpose();
-    const Eigen::Vector2d pull = sample->error.cwiseQuotient(sample->stated.diagonal().cwiseSqrt());
-    pulls += pull * pull.transpose();
+    believed.push_back(sample);
     stated_correlation += correlation(sample->stated);
     disparity_errors_px.push_back(sample->disparity_error_px);
     radius_squares_px2.push_back(sample->radius_error_px.squaredNorm() / 2.0);
     for (const NoiseKind kind : {NoiseKind::kStated, NoiseKind::kScaled, NoiseKind::kStereo})
       bin.half_nis[static_cast<int>(kind)] +=
           squared_length(*sample, covariance_of(*sample, noise, kind)) / 2.0;
-    if (!(sample->bound.determinant() > 0.0)) continue;
-    over_bound += sample->error.cwiseAbs2().cwiseQuotient(sample->bound.diagonal());
-    ++bounded;
   }
-  const auto used = static_cast<double>(bin.samples - bin.refused);
-  bin.bias /= used;
-  bin.sd = (squares.diagonal() / used).cwiseSqrt();
+  const auto used = static_cast<double>(believed.size());
+  const Spread spread = spread_of(believed);
+  bin.bias = used > 0.0 ? spread.bias : Eigen::Vector2d::Constant(std::nan(""));
+  bin.sd = spread.sd;
+  bin.over_bound = spread.over_bound;
   bin.half_nis /= used;
-  bin.correlation = {correlation(pulls), stated_correlation / used};
-  bin.over_bound = (over_bound / static_cast<double>(bounded)).cwiseSqrt();
+  bin.correlation = {spread.correlation, stated_correlation / used};
   bin.disparity_error_px = harness::summarise(disparity_errors_px);
   bin.radius_rms_px = std::sqrt(harness::summarise(radius_squares_px2).mean);
   return bin;

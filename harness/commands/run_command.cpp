@@ -8,8 +8,8 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/regression/gates.h"
+#include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
-#include "harness/run/run_result.h"
 #include "harness/run/seed_drive.h"
 
 namespace stereobench::harness {

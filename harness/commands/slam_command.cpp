@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,8 +13,8 @@
 #include "harness/run/detections_file.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
+#include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
-#include "harness/run/run_result.h"
 #include "harness/run/seed_drive.h"
 #include "harness/run/serialise.h"
 #include "harness/run/stopwatch.h"
@@ -30,6 +31,7 @@ struct SlamArguments {
   std::filesystem::path detections;  ///< empty: the log's own sightings
   std::optional<worlds::Identity> identity;
   slam::FilterConfig config;
+  StatedNoise stated;
 };
 
 /// What is assumed of a log's odometry unless the command line says otherwise: the errors of a small robot's
@@ -40,6 +42,10 @@ constexpr slam::OdometryNoise kUsualOdometry = {.v_constant_mps = 0.003,
                                                 .w_constant_radps = 0.012,
                                                 .w_per_w = 0.1,
                                                 .correlation_s = 1.0};
+
+constexpr std::array kOdometryOptions = {"--v-constant-mps",   "--v-per-v", "--v-per-w",
+                                         "--w-constant-radps", "--w-per-v", "--w-per-w",
+                                         "--correlation-s"};
 
 /// The name of the results: the log's folder, e.g. "robot2".
 std::string name_of(const std::filesystem::path& log) {
@@ -79,11 +85,22 @@ bool knows_identities(const MeasurementLog& log) {
   });
 }
 
+void print_summary(const RunResult& result, std::size_t seeds, const RecordedLog& recorded) {
+  const LogFacts& facts = recorded.facts;
+  fmt::print("{}: {} seed{}, {} steps", result.name, seeds, seeds == 1 ? "" : "s", recorded.log.steps.size());
+  if (facts.robot_sightings > 0) fmt::print(", {} sightings of other robots left out", facts.robot_sightings);
+  if (facts.odometry_delay_s != 0.0)
+    fmt::print(", the motion follows the odometry by {:.2f} s", facts.odometry_delay_s);
+  fmt::print("\n");
+  for (const std::string& line : result.assumed) fmt::print("assumed: {}\n", line);
+}
+
 int run_slam(SlamArguments arguments) {
   RunArguments& run = arguments.run;
   if (run.filters.empty()) run.filters = slam::usual_filter_names();
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
+  if (run.refit) arguments.config.refit = *run.refit;
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
@@ -96,15 +113,11 @@ int run_slam(SlamArguments arguments) {
   RunResult result = assemble(name, "none", drives, Seeds::kFilters);
   if (vision) result.detector = "file";
   result.vision = std::move(vision);
-  result.odometry_delay_s = recorded.odometry_delay_s;
+  result.recorded = recorded.facts;
+  result.assumed = assumptions_of(recorded.facts, arguments.stated);
   write_run(out, result, drives, {});
-  fmt::print("{}: {} seed{}, {} steps", name, drives.size(), drives.size() == 1 ? "" : "s",
-             recorded.log.steps.size());
-  if (recorded.robot_sightings > 0)
-    fmt::print(", {} sightings of other robots left out", recorded.robot_sightings);
-  if (recorded.odometry_delay_s != 0.0)
-    fmt::print(", the motion follows the odometry by {:.2f} s", recorded.odometry_delay_s);
-  fmt::print("\n\n{}\nresults: {}\n", result_table(result), (out / "").string());
+  print_summary(result, drives.size(), recorded);
+  fmt::print("\n{}\nresults: {}\n", result_table(result), (out / "").string());
   return kPassed;
 }
 
@@ -183,7 +196,12 @@ void add_slam_command(CLI::App& program, Action& action) {
   add_detection_options(*command, *arguments);
   add_noise_options(*command, *arguments);
   command->footer("Example: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4");
-  command->callback([arguments, &action] { action = [arguments] { return run_slam(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    const auto said = [&](const char* option) { return command->count(option) > 0; };
+    arguments->stated.sensor = said("--noise-law") || (said("--range-sd-m") && said("--bearing-sd-rad"));
+    arguments->stated.odometry = std::ranges::any_of(kOdometryOptions, said);
+    action = [arguments] { return run_slam(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

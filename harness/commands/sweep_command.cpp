@@ -3,6 +3,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/report/text_table.h"
 #include "harness/run/seed_drive.h"
 #include "harness/sweep/grid.h"
 #include "harness/sweep/sweep_result.h"
@@ -52,8 +53,8 @@ int run_sweep(const SweepArguments& arguments) {
     rest = rest.subspan(seeds);
   }
   write_sweep(out, sweep, drives);
-  fmt::print("{}: {} cells, +- is the 95 % interval of the mean over seeds\n\n{}\nresults: {}\n", sweep.name,
-             cells.size(), sweep_table(sweep), (out / "").string());
+  fmt::print("{}: {} cells\n\n{}\n{}\nresults: {}\n", sweep.name, cells.size(), kIntervalNote,
+             sweep_table(sweep), (out / "").string());
   return kPassed;
 }
 

@@ -96,6 +96,7 @@ RecordedStreams read_csv_streams(const fs::path& folder, const SensorNoise& nois
   const NumberTable observations =
       read_csv_table(require_file(folder / "observations.csv"), kSightingHeaders);
   streams.sightings = sightings_from(observations, noise);
+  streams.noise_is_assumed = observations.columns.size() <= 5 && !streams.sightings.empty();
   if (const auto file = find_plain_or_gz(folder / "groundtruth.csv")) {
     streams.truth = truth_from(read_csv_table(*file, kTruthHeaders));
   }

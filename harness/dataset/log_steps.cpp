@@ -103,6 +103,7 @@ MeasurementLog steps_from_streams(const RecordedStreams& streams) {
   }
   deal_out(streams.sightings, log.steps);
   log.start = log.steps.front().truth.value_or(slam::Pose{});
+  log.start_is_true = log.steps.front().truth.has_value();
   return log;
 }
 

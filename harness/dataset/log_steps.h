@@ -16,7 +16,9 @@ namespace stereobench::harness {
 /// - **Truth** at an instant lies on the line between its neighbours, the heading on the shorter arc; there
 /// is none
 ///   outside its span, nor within a gap of more than 1 s.
-/// - The filters **start** at the first step's truth, or at the origin where there is none.
+/// - The filters **start** at the first step's truth. Where it has none they start at the origin of a frame
+/// of
+///   their own (MeasurementLog::start_is_true is false).
 /// @param streams each in order of time, with at least one odometry reading
 MeasurementLog steps_from_streams(const RecordedStreams& streams);
 

@@ -1,5 +1,6 @@
 #include "harness/dataset/measurement_log_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "harness/dataset/number_table.h"
 #include "harness/dataset/odometry_delay.h"
 #include "harness/dataset/recorded_streams.h"
+#include "harness/dataset/repeated_sightings.h"
 
 namespace stereobench::harness {
 
@@ -66,6 +68,16 @@ RecordedStreams read_folder(const fs::path& folder, const SensorNoise& noise) {
                                        (folder / fmt::format("Robot{}_Odometry.dat", robots[0])).string()));
 }
 
+void note_truth(const MeasurementLog& log, LogFacts& facts) {
+  const auto has_truth = [](const LogStep& step) { return step.truth.has_value(); };
+  const auto first = std::ranges::find_if(log.steps, has_truth);
+  facts.steps = static_cast<long>(log.steps.size());
+  facts.steps_without_truth = facts.steps - std::ranges::count_if(log.steps, has_truth);
+  facts.has_truth = first != log.steps.end();
+  if (facts.has_truth)
+    facts.truth_starts_s = 1e-9 * static_cast<double>(first->stamp_ns - log.steps.front().stamp_ns);
+}
+
 }  // namespace
 
 RecordedLog read_log(const fs::path& folder_or_file, const LogAssumptions& assumptions) {
@@ -82,10 +94,21 @@ RecordedLog read_log(const fs::path& folder_or_file, const LogAssumptions& assum
   }
   RecordedStreams streams = fs::is_directory(folder_or_file) ? read_folder(folder_or_file, noise)
                                                              : read_file_named(folder_or_file, noise);
-  const double delay_s =
-      assumptions.odometry_delay_s ? *assumptions.odometry_delay_s : estimate_odometry_delay(streams);
-  delay_odometry(streams.odometry, delay_s);
-  return {steps_from_streams(streams), delay_s, streams.robot_sightings, streams.unknown_barcodes};
+  LogFacts facts;
+  facts.robot_sightings = streams.robot_sightings;
+  facts.unknown_barcodes = streams.unknown_barcodes;
+  facts.noise_is_assumed = streams.noise_is_assumed;
+  facts.repeated_sightings = drop_repeated(streams.sightings);
+  facts.concurrent_sightings = count_concurrent(streams.sightings);
+  const OdometryDelay delay = assumptions.odometry_delay_s
+                                  ? OdometryDelay{*assumptions.odometry_delay_s, DelaySource::kStated}
+                                  : estimate_odometry_delay(streams);
+  facts.odometry_delay_s = delay.delay_s;
+  facts.delay_source = delay.source;
+  delay_odometry(streams.odometry, delay.delay_s);
+  MeasurementLog log = steps_from_streams(streams);
+  note_truth(log, facts);
+  return {std::move(log), facts};
 }
 
 }  // namespace stereobench::harness

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "harness/dataset/log_facts.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {
@@ -21,12 +22,10 @@ struct LogAssumptions {
   std::optional<double> odometry_delay_s;
 };
 
-/// A log together with what was corrected and what was left out of it on purpose.
+/// A log together with what was found of it.
 struct RecordedLog {
   MeasurementLog log;
-  double odometry_delay_s = 0.0;  ///< that the odometry was moved by
-  long robot_sightings = 0;       ///< MRCLAM: sightings of the other robots, which are no landmarks
-  long unknown_barcodes = 0;      ///< MRCLAM: sightings of a barcode that `Barcodes.dat` does not name
+  LogFacts facts;
 };
 
 /// Reads a recorded log: `odometry.csv`, `observations.csv` and, where they exist, `landmarks.csv` (also
@@ -34,6 +33,7 @@ struct RecordedLog {
 /// `Landmark_Groundtruth.dat` and `Robot<k>_{Odometry,Measurement,Groundtruth}.dat`. Every file may be
 /// plain or gzip-compressed with `.gz` added to its name. How streams become steps: see log_steps.h.
 ///
+/// A sighting that stands in it twice, with the same instant, landmark, range and bearing, is read once.
 /// The stamps of `.dat` files count from the whole second of the first odometry reading.
 /// @param folder_or_file the folder, or one of its files (which picks the robot among MRCLAM's)
 /// @param assumptions standard deviations > 0, a delay within a minute

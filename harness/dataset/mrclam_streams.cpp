@@ -88,6 +88,7 @@ RecordedStreams read_mrclam_streams(const fs::path& folder, int robot, const Sen
   const NumberTable measurements = read_blank_separated_table(
       require_file(file("Measurement")), {"Time [s]", "Subject #", "range [m]", "bearing [rad]"});
   read_sightings(measurements, read_barcodes(folder), noise, streams);
+  streams.noise_is_assumed = !streams.sightings.empty();
   if (const auto truth = find_plain_or_gz(file("Groundtruth"))) {
     streams.truth =
         truth_from(read_blank_separated_table(*truth, {"Time [s]", "x [m]", "y [m]", "orientation [rad]"}));

@@ -124,16 +124,20 @@ bool is_better(const std::vector<double>& without, const std::vector<double>& wi
 
 }  // namespace
 
-double estimate_odometry_delay(const RecordedStreams& streams) {
+OdometryDelay estimate_odometry_delay(const RecordedStreams& streams) {
   constexpr std::size_t kFewest = 30;  // pairs; below, a standard error means little
+  const bool named = std::ranges::any_of(
+      streams.sightings, [](const Sighting& sighting) { return sighting.measurement.landmark_id >= 0; });
+  if (!named && !streams.sightings.empty()) return {0.0, DelaySource::kNoIdentities};
   const std::vector<Pair> pairs = pairs_of(streams.sightings);
-  if (pairs.size() < kFewest) return 0.0;
+  if (pairs.size() < kFewest) return {0.0, DelaySource::kFewPairs};
   const OdometryPath path(streams.odometry);
   const std::int64_t near_ns = best_delay_ns(pairs, path, kEarliest_ns, kLatest_ns, kCoarseGrid_ns);
   const std::int64_t delay_ns =
       best_delay_ns(pairs, path, near_ns - kCoarseGrid_ns, near_ns + kCoarseGrid_ns, kGrid_ns);
   const bool worth_it = is_better(bearing_errors(pairs, path, 0), bearing_errors(pairs, path, delay_ns));
-  return worth_it ? 1e-9 * static_cast<double>(delay_ns) : 0.0;
+  if (!worth_it) return {0.0, DelaySource::kNoneBetter};
+  return {1e-9 * static_cast<double>(delay_ns), DelaySource::kFound};
 }
 
 void delay_odometry(std::vector<OdometryReading>& odometry, double delay_s) {

@@ -7,6 +7,12 @@
 
 namespace stereobench::harness {
 
+/// A delay, and how it was come by.
+struct OdometryDelay {
+  double delay_s = 0.0;
+  DelaySource source = DelaySource::kFound;
+};
+
 /// Estimates by how much the robot's motion follows what its odometry says.
 ///
 /// Odometry that reports commands, or stamps that were taken before a queue, is early: a robot that turns by
@@ -16,10 +22,10 @@ namespace stereobench::harness {
 /// errors (outliers do not count for more). Neither the truth nor a map is looked at.
 ///
 /// @param streams in order of time; sightings without an identity are left out
-/// @return the delay in seconds, between -0.5 and 1, on a grid of 10 ms: positive when the motion follows
-///   later; 0 when no delay explains the sightings better than none by four standard errors, as in a log
-///   whose steps are long or in which the robot never turns
-double estimate_odometry_delay(const RecordedStreams& streams);
+/// @return the delay between -0.5 and 1 s, on a grid of 10 ms: positive when the motion follows later; 0 when
+///   no delay explains the sightings better than none by four standard errors, as in a log whose steps are
+///   long or in which the robot never turns
+OdometryDelay estimate_odometry_delay(const RecordedStreams& streams);
 
 /// Moves every odometry reading by a delay, so that it lies beside the motion it speaks of.
 void delay_odometry(std::vector<OdometryReading>& odometry, double delay_s);

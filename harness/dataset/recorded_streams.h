@@ -35,6 +35,7 @@ struct RecordedStreams {
   std::optional<std::vector<std::int64_t>> instants_ns;  ///< the steps' stamps, where the log states them
   long robot_sightings = 0;
   long unknown_barcodes = 0;
+  bool noise_is_assumed = false;  ///< the file of sightings has no covariances
 };
 
 /// Sightings this close to the first of a step, and to a stated instant, belong to it: the logs' resolution.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,6 +53,18 @@ std::string without_trailing_blanks(const std::string& line) {
   return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
+/// A value and its uncertainty to the decimals of the latter's two significant digits.
+/// @return an empty second text when the uncertainty is not known, or nothing is uncertain
+std::pair<std::string, std::string> format_alike(double value, double uncertainty) {
+  constexpr double kMostDecimals = 6.0;
+  if (!std::isfinite(value) || !std::isfinite(uncertainty) || !(uncertainty > 0.0))
+    return {format_number(value), ""};
+  const double wanted = 1.0 - std::floor(std::log10(uncertainty));
+  if (wanted > kMostDecimals) return {format_number(value), format_number(uncertainty, 2)};
+  const int decimals = static_cast<int>(std::max(wanted, 0.0));
+  return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", uncertainty, decimals)};
+}
+
 AlignedTable with_pipes_escaped(AlignedTable table) {
   const auto escape = [](std::string& cell) {
     for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2)
@@ -97,11 +110,14 @@ std::string format_number(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - static_cast<int>(magnitude)));
 }
 
-std::string format_mean_sd(double mean, double sd) {
-  if (!std::isfinite(mean)) return "-";
-  if (!std::isfinite(sd) || !(sd > 0.0)) return format_number(mean);
-  const int decimals = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(sd)), 0.0, 6.0));
-  return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, sd, decimals);
+std::string format_interval(double mean, double half_width) {
+  const auto [value, uncertainty] = format_alike(mean, half_width);
+  return uncertainty.empty() ? value : value + " +- " + uncertainty;
+}
+
+std::string format_with_sd(double value, double sd) {
+  const auto [text, uncertainty] = format_alike(value, sd);
+  return uncertainty.empty() ? text : text + " (sd " + uncertainty + ")";
 }
 
 }  // namespace stereobench::harness

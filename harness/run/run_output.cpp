@@ -10,30 +10,55 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/report/error_picture.h"
 #include "harness/report/map_picture.h"
-#include "slam/belief.h"
+#include "slam/motion.h"
 
 namespace stereobench::harness {
 namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
 
+/// What a title says where estimates were moved into the truth's frame.
+std::string alignment_note(const RunResult& result) {
+  return result.start_is_true ? "" : ", aligned";
+}
+
+/// A filter's path and map in the truth's frame.
+MapEstimate estimate_of(const FilterRun& run, const slam::Pose& truth_from_estimate) {
+  MapEstimate estimate{run.filter, {}, run.last.landmarks};
+  for (const slam::Pose& pose : run.poses) estimate.path.push_back(slam::compose(truth_from_estimate, pose));
+  for (slam::LandmarkEstimate& landmark : estimate.landmarks)
+    landmark = moved_landmark(truth_from_estimate, landmark);
+  return estimate;
+}
+
+/// The first seed's map. Where nothing tells how estimates lie to the truth, it shows the estimates alone.
 std::string map_of(const RunResult& result, const SeedDrive& drive, const std::vector<worlds::Wall>& walls) {
-  MapPicture picture{.title = fmt::format("{}, seed {}", result.name, drive.seed), .walls = walls};
+  MapPicture picture{.title = fmt::format("{}, seed {}{}", result.name, drive.seed, alignment_note(result)),
+                     .walls = walls};
+  bool comparable = true;
+  for (std::size_t i = 0; i < drive.runs.size(); ++i) {
+    const FilterScore& score = result.filters[i].scores.front();
+    comparable = comparable && (score.failed || score.truth_from_estimate);
+    picture.estimates.push_back(estimate_of(drive.runs[i], score.truth_from_estimate.value_or(slam::Pose{})));
+  }
+  const FilterRun& batch = drive.references.batch;
+  const FilterScore& batch_score = result.batch.scores.front();
+  if (!batch.failed) {
+    picture.estimates.push_back(estimate_of(batch, batch_score.truth_from_estimate.value_or(slam::Pose{})));
+    picture.estimates.back().landmarks.clear();
+  }
+  if (!comparable) return draw_map_picture(picture);
   picture.landmarks = drive.recording.log.landmarks;
   for (const LogStep& step : drive.recording.log.steps)
     if (step.truth) picture.true_path.push_back(*step.truth);
-  for (const FilterRun& run : drive.runs)
-    picture.estimates.push_back({run.filter, run.poses, run.last.landmarks});
-  const FilterRun& batch = drive.references.batch;
-  if (!batch.failed) picture.estimates.push_back({batch.filter, batch.poses, {}});
   return draw_map_picture(picture);
 }
 
-std::vector<double> position_errors(const FilterRun& run, const MeasurementLog& log) {
+std::vector<double> position_errors(const FilterRun& run, const FilterScore& score,
+                                    const MeasurementLog& log) {
   std::vector<double> errors(log.steps.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < run.poses.size(); ++k)
-    if (log.steps[k].truth)
-      errors[k] = slam::displacement(run.poses[k], *log.steps[k].truth).head<2>().norm();
+    errors[k] = position_error_m(score, run.poses[k], log.steps[k]);
   return errors;
 }
 
@@ -77,14 +102,16 @@ AneesPanel anees_of(const RunResult& result, std::size_t steps) {
 }
 
 std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives) {
-  ErrorPicture picture{.title = fmt::format("{}: position error, {} seed{}", result.name, drives.size(),
-                                            drives.size() == 1 ? "" : "s")};
+  ErrorPicture picture{.title =
+                           fmt::format("{}: position error{}, {} seed{}", result.name, alignment_note(result),
+                                       drives.size(), drives.size() == 1 ? "" : "s")};
   for (const LogStep& step : drives.front().recording.log.steps)
     picture.time_s.push_back(static_cast<double>(step.stamp_ns) * kSecondsPerNanosecond);
   for (std::size_t i = 0; i < result.filters.size(); ++i) {
     ErrorCurves curves{.filter = result.filters[i].filter};
-    for (const SeedDrive& drive : drives)
-      curves.error_m_by_run.push_back(position_errors(drive.runs[i], drive.recording.log));
+    for (std::size_t d = 0; d < drives.size(); ++d)
+      curves.error_m_by_run.push_back(
+          position_errors(drives[d].runs[i], result.filters[i].scores[d], drives[d].recording.log));
     picture.filters.push_back(std::move(curves));
   }
   picture.bound_m = bound_of(drives);

@@ -5,11 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/text_table.h"
 #include "harness/run/consistency_report.h"
 #include "harness/run/json_numbers.h"
 #include "harness/scoring/association_score.h"
-#include "slam/belief.h"
 
 namespace stereobench::harness {
 namespace {
@@ -17,8 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
-constexpr const char* kBaseline = "dead_reckoning";
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 /// How many times better than dead reckoning a filter's mean ATE is; null without dead reckoning.
 Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) {
@@ -27,22 +23,17 @@ Json over_dead_reckoning(const RunResult& result, const FilterSummary& summary) 
   return nullptr;
 }
 
-/// One part of the bound over the seeds.
-Summary over_seeds(const std::vector<BoundScore>& bounds, double BoundScore::*part) {
-  std::vector<double> values;
-  for (const BoundScore& bound : bounds) values.push_back(bound.*part);
-  return summarise(values);
+Json bound_json(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound) {
+  return {{"pose_rms_m", summary_json(over_seeds(bounds, bound, &BoundScore::pose_rms_m))},
+          {"heading_rms_rad", summary_json(over_seeds(bounds, bound, &BoundScore::heading_rms_rad))},
+          {"landmark_rms_m", summary_json(over_seeds(bounds, bound, &BoundScore::landmark_rms_m))}};
 }
 
-Json bound_json(const std::vector<BoundScore>& bounds) {
-  return {{"pose_rms_m", summary_json(over_seeds(bounds, &BoundScore::pose_rms_m))},
-          {"heading_rms_rad", summary_json(over_seeds(bounds, &BoundScore::heading_rms_rad))},
-          {"landmark_rms_m", summary_json(over_seeds(bounds, &BoundScore::landmark_rms_m))}};
-}
-
-Json batch_json(const FilterSummary& summary) {
+Json batch_json(const RunResult& result) {
+  const FilterSummary& summary = result.batch.summary;
   return {{"ate_rms_m", summary_json(summary.ate_rms_m)},
           {"ate_aligned_rms_m", summary_json(summary.ate_aligned_rms_m)},
+          {"efficiency", number(efficiency(result.batch.scores, result.bounds, &BoundScores::smoothing))},
           {"landmark_rms_m", summary_json(summary.landmark_rms_m)},
           {"landmark_aligned_rms_m", summary_json(summary.landmark_aligned_rms_m)},
           {"failures", summary.failures}};
@@ -55,6 +46,22 @@ Json association_json(const std::optional<AssociationScore>& association) {
           {"duplicated", association->duplicated}, {"spurious", association->spurious}};
 }
 
+Json log_json(const LogFacts& facts, const std::vector<std::string>& assumed, bool start_is_true) {
+  return {
+      {"odometry_delay_s", facts.odometry_delay_s},         {"frame", start_is_true ? "truth" : "own"},
+      {"steps_without_truth", facts.steps_without_truth},   {"repeated_sightings", facts.repeated_sightings},
+      {"concurrent_sightings", facts.concurrent_sightings}, {"robot_sightings", facts.robot_sightings},
+      {"unknown_barcodes", facts.unknown_barcodes},         {"assumed", assumed}};
+}
+
+Json counters_json(const slam::FilterCounters& counters) {
+  return {{"refused_by_particle", counters.gated_measurements},
+          {"rejected_inputs", counters.rejected_inputs},
+          {"covariance_repairs", counters.covariance_repairs},
+          {"weight_collapses", counters.weight_collapses},
+          {"joint_searches_cut", counters.joint_searches_cut}};
+}
+
 Json filter_json(const RunResult& result, const FilterResult& filter) {
   const FilterSummary& summary = filter.summary;
   return {{"particles", summary.particles},
@@ -64,7 +71,7 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
           {"ate_aligned_median_m", number(summary.ate_aligned_median_m)},
           {"ate_aligned_at_sightings_rms_m", summary_json(summary.ate_aligned_at_sightings_rms_m)},
           {"ate_over_dead_reckoning", over_dead_reckoning(result, summary)},
-          {"efficiency", number(efficiency(filter.scores, result.bounds))},
+          {"efficiency", number(efficiency(filter.scores, result.bounds, &BoundScores::filtering))},
           {"heading_rms_rad", summary_json(summary.heading_rms_rad)},
           {"rpe_rms_m", summary_json(summary.rpe_rms_m)},
           {"final_drift", summary_json(summary.final_drift)},
@@ -79,6 +86,7 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
           {"association", association_json(filter.association)},
           {"anees", summary_json(summary.anees)},
           {"consistency", consistency_json(result, filter)},
+          {"counters", counters_json(filter.counters)},
           {"failures", summary.failures}};
 }
 
@@ -135,57 +143,15 @@ void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, con
   const slam::Pose& pose = run.poses[k];
   csv += fmt::format("{},{},{},{},{},{},{},{}", seed, run.filter, k, step.stamp_ns, pose.x_m, pose.y_m,
                      pose.heading_rad, step.measurements.size());
+  const double error_m = position_error_m(score, pose, step);
   if (step.truth)
-    csv += fmt::format(",{},{},{},{}", step.truth->x_m, step.truth->y_m, step.truth->heading_rad,
-                       slam::displacement(pose, *step.truth).head<2>().norm());
+    csv += fmt::format(",{},{},{},", step.truth->x_m, step.truth->y_m, step.truth->heading_rad);
   else
     csv += ",,,,";
+  if (std::isfinite(error_m)) csv += fmt::format("{}", error_m);
   const auto& nees = score.normalised_errors;
   csv += k < nees.size() && nees[k] ? fmt::format(",{}", nees[k]->ratio()) : std::string(",");
   csv += consistency_cells(run, score, step, k) + "\n";
-}
-
-/// A line of the table that people see.
-std::vector<std::string> row_of(const FilterResult& filter, const std::string& particles, double efficiency) {
-  const FilterSummary& s = filter.summary;
-  return {filter.filter,
-          particles,
-          format_mean_sd(s.ate_rms_m.mean, s.ate_rms_m.sd),
-          format_number(s.ate_rms_m.max),
-          format_number(s.ate_aligned_rms_m.mean),
-          format_number(kDegrees * s.heading_rms_rad.mean),
-          format_number(s.landmark_rms_m.mean),
-          format_number(s.anees.mean),
-          format_number(efficiency),
-          fmt::format("{}", s.failures)};
-}
-
-/// How filters told landmarks apart, for people: sums over the seeds.
-std::string association_table(const std::vector<FilterResult>& filters) {
-  AlignedTable table{
-      .header = {"association", "correct", "wrong", "missed", "imagined", "duplicated", "spurious"}};
-  for (const FilterResult& filter : filters) {
-    if (!filter.association || filter.filter == kBaseline) continue;
-    const AssociationScore& a = *filter.association;
-    table.rows.push_back({filter.filter});
-    for (const long count : {a.correct, a.wrong, a.missed, a.imagined, a.duplicated, a.spurious})
-      table.rows.back().push_back(fmt::format("{}", count));
-  }
-  return table.rows.empty() ? std::string() : "\n" + plain_text(table);
-}
-
-std::vector<std::string> bound_row(const std::vector<BoundScore>& bounds) {
-  const Summary pose = over_seeds(bounds, &BoundScore::pose_rms_m);  // of most worlds the same for each seed
-  return {"bound",
-          "-",
-          format_number(pose.mean),
-          format_number(pose.max),
-          "-",
-          format_number(kDegrees * over_seeds(bounds, &BoundScore::heading_rms_rad).mean),
-          format_number(over_seeds(bounds, &BoundScore::landmark_rms_m).mean),
-          "-",
-          "1",
-          "-"};
 }
 
 }  // namespace
@@ -202,10 +168,12 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
     result.seeds.push_back(drive.seed);
     if (drive.recording.vision && !result.vision) result.vision.emplace();
     if (drive.recording.vision) *result.vision += *drive.recording.vision;
+    result.start_is_true = result.start_is_true && drive.recording.log.start_is_true;
     result.identities_known = result.identities_known && knows_identities(drive.recording.log);
     for (std::size_t i = 0; i < drive.runs.size(); ++i) {
       FilterResult& filter = result.filters[i];
       filter.scores.push_back(score(drive.runs[i], drive.recording.log));
+      filter.counters += drive.runs[i].last.counters;
       if (const auto& more = drive.runs[i].association)
         filter.association = filter.association.value_or(AssociationScore{}) + *more;
     }
@@ -225,9 +193,10 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   Json json = {{"schema", kSchema},           {"scenario", result.name},
                {"seeds", result.seeds},       {"renderer", {{"backend", result.backend}}},
                {"detector", result.detector}, {"vision", vision_json(result.vision)}};
-  if (result.odometry_delay_s) json["log"] = {{"odometry_delay_s", *result.odometry_delay_s}};
-  json["bound"] = bound_json(result.bounds);
-  json["batch"] = batch_json(result.batch.summary);
+  if (result.recorded) json["log"] = log_json(*result.recorded, result.assumed, result.start_is_true);
+  json["bound"] = bound_json(result.bounds, &BoundScores::filtering);
+  json["smoothing_bound"] = bound_json(result.bounds, &BoundScores::smoothing);
+  json["batch"] = batch_json(result);
   json["filters"] = std::move(filters);
   json["comparisons"] = comparisons_json(result.comparisons);
   return json;
@@ -246,30 +215,18 @@ std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives
   return csv;
 }
 
+Summary over_seeds(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound,
+                   double BoundScore::*part) {
+  std::vector<double> values;
+  for (const BoundScores& one : bounds) values.push_back(one.*bound.*part);
+  return summarise(values);
+}
+
 nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
   Timing total;
   for (const SeedDrive& drive : drives)
     for (const auto& [stage, seconds] : drive.recording.timing) total[stage] += seconds;
   return {{"schema", kSchema}, {"seeds", drives.size()}, {"seconds", total}};
-}
-
-std::string result_table(const RunResult& result) {
-  AlignedTable table{.header = {"filter", "particles", "ATE rms [m]", "worst seed [m]", "aligned [m]",
-                                "heading [deg]", "landmarks [m]", "ANEES", "ATE / bound", "failures"}};
-  for (const FilterResult& filter : result.filters)
-    table.rows.push_back(row_of(filter, fmt::format("{}", filter.summary.particles),
-                                efficiency(filter.scores, result.bounds)));
-  table.rows.push_back(row_of(result.batch, "-", std::nan("")));
-  if (!result.bounds.empty()) table.rows.push_back(bound_row(result.bounds));
-  std::string text;
-  if (result.vision)
-    text += fmt::format(
-        "vision: recall {:.4f}, precision {:.4f}, {} misidentified, range rms {} mm, bearing rms {} mrad\n\n",
-        result.vision->recall(), result.vision->precision(), result.vision->misidentified,
-        format_number(1e3 * result.vision->range_rms_m()),
-        format_number(1e3 * result.vision->bearing_rms_rad()));
-  text += plain_text(table) + "\n" + consistency_table(result);
-  return result.identities_known ? text : text + association_table(result.filters);
 }
 
 }  // namespace stereobench::harness

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/dataset/log_facts.h"
 #include "harness/run/seed_drive.h"
 #include "harness/scoring/paired.h"
 #include "harness/scoring/references.h"
@@ -16,12 +17,16 @@
 
 namespace stereobench::harness {
 
+/// The filter that the others are compared with.
+inline constexpr const char* kBaseline = "dead_reckoning";
+
 /// One filter over all seeds.
 struct FilterResult {
   std::string filter;
   std::vector<FilterScore> scores;  ///< one a seed
   FilterSummary summary;
   std::optional<AssociationScore> association;  ///< of all seeds, where the logs say whose the sightings are
+  slam::FilterCounters counters;                ///< what it mended and refused, summed over the seeds
 };
 
 /// One filter beside another on the same seeds.
@@ -39,11 +44,13 @@ struct RunResult {
   std::string detector = "none";      ///< who looked at the pictures; see Recording
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
   std::vector<FilterResult> filters;
-  bool identities_known = true;            ///< by every sighting
-  std::vector<Comparison> comparisons;     ///< each filter with those before it, dead reckoning aside
-  FilterResult batch;                      ///< the whole log at once
-  std::vector<BoundScore> bounds;          ///< one a seed; none where the true controls are not known
-  std::optional<double> odometry_delay_s;  ///< that a recorded log's odometry was moved by
+  bool identities_known = true;         ///< by every sighting
+  std::vector<Comparison> comparisons;  ///< each filter with those before it, dead reckoning aside
+  FilterResult batch;                   ///< the whole log at once
+  std::vector<BoundScores> bounds;      ///< one a seed; none where the true controls are not known
+  bool start_is_true = true;            ///< of every log; see MeasurementLog
+  std::optional<LogFacts> recorded;     ///< of a recorded log
+  std::vector<std::string> assumed;     ///< of it: lines for people
 };
 
 /// Scores each filter's runs against their logs and references.
@@ -63,7 +70,8 @@ std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives
 /// The content of timing.json: seconds of each stage, summed over the seeds.
 nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives);
 
-/// The table people see at the end of a run.
-std::string result_table(const RunResult& result);
+/// One part of a bound over the seeds.
+Summary over_seeds(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound,
+                   double BoundScore::*part);
 
 }  // namespace stereobench::harness

@@ -43,11 +43,11 @@ namespace stereobench::harness {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth, true_landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, position_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, steps, landmarks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasurementLog, start, start_is_true, steps, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UpdateRecord, innovations, effective_particles, distinct_ancestors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, covariances, updates, last,
                                    association, failed, failure)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, landmarks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, smoothed_poses, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,

@@ -41,16 +41,33 @@ std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const E
 }
 
 slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
-                     double match_limit_m) {
+                     const slam::Pose& truth_from_estimate, double match_limit_m) {
   std::vector<PosePair> pairs;
   for (const slam::LandmarkEstimate& estimate : estimates) {
-    const auto index = owner(estimate, estimate.position_m, truth, match_limit_m);
+    const Eigen::Vector2d position_m = moved(truth_from_estimate, estimate.position_m);
+    const auto index = owner(estimate, position_m, truth, match_limit_m);
     if (!index) continue;
     const Eigen::Vector2d& place_m = truth[*index].position_m;
     pairs.push_back(
         {{estimate.position_m.x(), estimate.position_m.y(), 0.0}, {place_m.x(), place_m.y(), 0.0}});
   }
   return align(pairs);
+}
+
+slam::LandmarkEstimate moved_landmark(const slam::Pose& target_from_source,
+                                      const slam::LandmarkEstimate& landmark) {
+  const auto [s, c] = slam::sine_cosine(target_from_source.heading_rad);
+  Eigen::Matrix2d turn;
+  turn << c, -s, s, c;
+  slam::LandmarkEstimate there = landmark;
+  there.position_m = moved(target_from_source, landmark.position_m);
+  there.covariance = turn * landmark.covariance * turn.transpose();
+  return there;
+}
+
+MapScore unknown_map_score() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {.rms_m = kNone, .max_m = kNone};
 }
 
 MapScore score_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,

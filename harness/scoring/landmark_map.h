@@ -25,9 +25,17 @@ std::optional<std::size_t> owner(const slam::LandmarkEstimate& estimate, const E
 
 /// The rotation and shift that bring a map's landmarks nearest to the true ones they belong to: what a map
 /// that was made from an unknown start cannot be blamed for. (A path's own alignment is another one.)
+/// @param truth_from_estimate from where estimates without an identity look for their landmark
 /// @return identity when no estimate belongs to a true landmark
 slam::Pose align_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,
-                     double match_limit_m = 2.0);
+                     const slam::Pose& truth_from_estimate = {}, double match_limit_m = 2.0);
+
+/// A landmark in another frame, with its covariance turned.
+slam::LandmarkEstimate moved_landmark(const slam::Pose& target_from_source,
+                                      const slam::LandmarkEstimate& landmark);
+
+/// What a map is worth that nothing can be compared with: NaN for errors, and nothing counted.
+MapScore unknown_map_score();
 
 /// Scores a map. An estimate with an identity belongs to the landmark of that identity, however far it
 /// is; one without belongs to the nearest landmark within the limit that its colour class, if it has one,

@@ -38,6 +38,7 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
     bound.look(frame);
     run.poses.push_back(bound.pose().covariance);
   }
+  run.smoothed_poses = bound.smoothed_poses();
   for (std::size_t i = 0; i < places.size(); ++i)
     if (const auto covariance = bound.landmark(static_cast<int>(i))) run.landmarks.push_back(*covariance);
   return run;
@@ -56,19 +57,24 @@ FilterRun replay_batch(const MeasurementLog& log, const slam::FilterConfig& conf
   return run;
 }
 
-BoundScore score(const BoundRun& run) {
-  return {rms(run.poses, [](const Eigen::Matrix3d& p) { return p(0, 0) + p(1, 1); }),
-          rms(run.poses, [](const Eigen::Matrix3d& p) { return p(2, 2); }),
-          rms(run.landmarks, [](const Eigen::Matrix2d& p) { return p.trace(); })};
+BoundScores score(const BoundRun& run) {
+  const double landmark_rms_m = rms(run.landmarks, [](const Eigen::Matrix2d& p) { return p.trace(); });
+  const auto of_poses = [&](const std::vector<Eigen::Matrix3d>& poses) -> BoundScore {
+    return {rms(poses, [](const Eigen::Matrix3d& p) { return p(0, 0) + p(1, 1); }),
+            rms(poses, [](const Eigen::Matrix3d& p) { return p(2, 2); }), landmark_rms_m};
+  };
+  return {of_poses(run.poses), of_poses(run.smoothed_poses)};
 }
 
-double efficiency(std::span<const FilterScore> scores, std::span<const BoundScore> bounds) {
+double efficiency(std::span<const FilterScore> scores, std::span<const BoundScores> bounds,
+                  BoundScore BoundScores::*bound) {
   double errors_m2 = 0.0;
   double least_m2 = 0.0;
   for (std::size_t i = 0; i < std::min(scores.size(), bounds.size()); ++i) {
     if (scores[i].failed) continue;
     errors_m2 += scores[i].trajectory.ate_rms_m * scores[i].trajectory.ate_rms_m;
-    least_m2 += bounds[i].pose_rms_m * bounds[i].pose_rms_m;
+    const double least_m = (bounds[i].*bound).pose_rms_m;
+    least_m2 += least_m * least_m;
   }
   return std::sqrt(errors_m2 / least_m2);  // 0 / 0: nothing to compare
 }

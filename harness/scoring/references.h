@@ -11,7 +11,7 @@
 
 namespace stereobench::harness {
 
-/// Drives the posterior Cramer-Rao bound over a generated log. Each sighting is taken at its word: with the
+/// Drives both posterior Cramer-Rao bounds over a generated log. Each sighting is taken at its word: with the
 /// covariance that it states, and of the landmark that it is of; where the log does not say, of the one that
 /// it names or, where it names a colour only, of the one of its colour nearest to where it was seen. Knowing
 /// identities is more than such a filter has, so it remains a bound.
@@ -26,20 +26,28 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
 /// @throws std::invalid_argument when a setting or the start is out of range
 FilterRun replay_batch(const MeasurementLog& log, const slam::FilterConfig& config);
 
-/// What the bound says of one log; NaN where there is nothing to say it of.
+/// What a bound says of one log; NaN where there is nothing to say it of.
 struct BoundScore {
   double pose_rms_m = 0.0;  ///< over the steps: root of the mean trace of the position's covariance
   double heading_rms_rad = 0.0;
-  double landmark_rms_m = 0.0;  ///< over the landmarks that were seen, in the end
+  double landmark_rms_m = 0.0;  ///< over the landmarks that were seen, in the end: the same for both bounds
 };
 
-BoundScore score(const BoundRun& run);
+/// The bounds of one log.
+struct BoundScores {
+  BoundScore filtering;  ///< of estimates that know the log up to each pose, as filters do
+  BoundScore smoothing;  ///< of estimates that know the whole log, as the batch does
+};
 
-/// How many times the least possible a filter's error is: the root of its mean squared position error over
-/// seeds and steps, over that of the bound. 1 is the best there is; runs that failed are left out on both
-/// sides.
+BoundScores score(const BoundRun& run);
+
+/// How many times the least possible an estimator's error is: the root of its mean squared position error
+/// over seeds and steps, over that of the bound it belongs to. 1 is the best there is; runs that failed are
+/// left out on both sides.
 /// @param scores and bounds one a seed; no bounds where there is none
+/// @param bound the part of the bounds: filtering for filters, smoothing for the batch
 /// @return NaN when there is nothing to compare
-double efficiency(std::span<const FilterScore> scores, std::span<const BoundScore> bounds);
+double efficiency(std::span<const FilterScore> scores, std::span<const BoundScores> bounds,
+                  BoundScore BoundScores::*bound);
 
 }  // namespace stereobench::harness

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "slam/motion.h"
+
 namespace stereobench::harness {
 
 namespace {
@@ -16,8 +18,7 @@ FilterScore failed_score() {
   score.failed = true;
   score.trajectory = score_trajectory({});
   score.ate_aligned_at_sightings_rms_m = kNone;
-  score.map.rms_m = score.map.max_m = kNone;
-  score.map_aligned = score.map_path_aligned = score.map;
+  score.map = score.map_aligned = score.map_path_aligned = unknown_map_score();
   return score;
 }
 
@@ -82,6 +83,45 @@ void add_consistency(std::span<const FilterScore> scores, Seeds seeds, FilterSum
   summary.consistency = summarise(consistency, seeds);
 }
 
+/// How many estimates have the identity of a true landmark.
+long count_named(std::span<const slam::LandmarkEstimate> map, std::span<const LandmarkTruth> truth) {
+  return std::ranges::count_if(map, [&](const slam::LandmarkEstimate& estimate) {
+    return estimate.landmark_id != slam::kUnknown &&
+           std::ranges::find(truth, estimate.landmark_id, &LandmarkTruth::landmark_id) != truth.end();
+  });
+}
+
+std::optional<slam::Pose> frame_of(const FilterRun& run, const MeasurementLog& log,
+                                   const TrajectoryScore& trajectory) {
+  constexpr long kFewest = 2;  // points that a rotation and a shift can be read from
+  if (log.start_is_true) return slam::Pose{};
+  if (trajectory.scored_steps >= kFewest) return trajectory.truth_from_estimate;
+  if (count_named(run.last.landmarks, log.landmarks) < kFewest) return {};
+  return align_map(run.last.landmarks, log.landmarks);
+}
+
+void score_maps(std::span<const slam::LandmarkEstimate> map, std::span<const LandmarkTruth> truth,
+                FilterScore& score) {
+  score.map = score.map_aligned = score.map_path_aligned = unknown_map_score();
+  if (!score.truth_from_estimate) return;
+  score.map = score_map(map, truth, *score.truth_from_estimate);
+  score.map_aligned = score_map(map, truth, align_map(map, truth, *score.truth_from_estimate));
+  if (score.trajectory.scored_steps > 0)
+    score.map_path_aligned = score_map(map, truth, score.trajectory.truth_from_estimate);
+}
+
+/// Takes out what compares numbers of one frame with those of another.
+void leave_out_what_is_not_aligned(FilterScore& score) {
+  for (double TrajectoryScore::*metric : {&TrajectoryScore::ate_rms_m, &TrajectoryScore::ate_max_m,
+                                          &TrajectoryScore::heading_rms_rad, &TrajectoryScore::final_drift})
+    score.trajectory.*metric = kNone;
+  score.map.rms_m = score.map.max_m = kNone;
+  for (auto& error : score.normalised_errors) error.reset();
+  score.consistency.path = score.consistency.map = Coverage{};
+  score.consistency.path.within.fill(kNone);
+  score.consistency.map.within.fill(kNone);
+}
+
 }  // namespace
 
 FilterScore score(const FilterRun& run, const MeasurementLog& log) {
@@ -92,13 +132,18 @@ FilterScore score(const FilterRun& run, const MeasurementLog& log) {
   FilterScore score;
   score.trajectory = score_trajectory(pair_with_truth(run.poses, log));
   score.ate_aligned_at_sightings_rms_m = aligned_rms_at_sightings(run, log);
-  score.map = score_map(run.last.landmarks, log.landmarks);
-  score.map_aligned =
-      score_map(run.last.landmarks, log.landmarks, align_map(run.last.landmarks, log.landmarks));
-  score.map_path_aligned = score_map(run.last.landmarks, log.landmarks, score.trajectory.truth_from_estimate);
+  score.truth_from_estimate = frame_of(run, log, score.trajectory);
+  score_maps(run.last.landmarks, log.landmarks, score);
   score.normalised_errors = normalised_errors(run, log);
   score.consistency = score_consistency(run, log);
+  if (!log.start_is_true) leave_out_what_is_not_aligned(score);
   return score;
+}
+
+double position_error_m(const FilterScore& score, const slam::Pose& estimate, const LogStep& step) {
+  if (!step.truth || !score.truth_from_estimate) return kNone;
+  const slam::Pose there = slam::compose(*score.truth_from_estimate, estimate);
+  return Eigen::Vector2d(there.x_m - step.truth->x_m, there.y_m - step.truth->y_m).norm();
 }
 
 FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds) {

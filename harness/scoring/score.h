@@ -15,9 +15,14 @@
 
 namespace stereobench::harness {
 
-/// One filter run against the truth. A failed run has NaN in every metric.
+/// One filter run against the truth. A failed run has NaN in every metric. Where the truth does not say where
+/// the filters started (MeasurementLog::start_is_true), what is not aligned is NaN, and maps are counted
+/// after alignment.
 struct FilterScore {
   bool failed = false;
+  /// Brings estimates into the truth's frame: identity where that is theirs, else the best alignment of the
+  /// path or, without a true path, of the landmarks that have identities. None where nothing tells.
+  std::optional<slam::Pose> truth_from_estimate;
   TrajectoryScore trajectory;
   double ate_aligned_at_sightings_rms_m = 0.0;  ///< aligned and scored only where something was seen
   MapScore map;                                 ///< in the world frame, as estimated
@@ -55,6 +60,10 @@ struct FilterSummary {
 /// Scores one run against its log's truth.
 /// @throws std::invalid_argument when a run that did not fail has not one pose and covariance per step
 FilterScore score(const FilterRun& run, const MeasurementLog& log);
+
+/// The distance of an estimated position from the true one, m, in the truth's frame.
+/// @return NaN where there is no truth, or nothing tells how the frames lie to each other
+double position_error_m(const FilterScore& score, const slam::Pose& estimate, const LogStep& step);
 
 /// Puts the seeds of one filter together; failed runs are counted and enter no mean.
 FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds = Seeds::kWorlds);

@@ -1,5 +1,7 @@
 #include "harness/sweep/sweep_result.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,10 +17,12 @@ MeanInterval scaled(const Summary& summary, double scale) {
 }
 
 std::string with_interval(const Summary& summary, double scale) {
-  if (summary.count == 0) return "-";
-  if (summary.count == 1) return format_number(scale * summary.mean);
-  return fmt::format("{} +- {}", format_number(scale * summary.mean),
-                     format_number(scale * summary.half_width, 2));
+  return format_interval(scale * summary.mean, scale * summary.half_width);
+}
+
+/// A cell of a CSV; empty for what has no value.
+std::string csv_cell(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 /// How much one filter is worse than another, and whether that may be chance.
@@ -77,11 +81,11 @@ SweepCell assemble_cell(const std::string& name, const std::string& backend, con
 std::string sweep_table(const SweepResult& sweep) {
   AlignedTable table;
   for (const Variation& variation : sweep.variations) table.header.push_back(variation.name());
-  table.header.insert(table.header.end(), {"recall", "range rms [mm]", "bearing rms [mrad]"});
+  table.header.insert(table.header.end(), {"recall", "range rms [mm] +- 95 %", "bearing rms [mrad] +- 95 %"});
   for (const FilterResult& filter : sweep.cells.front().result.filters)
-    table.header.push_back(filter.filter + " ATE [m]");
+    table.header.push_back(filter.filter + " ATE [m] +- 95 %");
   for (const Comparison& comparison : sweep.cells.front().result.comparisons)
-    table.header.push_back(fmt::format("{} - {} [m]", comparison.filter, comparison.other));
+    table.header.push_back(fmt::format("{} - {} [m] +- 95 %", comparison.filter, comparison.other));
   for (const SweepCell& cell : sweep.cells) {
     std::vector<std::string> row = cell.values;
     row.push_back(cell.result.vision ? format_number(cell.result.vision->recall()) : "-");
@@ -105,13 +109,12 @@ std::string sweep_csv(const SweepResult& sweep) {
     for (const FilterResult& filter : cell.result.filters) {
       const FilterSummary& s = filter.summary;
       for (const Setting& setting : settings_of(sweep.variations, cell.values)) csv += setting.value + ",";
-      csv += fmt::format("{},{},{},{},{},{}", filter.filter, cell.result.seeds.size(), s.ate_rms_m.mean,
-                         s.ate_rms_m.half_width, s.landmark_rms_m.mean, s.failures);
-      if (cell.result.vision)
-        csv += fmt::format(",{},{},{}\n", cell.result.vision->recall(), cell.range_rms_m.mean,
-                           cell.bearing_rms_rad.mean);
-      else
-        csv += ",,,\n";
+      csv += fmt::format("{},{},{},{},{},{}", filter.filter, cell.result.seeds.size(),
+                         csv_cell(s.ate_rms_m.mean), csv_cell(s.ate_rms_m.half_width),
+                         csv_cell(s.landmark_rms_m.mean), s.failures);
+      const double recall = cell.result.vision ? cell.result.vision->recall() : std::nan("");
+      csv += fmt::format(",{},{},{}\n", csv_cell(recall), csv_cell(cell.range_rms_m.mean),
+                         csv_cell(cell.bearing_rms_rad.mean));
     }
   return csv;
 }

@@ -20,7 +20,7 @@ std::string name_of(Verdict verdict) {
 
 std::string text_of(const Limit& limit) {
   const bool below = std::isfinite(limit.at_most), above = std::isfinite(limit.at_least);
-  if (below && limit.at_least == -limit.at_most) return fmt::format("+- {}", limit.at_most);
+  if (below && limit.at_least == -limit.at_most) return fmt::format("within {}", limit.at_most);
   if (below && above) return fmt::format("{} .. {}", limit.at_least, limit.at_most);
   if (below) return fmt::format("<= {}", limit.at_most);
   return above ? fmt::format(">= {}", limit.at_least) : "";
@@ -28,7 +28,7 @@ std::string text_of(const Limit& limit) {
 
 std::string measured_text(const Line& line) {
   if (std::isfinite(line.half_width) && line.half_width > 0.0)
-    return harness::format_mean_sd(line.measured, line.half_width);
+    return harness::format_interval(line.measured, line.half_width);
   if (line.measured == std::round(line.measured)) return fmt::format("{:.0f}", line.measured);  // a count
   return harness::format_number(line.measured);
 }

@@ -93,6 +93,31 @@ TEST(NoiseFit, BinsLeaveOutWhatFiltersRefuse) {
   EXPECT_NEAR(bin.half_nis[1], 1.0, 0.1);
 }
 
+// Samples of one distance that are all off by the same as well: what scatters is the deviation, what does not
+// is the bias. Mutations: squares of the errors themselves, in sd, over_bound or the correlation.
+TEST(NoiseFit, TheDeviationIsAboutTheBias) {
+  const Eigen::Vector2d sd(0.02, 2e-4), bias(0.05, -6e-4);
+  slam::RandomStream random(7, slam::Stream::kWorld);
+  std::vector<CalibrationSample> samples;
+  for (int i = 0; i < 2000; ++i) {
+    CalibrationSample sample;
+    sample.depth_m = 1.0;
+    sample.truth = {1.0, 0.0};
+    sample.error = bias + sd.cwiseProduct(Eigen::Vector2d(random.normal(), random.normal()));
+    sample.stated = (4.0 * sd).cwiseAbs2().asDiagonal();
+    sample.bound = (0.5 * sd).cwiseAbs2().asDiagonal();
+    samples.push_back(sample);
+  }
+  const CalibrationBin bin = bin_samples(samples, {}, 0.5, 10.0, 1).front();
+  EXPECT_EQ(bin.refused, 0);
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(bin.bias[axis], bias[axis], 4.0 * sd[axis] / std::sqrt(2000.0));
+    EXPECT_NEAR(bin.sd[axis] / sd[axis], 1.0, 4.0 / std::sqrt(4000.0));
+    EXPECT_NEAR(bin.over_bound[axis], 2.0, 8.0 / std::sqrt(4000.0));
+  }
+  EXPECT_NEAR(bin.correlation.x(), 0.0, 4.0 / std::sqrt(2000.0));
+}
+
 TEST(NoiseFit, OfNothingIsNothing) {
   const FittedNoise fitted = fit_noise({});
   EXPECT_EQ(fitted.stated_sd_scale, Eigen::Vector2d::Ones());

@@ -194,8 +194,8 @@ TEST(ReadMrclam, TranslatesBarcodesAndCountsWhatIsNoLandmark) {
   fs::remove_all(folder.path() / "log");
   write_small_mrclam_log(folder);
   const RecordedLog recorded = read_log(folder.path() / "log", {});
-  EXPECT_EQ(recorded.robot_sightings, 1);
-  EXPECT_EQ(recorded.unknown_barcodes, 1);
+  EXPECT_EQ(recorded.facts.robot_sightings, 1);
+  EXPECT_EQ(recorded.facts.unknown_barcodes, 1);
   ASSERT_EQ(recorded.log.steps.size(), csv.steps.size());
   for (std::size_t i = 0; i < csv.steps.size(); ++i) {
     EXPECT_EQ(recorded.log.steps[i].stamp_ns, csv.steps[i].stamp_ns);
@@ -210,8 +210,8 @@ TEST(ReadMrclam, BothFormatsOfRobot5AreTheSameRun) {
   if (!fs::exists(kData / "mrclam_original")) GTEST_SKIP() << "no MRCLAM data beside this checkout";
   const RecordedLog dat = read_log(kData / "mrclam_original/ds7_robot5", {});
   const RecordedLog csv = read_log(kData / "mrclam/ds7/robot5", {});
-  EXPECT_EQ(dat.robot_sightings, 4760 - 3424);
-  EXPECT_EQ(dat.unknown_barcodes, 0);
+  EXPECT_EQ(dat.facts.robot_sightings, 4760 - 3424);
+  EXPECT_EQ(dat.facts.unknown_barcodes, 0);
   EXPECT_EQ(dat.log.landmarks.size(), 15U);
   ASSERT_EQ(dat.log.steps.size(), csv.log.steps.size());
   std::size_t sightings = 0;

@@ -99,12 +99,17 @@ TEST(ReportTable, NumbersKeepTheirDigits) {
   EXPECT_EQ(format_number(-std::numeric_limits<double>::infinity()), "-");
 }
 
-TEST(ReportTable, MeansHaveAsManyDecimalsAsTheirSpread) {
-  EXPECT_EQ(format_mean_sd(0.41234, 0.0513), "0.412 +- 0.051");
-  EXPECT_EQ(format_mean_sd(12.345, 3.21), "12.3 +- 3.2");
-  EXPECT_EQ(format_mean_sd(1234.5, 321.0), "1234 +- 321");
-  EXPECT_EQ(format_mean_sd(0.02, 0.0), "0.0200");
-  EXPECT_EQ(format_mean_sd(std::numeric_limits<double>::quiet_NaN(), 1.0), "-");
+// Mutation: six decimals for any half width.
+TEST(ReportTable, MeansHaveAsManyDecimalsAsTheirInterval) {
+  EXPECT_EQ(format_interval(0.41234, 0.0513), "0.412 +- 0.051");
+  EXPECT_EQ(format_interval(12.345, 3.21), "12.3 +- 3.2");
+  EXPECT_EQ(format_interval(1234.5, 321.0), "1234 +- 321");
+  EXPECT_EQ(format_interval(0.02, 0.0), "0.0200");
+  EXPECT_EQ(format_interval(0.02, std::numeric_limits<double>::infinity()), "0.0200") << "of a single seed";
+  EXPECT_EQ(format_interval(3e-6, 2.2e-7), "3.00e-06 +- 2.2e-07");
+  EXPECT_EQ(format_with_sd(0.41234, 0.0513), "0.412 (sd 0.051)");
+  EXPECT_EQ(format_with_sd(0.02, 0.0), "0.0200");
+  EXPECT_EQ(format_interval(std::numeric_limits<double>::quiet_NaN(), 1.0), "-");
 }
 
 }  // namespace

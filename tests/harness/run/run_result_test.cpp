@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/run/result_table.h"
+
 namespace stereobench::harness {
 namespace {
 
 /// A drive along x of some steps; dead reckoning is `slip_m` beside it, the other filter a quarter of that,
-/// the batch an eighth. The bound has a position rms of 0.01 m.
+/// the batch an eighth. The filtering bound has a position rms of 0.01 m, the smoothing bound half of it.
 SeedDrive drive_of(std::uint64_t seed, std::size_t steps, double slip_m) {
   SeedDrive drive{.seed = seed};
   drive.references.batch.filter = "batch";
@@ -30,6 +32,7 @@ SeedDrive drive_of(std::uint64_t seed, std::size_t steps, double slip_m) {
     drive.references.batch.poses.push_back({x_m, slip_m / 8.0, 0.0});
     drive.references.batch.covariances.push_back(Eigen::Matrix3d::Zero());
     drive.references.bound->poses.push_back(Eigen::Vector3d(0.00005, 0.00005, 0.04).asDiagonal());
+    drive.references.bound->smoothed_poses.push_back(0.25 * drive.references.bound->poses.back());
   }
   return drive;
 }
@@ -45,8 +48,9 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result);
-  EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector",
-                                                  "vision", "bound", "batch", "filters", "comparisons"}));
+  EXPECT_EQ(keys_of(json),
+            (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector", "vision", "bound",
+                                   "smoothing_bound", "batch", "filters", "comparisons"}));
   EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
@@ -63,7 +67,8 @@ TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
   EXPECT_EQ(json["filters"]["ufastslam"]["failures"], 0);
 }
 
-// Mutations: the batch's error among the filters; a bound's heading for its position; the ratio upside down.
+// Mutations: the batch's error among the filters; a bound's heading for its position; the ratio upside down;
+// the batch held against the filtering bound, which it beats by knowing the future.
 TEST(RunResult, FiltersAreHeldAgainstTheBoundAndTheBatch) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const auto json = run_json(assemble("name", "none", drives));
@@ -73,6 +78,9 @@ TEST(RunResult, FiltersAreHeldAgainstTheBoundAndTheBatch) {
   EXPECT_EQ(json["batch"]["failures"], 0);
   EXPECT_FALSE(json["filters"].contains("batch"));
   EXPECT_NEAR(json["filters"]["ufastslam"]["efficiency"], 0.25 * std::sqrt((0.16 + 0.64) / 2.0) / 0.01, 1e-9);
+  EXPECT_DOUBLE_EQ(json["smoothing_bound"]["pose_rms_m"]["mean"], 0.005);
+  EXPECT_DOUBLE_EQ(json["smoothing_bound"]["heading_rms_rad"]["max"], 0.1);
+  EXPECT_NEAR(json["batch"]["efficiency"], 0.125 * std::sqrt((0.16 + 0.64) / 2.0) / 0.005, 1e-9);
 }
 
 // Mutation: leaving out the keys, which gates may name.
@@ -87,15 +95,70 @@ TEST(RunResult, WithoutABoundItAndTheEfficiencyAreNull) {
   EXPECT_EQ(result_table(result).find("\nbound "), std::string::npos);
 }
 
-TEST(RunResult, TheTableEndsWithTheBatchAndTheBound) {
-  const std::string table = result_table(assemble("name", "none", std::vector{drive_of(3, 4, 0.4)}));
-  const std::size_t batch = table.find("\nbatch ");
-  const std::size_t bound = table.find("\nbound ");
-  EXPECT_NE(batch, std::string::npos);
-  EXPECT_NE(bound, std::string::npos);
-  EXPECT_LT(table.find("\nufastslam "), batch);
-  EXPECT_LT(batch, bound);
-  EXPECT_NE(table.find("0.01", bound), std::string::npos);
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The index of the line that starts with a name; the number of lines where there is none.
+std::size_t line_of(const std::vector<std::string>& lines, const std::string& name) {
+  const auto is_it = [&](const std::string& line) { return line.starts_with(name); };
+  return static_cast<std::size_t>(std::ranges::find_if(lines, is_it) - lines.begin());
+}
+
+// A batch that "beats the bound" of filters is no wonder. Mutations: either bound at the other's place; the
+// batch's ratio to the filtering bound, 10.
+TEST(RunResult, EachEstimatorStandsAboveTheBoundOfWhatItKnows) {
+  const auto lines = lines_of(result_table(assemble("name", "none", std::vector{drive_of(3, 4, 0.8)})));
+  const std::size_t filter = line_of(lines, "ufastslam");
+  ASSERT_LT(filter + 3, lines.size());
+  EXPECT_TRUE(lines[filter + 1].starts_with("bound (filtering) "));
+  EXPECT_TRUE(lines[filter + 2].starts_with("batch "));
+  EXPECT_TRUE(lines[filter + 3].starts_with("bound (smoothing) "));
+  EXPECT_NE(lines[filter].find(" 20.0 "), std::string::npos) << "0.2 m over 0.01 m";
+  EXPECT_NE(lines[filter + 2].find(" 20.0 "), std::string::npos) << "0.1 m over 0.005 m";
+}
+
+// "+-" is the same half width everywhere, and the table says so. Mutation: the standard deviation, 0.071.
+TEST(RunResult, PlusMinusIsTheIntervalOfTheMean) {
+  const std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
+  const RunResult result = assemble("name", "none", drives);
+  const auto lines = lines_of(result_table(result));
+  EXPECT_EQ(lines.front(), kIntervalNote);
+  EXPECT_NE(lines[line_of(lines, "filter ")].find("ATE rms [m] +- 95 %"), std::string::npos);
+  const Summary& ate_m = result.filters.back().summary.ate_rms_m;
+  EXPECT_NEAR(ate_m.half_width, 12.7062 * ate_m.sd / std::sqrt(2.0), 1e-4);
+  EXPECT_NE(lines[line_of(lines, "ufastslam ")].find("0.15 +- 0.64"), std::string::npos);
+}
+
+// A detector that sees nothing is right in nothing of nothing. Mutation: "precision nan".
+TEST(RunResult, WhatVisionCannotSayIsADash) {
+  SeedDrive drive = drive_of(3, 4, 0.4);
+  drive.recording.vision = VisionScore{.visible = 7};
+  const std::string table = result_table(assemble("name", "none", std::vector{drive}));
+  EXPECT_NE(table.find("vision: recall 0.0000, precision -, 0 misidentified, range rms - mm"),
+            std::string::npos);
+  EXPECT_EQ(table.find("nan"), std::string::npos);
+}
+
+// Mutations: the last seed's counters alone; the table in every run; a filter without any among its lines.
+TEST(RunResult, WhatFiltersMendAndRefuseIsCountedAndShown) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
+  EXPECT_EQ(result_table(assemble("name", "none", drives)).find("mended"), std::string::npos);
+  for (SeedDrive& drive : drives) drive.runs[1].last.counters = {9, 1, 2, 30, 4, 5};
+  const RunResult result = assemble("name", "none", drives);
+  const auto json = run_json(result)["filters"];
+  EXPECT_EQ(json["ufastslam"]["counters"].dump(),
+            R"({"refused_by_particle":60,"rejected_inputs":8,"covariance_repairs":2,"weight_collapses":4,)"
+            R"("joint_searches_cut":10})");
+  EXPECT_EQ(json["dead_reckoning"]["counters"]["rejected_inputs"], 0);
+  const auto lines = lines_of(result_table(result));
+  const std::size_t header = line_of(lines, "mended or refused");
+  ASSERT_EQ(header + 3, lines.size()) << "a rule and one filter below it";
+  EXPECT_TRUE(lines.back().starts_with("ufastslam "));
+  EXPECT_NE(lines.back().find(" 60 "), std::string::npos);
 }
 
 // JSON knows neither NaN nor infinity. Mutation: writing 0 for them.

@@ -74,6 +74,7 @@ TEST(ReplayBound, DrivesTheBoundOverTheTrueControlsAndSightings) {
     bound.look(frame);
     EXPECT_EQ(run.poses[k], bound.pose().covariance) << "step " << k;
   }
+  EXPECT_EQ(run.smoothed_poses, bound.smoothed_poses());
   ASSERT_EQ(run.landmarks.size(), 3U);
   EXPECT_EQ(run.landmarks[1], *bound.landmark(1));
 }
@@ -95,15 +96,45 @@ TEST(ReplayBound, AColourIsTheNearestLandmarkOfIt) {
   EXPECT_LE((last_bound(drive) - moved).norm(), 1e-8);
 }
 
+/// The first-order covariance of (x, y, heading) after some steps of odometry alone, by textbook sums: errors
+/// of a control (eq. 3 as standard deviations) displace the end of its arc, and turn all that comes after.
+Eigen::Matrix3d reckoned_covariance(const Generated& drive, std::size_t steps) {
+  const slam::Pose& end = drive.path[steps].pose;
+  slam::Pose pose = drive.log.start;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k <= steps; ++k) {
+    for (const auto& [v, w, dt] : drive.path[k].controls) {
+      const double from = pose.heading_rad, to = from + w * dt;  // no w here is 0
+      const double s = std::sin(to) - std::sin(from), c = std::cos(from) - std::cos(to);
+      const Eigen::Vector2d by_v(s / w, c / w);
+      const Eigen::Vector2d by_w =
+          v / w * (dt * Eigen::Vector2d(std::cos(to), std::sin(to)) - Eigen::Vector2d(s, c) / w);
+      pose = {pose.x_m + v * by_v.x(), pose.y_m + v * by_v.y(), to};
+      const Eigen::Vector2d arm(-(end.y_m - pose.y_m), end.x_m - pose.x_m);  // a turn by 1 rad moves the end
+      Eigen::Matrix<double, 3, 2> slope;
+      slope << by_v, by_w + dt * arm, 0.0, dt;
+      const Eigen::Vector2d sd(0.02 + 0.05 * std::abs(v), 0.03 + 0.1 * std::abs(w));  // kNoise
+      slope = slope * sd.asDiagonal();
+      covariance += slope * slope.transpose();
+    }
+  }
+  return covariance;
+}
+
+// Against sums that share no code with bound or filters. Mutations seen to turn this red: in Linearised::move
+// the speed's part of the turn left out, or the lever's sign turned; the bound's odometry noise 1 % too
+// large; the sighting of a landmark that nobody knows taken for the first one's.
 TEST(ReplayBound, WhatNobodyKnowsTellsNothing) {
   Generated drive;
   for (LogStep& step : drive.log.steps)
     for (slam::RangeBearing& sighting : step.measurements) sighting.landmark_id = 99;
   const BoundRun run = replay_bound(drive.log, drive.path, kNoise);
   EXPECT_TRUE(run.landmarks.empty());
-  const FilterRun reckoned = replay(drive.log, "dead_reckoning", {.odometry_noise = kNoise}, 0);
-  for (std::size_t k = 0; k < run.poses.size(); ++k) EXPECT_EQ(run.poses[k], reckoned.covariances[k]);
-  EXPECT_TRUE(std::isnan(score(run).landmark_rms_m));
+  for (std::size_t k = 0; k < run.poses.size(); ++k) {
+    EXPECT_LE((run.poses[k] - reckoned_covariance(drive, k)).norm(), 1e-9) << "step " << k;
+    EXPECT_LE((run.smoothed_poses[k] - run.poses[k]).norm(), 1e-15) << "later odometry tells nothing either";
+  }
+  EXPECT_TRUE(std::isnan(score(run).filtering.landmark_rms_m));
 }
 
 TEST(ReplayBound, RefusesAPathOfAnotherLog) {
@@ -117,10 +148,15 @@ TEST(BoundScore, IsTheRootOfTheMeanTrace) {
   BoundRun run;
   run.poses = {Eigen::Vector3d(1.0, 2.0, 0.1).asDiagonal(), Eigen::Vector3d(3.0, 4.0, 0.3).asDiagonal()};
   run.landmarks = {Eigen::Matrix2d::Identity(), 3.0 * Eigen::Matrix2d::Identity()};
-  const BoundScore result = score(run);
-  EXPECT_DOUBLE_EQ(result.pose_rms_m, std::sqrt(5.0));
-  EXPECT_DOUBLE_EQ(result.heading_rms_rad, std::sqrt(0.2));
-  EXPECT_DOUBLE_EQ(result.landmark_rms_m, 2.0);
+  run.smoothed_poses = {Eigen::Vector3d(1.0, 1.0, 0.1).asDiagonal(),
+                        Eigen::Vector3d(2.0, 4.0, 0.1).asDiagonal()};
+  const BoundScores result = score(run);
+  EXPECT_DOUBLE_EQ(result.filtering.pose_rms_m, std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(result.filtering.heading_rms_rad, std::sqrt(0.2));
+  EXPECT_DOUBLE_EQ(result.filtering.landmark_rms_m, 2.0);
+  EXPECT_DOUBLE_EQ(result.smoothing.pose_rms_m, 2.0);
+  EXPECT_DOUBLE_EQ(result.smoothing.heading_rms_rad, std::sqrt(0.1));
+  EXPECT_DOUBLE_EQ(result.smoothing.landmark_rms_m, 2.0);
 }
 
 FilterScore score_of(double ate_rms_m, bool failed = false) {
@@ -132,12 +168,15 @@ FilterScore score_of(double ate_rms_m, bool failed = false) {
 
 // Mutations: the mean of the seeds' ratios; failed runs' bounds counted.
 TEST(Efficiency, ComparesMeanSquares) {
-  const std::vector<BoundScore> bounds = {{1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {50.0, 0.0, 0.0}};
+  const BoundScore other{7.0, 7.0, 7.0};
+  const std::vector<BoundScores> bounds = {
+      {{1.0, 0.0, 0.0}, other}, {{2.0, 0.0, 0.0}, other}, {{50.0, 0.0, 0.0}, other}};
+  const auto filtering = &BoundScores::filtering;
   const double kNaN = std::numeric_limits<double>::quiet_NaN();
   const std::vector<FilterScore> scores = {score_of(2.0), score_of(6.0), score_of(kNaN, true)};
-  EXPECT_DOUBLE_EQ(efficiency(scores, bounds), std::sqrt(40.0 / 5.0));
-  EXPECT_TRUE(std::isnan(efficiency(scores, {})));
-  EXPECT_TRUE(std::isnan(efficiency({}, bounds)));
+  EXPECT_DOUBLE_EQ(efficiency(scores, bounds, filtering), std::sqrt(40.0 / 5.0));
+  EXPECT_TRUE(std::isnan(efficiency(scores, {}, filtering)));
+  EXPECT_TRUE(std::isnan(efficiency({}, bounds, filtering)));
 }
 
 TEST(ReplayBatch, IsExactWithoutNoiseAndNeverLooksAtTheTruth) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/motion.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -50,6 +52,77 @@ TEST(Score, AMapThatIsOffLikeItsPathIsRightAfterThePathsAlignment) {
   EXPECT_NEAR(score(run, log).map_path_aligned.rms_m, 0.0, 1e-12);
   run.last.landmarks[0].position_m = log.landmarks[0].position_m;
   EXPECT_NEAR(score(run, log).map_path_aligned.rms_m, 0.5, 1e-12);
+}
+
+/// The same estimates in a frame of their own, moved and turned against the truth's.
+FilterRun in_own_frame(FilterRun run, const slam::Pose& own_from_truth) {
+  for (slam::Pose& pose : run.poses) pose = slam::compose(own_from_truth, pose);
+  for (slam::LandmarkEstimate& landmark : run.last.landmarks)
+    landmark = moved_landmark(own_from_truth, landmark);
+  return run;
+}
+
+/// A log of four steps with a second landmark, and estimates of it that are nearly right.
+struct NearlyRight {
+  MeasurementLog log = straight_log();
+  FilterRun run = run_with_errors(log, {0.0, 0.1, -0.1, 0.0});
+
+  NearlyRight() {
+    log.landmarks.push_back({9, slam::kUnknown, {-2.0, 2.0}});
+    run.last.landmarks = {{7, slam::kUnknown, {3.0, 1.1}, Eigen::Matrix2d::Identity()},
+                          {9, slam::kUnknown, {-2.0, 2.0}, Eigen::Matrix2d::Identity()}};
+  }
+};
+
+const slam::Pose kElsewhere{4.0, -7.0, 2.0};
+
+// Where filters started is not known, so that errors in the frame they made are of no meaning: they are left
+// out, and what can be aligned is as it would be in the truth's frame. Mutations: any raw figure kept; the
+// map found by its place in the filters' frame.
+TEST(Score, InAFrameOfItsOwnIsAlignedOrLeftOut) {
+  NearlyRight that;
+  const FilterScore there = score(that.run, that.log);
+  that.log.start_is_true = false;
+  for (const bool named : {true, false}) {
+    FilterRun run = in_own_frame(that.run, kElsewhere);
+    if (!named)
+      for (slam::LandmarkEstimate& landmark : run.last.landmarks) landmark.landmark_id = slam::kUnknown;
+    const FilterScore own = score(run, that.log);
+    const TrajectoryScore& path = own.trajectory;
+    for (const double raw :
+         {path.ate_rms_m, path.ate_max_m, path.heading_rms_rad, path.final_drift, own.map.rms_m,
+          own.map.max_m, own.consistency.path.within[1], own.consistency.map.within[1]})
+      EXPECT_TRUE(std::isnan(raw));
+    for (const auto& error : own.normalised_errors) EXPECT_FALSE(error);
+    EXPECT_NEAR(path.ate_aligned_rms_m, there.trajectory.ate_aligned_rms_m, 1e-12);
+    EXPECT_NEAR(path.rpe_rms_m, there.trajectory.rpe_rms_m, 1e-12);
+    EXPECT_NEAR(own.map_aligned.rms_m, there.map_aligned.rms_m, 1e-12);
+    EXPECT_NEAR(own.map_path_aligned.rms_m, there.map_path_aligned.rms_m, 1e-12);
+    EXPECT_EQ(own.map.found_once, 2);
+    EXPECT_EQ(own.map.spurious, 0);
+    EXPECT_LT(position_error_m(own, run.poses[1], that.log.steps[1]), 0.2);
+  }
+}
+
+// Without a true path the map can be aligned where landmarks are named, and else not be compared at all.
+// Mutations: two landmarks without names matched with what is near in the filters' frame; the map's own
+// figure under the name of the path's.
+TEST(Score, WithoutATruePathAMapIsAlignedByItsNamesOrLeftOut) {
+  NearlyRight that;
+  const double aligned_m = score(that.run, that.log).map_aligned.rms_m;
+  that.log.start_is_true = false;
+  for (LogStep& step : that.log.steps) step.truth.reset();
+  FilterRun run = in_own_frame(that.run, kElsewhere);
+  const FilterScore named = score(run, that.log);
+  EXPECT_NEAR(named.map_aligned.rms_m, aligned_m, 1e-12);
+  EXPECT_EQ(named.map.found_once, 2);
+  EXPECT_TRUE(std::isnan(named.map.rms_m));
+  EXPECT_TRUE(std::isnan(named.map_path_aligned.rms_m));
+  for (slam::LandmarkEstimate& landmark : run.last.landmarks) landmark.landmark_id = slam::kUnknown;
+  const FilterScore nameless = score(run, that.log);
+  EXPECT_FALSE(nameless.truth_from_estimate);
+  EXPECT_TRUE(std::isnan(nameless.map_aligned.rms_m));
+  EXPECT_EQ(nameless.map.found_once + nameless.map.missed + nameless.map.spurious, 0);
 }
 
 // Mutation: scoring all steps. An offset at the two sightings aligns away, the one before does not count.

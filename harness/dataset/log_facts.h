@@ -1,0 +1,43 @@
+/// What a recorded log is found to hold and to lack, and what is assumed of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stereobench::harness {
+
+/// Where the odometry's delay comes from.
+enum class DelaySource {
+  kStated,        ///< by the caller
+  kFound,         ///< in the log
+  kNoneBetter,    ///< 0: no delay explains the sightings better than none, beyond chance
+  kNoIdentities,  ///< 0: no sighting says of which landmark it is
+  kFewPairs,      ///< 0: too few landmarks are seen twice within a second
+};
+
+/// What the reader counted, corrected and left out.
+struct LogFacts {
+  double odometry_delay_s = 0.0;  ///< by which the odometry was moved
+  DelaySource delay_source = DelaySource::kStated;
+  long robot_sightings = 0;       ///< MRCLAM: of the other robots, which are no landmarks; left out
+  long unknown_barcodes = 0;      ///< MRCLAM: of a barcode that `Barcodes.dat` does not name; left out
+  long repeated_sightings = 0;    ///< that stood in the log already; left out
+  long concurrent_sightings = 0;  ///< of a landmark that another sighting of the same instant is of; kept
+  bool noise_is_assumed = false;  ///< some sightings state no covariance
+  bool has_truth = false;         ///< of the path, at any step
+  double truth_starts_s = 0.0;    ///< after the first step
+  long steps = 0;
+  long steps_without_truth = 0;
+};
+
+/// What the caller has said of the log, so that nothing of it is assumed.
+struct StatedNoise {
+  bool sensor = false;    ///< of sightings without covariances, or of all
+  bool odometry = false;  ///< any of it
+};
+
+/// One line for each assumption that results rest on: what was assumed, and what to do about it.
+std::vector<std::string> assumptions_of(const LogFacts& facts, const StatedNoise& stated);
+
+}  // namespace stereobench::harness

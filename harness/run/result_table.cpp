@@ -1,0 +1,116 @@
+#include "harness/run/result_table.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/report/text_table.h"
+#include "harness/run/consistency_report.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+std::string fraction(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4f}", value) : "-";
+}
+
+std::string vision_line(const VisionScore& vision) {
+  return fmt::format(
+      "vision: recall {}, precision {}, {} misidentified, range rms {} mm, bearing rms {} mrad\n\n",
+      fraction(vision.recall()), fraction(vision.precision()), vision.misidentified,
+      format_number(1e3 * vision.range_rms_m()), format_number(1e3 * vision.bearing_rms_rad()));
+}
+
+std::vector<std::string> row_of(const RunResult& result, const FilterResult& filter,
+                                const std::string& particles, double efficiency) {
+  const FilterSummary& s = filter.summary;
+  const Summary& landmarks_m = result.start_is_true ? s.landmark_rms_m : s.landmark_aligned_rms_m;
+  return {filter.filter,
+          particles,
+          format_interval(s.ate_rms_m.mean, s.ate_rms_m.half_width),
+          format_number(s.ate_rms_m.max),
+          format_number(s.ate_aligned_rms_m.mean),
+          format_number(kDegrees * s.heading_rms_rad.mean),
+          format_number(landmarks_m.mean),
+          format_number(s.anees.mean),
+          format_number(efficiency),
+          fmt::format("{}", s.failures)};
+}
+
+std::vector<std::string> bound_row(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound,
+                                   const std::string& name) {
+  const Summary pose = over_seeds(bounds, bound, &BoundScore::pose_rms_m);  // often the same for each seed
+  return {name,
+          "-",
+          format_number(pose.mean),
+          format_number(pose.max),
+          "-",
+          format_number(kDegrees * over_seeds(bounds, bound, &BoundScore::heading_rms_rad).mean),
+          format_number(over_seeds(bounds, bound, &BoundScore::landmark_rms_m).mean),
+          "-",
+          "1",
+          "-"};
+}
+
+/// Each estimator above the bound of what it knows: filters know the log up to each pose, the batch all of
+/// it.
+std::string error_table(const RunResult& result) {
+  AlignedTable table{.header = {"filter", "particles", "ATE rms [m] +- 95 %", "worst seed [m]", "aligned [m]",
+                                "heading [deg]",
+                                result.start_is_true ? "landmarks [m]" : "landmarks, aligned [m]", "ANEES",
+                                "ATE / bound", "failures"}};
+  for (const FilterResult& filter : result.filters)
+    table.rows.push_back(row_of(result, filter, fmt::format("{}", filter.summary.particles),
+                                efficiency(filter.scores, result.bounds, &BoundScores::filtering)));
+  const bool bounded = !result.bounds.empty();
+  if (bounded) table.rows.push_back(bound_row(result.bounds, &BoundScores::filtering, "bound (filtering)"));
+  table.rows.push_back(row_of(result, result.batch, "-",
+                              efficiency(result.batch.scores, result.bounds, &BoundScores::smoothing)));
+  if (bounded) table.rows.push_back(bound_row(result.bounds, &BoundScores::smoothing, "bound (smoothing)"));
+  return plain_text(table);
+}
+
+/// What filters mended or refused, as sums over the seeds; nothing for filters that did neither.
+std::string counters_table(const std::vector<FilterResult>& filters) {
+  AlignedTable table{.header = {"mended or refused", "refused, by particle", "inputs", "covariances",
+                                "weights", "joint searches cut"}};
+  for (const FilterResult& filter : filters) {
+    const slam::FilterCounters& c = filter.counters;
+    const std::array<long, 5> counts = {c.gated_measurements, c.rejected_inputs, c.covariance_repairs,
+                                        c.weight_collapses, c.joint_searches_cut};
+    if (counts == std::array<long, 5>{}) continue;
+    table.rows.push_back({filter.filter});
+    for (const long count : counts) table.rows.back().push_back(fmt::format("{}", count));
+  }
+  return table.rows.empty() ? std::string() : "\n" + plain_text(table);
+}
+
+/// How filters told landmarks apart, for people: sums over the seeds.
+std::string association_table(const std::vector<FilterResult>& filters) {
+  AlignedTable table{
+      .header = {"association", "correct", "wrong", "missed", "imagined", "duplicated", "spurious"}};
+  for (const FilterResult& filter : filters) {
+    if (!filter.association || filter.filter == kBaseline) continue;
+    const AssociationScore& a = *filter.association;
+    table.rows.push_back({filter.filter});
+    for (const long count : {a.correct, a.wrong, a.missed, a.imagined, a.duplicated, a.spurious})
+      table.rows.back().push_back(fmt::format("{}", count));
+  }
+  return table.rows.empty() ? std::string() : "\n" + plain_text(table);
+}
+
+}  // namespace
+
+std::string result_table(const RunResult& result) {
+  std::string text = fmt::format("{}\n", kIntervalNote);
+  if (result.vision) text += vision_line(*result.vision);
+  text += error_table(result) + "\n" + consistency_table(result) + counters_table(result.filters);
+  return result.identities_known ? text : text + association_table(result.filters);
+}
+
+}  // namespace stereobench::harness
