@@ -232,13 +232,13 @@ TEST(PosteriorBound, OnALineSmoothedIsRauchTungAndStriebels) {
   }
   const std::vector<Eigen::Matrix3d> result = bound.smoothed_poses();
   for (std::size_t k = 0; k < kSteps; ++k) EXPECT_NEAR(result[k](0, 0), smoothed[k](0, 0), 1e-14);
-  EXPECT_LT(smoothed[2](0, 0), 0.9 * filtered[2](0, 0)) << "the future tells something";
+  EXPECT_LT(smoothed[2](0, 0), 0.97 * filtered[2](0, 0)) << "the future tells something";
 }
 
 // The batch knows the whole drive, so that it beats the filtering bound, and reaches the smoothing bound
-// where errors are small. Squared errors of 400 drives over a step's bound; the mean may lie three of its own
-// standard deviations off, and 2 % above for what is not linear. Mutations: the filtering bound's poses in
-// place of the smoothed ones; the information of sightings taken twice.
+// where errors are small. Squared errors of 2,000 drives over a step's bound; the mean may lie three of its
+// own standard deviations off, and 2 % above for what is not linear. Mutations: the filtering bound's poses
+// in place of the smoothed ones; the information of sightings taken twice.
 TEST(PosteriorBound, TheBatchReachesTheSmoothingBoundAndNotBelow) {
   Course course(3, 2);
   course.noise = {.v_constant_mps = 0.02, .w_constant_radps = 0.02};
@@ -257,7 +257,7 @@ TEST(PosteriorBound, TheBatchReachesTheSmoothingBoundAndNotBelow) {
                             .range_floor_m = 0.0,
                             .bearing_floor_rad = 0.0,
                             .gate_probability = 1.0};
-  constexpr int kDrives = 400;
+  constexpr int kDrives = 2000;
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t seed = 0; seed < kDrives; ++seed) {
     const BatchEstimate batch = estimate_batch(config, course.start, batch_log(course.measured(seed)));

@@ -260,6 +260,16 @@ TEST(BadFile, IsNoYamlMap) {
   EXPECT_THAT(about("a: &x {b: *x}\n"), HasSubstr("bad.yaml:1: a: unknown key"));
 }
 
+TEST(BadFile, BelievesOfAnOracleThatIsNotThere) {
+  const ScenarioFolder folder;
+  const auto file = folder.write(
+      "bad.yaml", small_scenario_with(
+                      "oracle: {range_sd_m: 0.1, bearing_sd_deg: 1, max_range_m: 20, field_of_view_deg: 90}",
+                      "believed_oracle: {max_range_m: 8}"));
+  EXPECT_THAT(complaint_about(file),
+              EndsWith("bad.yaml:10: believed_oracle: expected `oracle:` beside it, the sensor as it is"));
+}
+
 /// An override that cannot be, and the complaint about it.
 struct BadOverride {
   const char* text;
@@ -288,8 +298,7 @@ constexpr BadOverride kBadOverrides[] = {
     {"camera=[1", "--set camera: expected a YAML value ("},
     {"path.radius_m=10000", "--set path.radius_m: expected at most"},
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
-    {"believed_oracle.max_range_m=8",
-     "--set believed_oracle: expected `oracle:` beside it, the sensor as it is"},
+    {"believed_oracle.range_sd_m=8", "--set believed_oracle.range_sd_m: unknown key"},
     {"refit=maybe", "--set refit: expected true or false (got maybe)"},
     {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
     {"believed_measurement_noise.kind=laser",
