@@ -1,4 +1,3 @@
-#include <array>
 #include <numbers>
 #include <stdexcept>
 
@@ -10,29 +9,13 @@ namespace stereobench::worlds {
 namespace {
 
 enum class Kind { kBallRing, kBallField, kCorridorLoop, kOfficeGrid, kMaze };
-constexpr std::array<std::string_view, 5> kKinds = {"ball_ring", "ball_field", "corridor_loop", "office_grid",
-                                                    "maze"};
-constexpr std::array<std::string_view, 17> kKeys = {
-    "kind",     "seed",          "balls_in_view", "most_balls", "clearance_m", "balls",
-    "centre_m", "ring_radius_m", "low_m",         "high_m",     "columns",     "rows",
-    "pitch_m",  "width_m",       "turns",         "doors",      "height_m"};
-constexpr std::array<std::string_view, 5> kCommonKeys = {"kind", "seed", "balls_in_view", "most_balls",
-                                                         "clearance_m"};
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kSize_m = {0.1, 1e3};
 
-/// The keys of one kind are those that all have, and its own.
-void check_keys(const YamlValue& value, std::initializer_list<std::string_view> own) {
-  std::vector<std::string_view> known(kCommonKeys.begin(), kCommonKeys.end());
-  known.insert(known.end(), own.begin(), own.end());
-  YamlMap(value, known);
-}
-
 std::vector<Eigen::Vector2d> read_ring(const YamlMap& map) {
-  const int balls = map.at("balls").integer(1, 254);
-  const double radius_m = map.number("ring_radius_m", kSize_m);
-  const auto centre = map.find("centre_m");
-  const Eigen::Vector2d centre_m = centre ? read_vector<2>(*centre, kPlace_m) : Eigen::Vector2d(0.0, 0.0);
+  const int balls = map.whole("balls");
+  const double radius_m = map.number("ring_radius_m");
+  const Eigen::Vector2d centre_m = read_vector<2>(map, "centre_m", Eigen::Vector2d(0.0, 0.0));
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i < balls; ++i) {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / balls);
@@ -44,50 +27,37 @@ std::vector<Eigen::Vector2d> read_ring(const YamlMap& map) {
 LatticeConfig read_lattice(const YamlMap& map, std::uint64_t seed) {
   LatticeConfig config;
   config.seed = seed;
-  const auto count = [&](std::string_view key, int least, int most, int& value) {
-    if (const auto written = map.find(key)) value = written->integer(least, most);
-  };
-  count("columns", 1, 50, config.columns);
-  count("rows", 1, 50, config.rows);
-  count("turns", 4, 200, config.turns);
-  count("doors", 0, 1000, config.doors);
-  config.pitch_m = map.number("pitch_m", kSize_m, config.pitch_m);
-  config.width_m = map.number("width_m", {0.5, 100.0}, config.width_m);
-  config.height_m = map.number("height_m", kSize_m, config.height_m);
+  config.columns = map.whole("columns", config.columns);
+  config.rows = map.whole("rows", config.rows);
+  config.turns = map.whole("turns", config.turns);
+  config.doors = map.whole("doors", config.doors);
+  config.pitch_m = map.number("pitch_m", config.pitch_m);
+  config.width_m = map.number("width_m", config.width_m);
+  config.height_m = map.number("height_m", config.height_m);
   return config;
 }
 
-void read_rules(const YamlMap& map, PlacementRules& rules) {
-  if (const auto seed = map.find("seed"))
-    rules.seed = static_cast<std::uint64_t>(seed->integer(0, 2147483647));
-  if (const auto count = map.find("balls_in_view")) rules.in_view = count->integer(0, 254);
-  if (const auto count = map.find("most_balls")) rules.most_balls = count->integer(1, 254);
-  rules.clearance_m = map.number("clearance_m", {0.0, 100.0}, rules.clearance_m);
+void read_field(const YamlMap& map, PlacementRules& rules) {
+  rules.scattered = map.whole("balls");
+  rules.field_m = {read_vector<2>(map, "low_m"), read_vector<2>(map, "high_m")};
+  if (rules.field_m.isEmpty()) map.at("high_m").refuse("expected high_m above low_m");
 }
 
-void make(const YamlValue& value, Kind kind, const YamlMap& map, Generator& generator) {
+void make(Kind kind, const YamlMap& map, Generator& generator) {
   switch (kind) {
     case Kind::kBallRing:
-      check_keys(value, {"balls", "centre_m", "ring_radius_m"});
       generator.rules.first_m = read_ring(map);
       return;
     case Kind::kBallField:
-      check_keys(value, {"balls", "low_m", "high_m"});
-      generator.rules.scattered = map.at("balls").integer(1, 254);
-      generator.rules.field_m = {read_vector<2>(map.at("low_m"), kPlace_m),
-                                 read_vector<2>(map.at("high_m"), kPlace_m)};
-      if (generator.rules.field_m.isEmpty()) map.at("high_m").refuse("expected high_m above low_m");
+      read_field(map, generator.rules);
       return;
     case Kind::kCorridorLoop:
-      check_keys(value, {"columns", "rows", "pitch_m", "width_m", "turns", "doors", "height_m"});
       generator.layout = make_corridor_loop(read_lattice(map, generator.rules.seed));
       return;
     case Kind::kOfficeGrid:
-      check_keys(value, {"columns", "rows", "pitch_m", "width_m", "turns", "height_m"});
       generator.layout = make_office_grid(read_lattice(map, generator.rules.seed));
       return;
     case Kind::kMaze:
-      check_keys(value, {"columns", "rows", "pitch_m", "height_m"});
       generator.layout = make_maze(read_lattice(map, generator.rules.seed));
       return;
   }
@@ -95,13 +65,64 @@ void make(const YamlValue& value, Kind kind, const YamlMap& map, Generator& gene
 
 }  // namespace
 
+const KeyGroup& generator_keys() {
+  static const std::vector<std::string_view> lattices = {"corridor_loop", "office_grid", "maze"};
+  static const std::vector<std::string_view> corridors = {"corridor_loop", "office_grid"};
+  static const std::vector<std::string_view> fields = {"ball_ring", "ball_field"};
+  static const KeyGroup keys = {
+      .kind_key = "kind",
+      .keys = {
+          choice("kind", {"ball_ring", "ball_field", "corridor_loop", "office_grid", "maze"},
+                 "What is made; the last three have walls, and a tour to drive.")
+              .needed(),
+          whole("seed", 0, 2147483647, "The same seed makes the same world, bit for bit.").otherwise("0"),
+          whole("balls_in_view", 0, 254, "Balls are placed until at each step so many are in view, at least.")
+              .otherwise("2"),
+          whole("most_balls", 1, 254, "How many balls may be placed.").otherwise("100"),
+          number("clearance_m", {0.0, 100.0}, "Distance between the drive and a ball, in metres.")
+              .otherwise("0.3"),
+          whole("balls", 1, 254, "How many balls stand on the ring, or in the field.")
+              .only_for(fields)
+              .needed_for(fields),
+          number("centre_m", kPlace_m, "Middle of the ring: x, y in metres.")
+              .vector(2)
+              .only_for({"ball_ring"})
+              .otherwise("[0, 0]"),
+          number("ring_radius_m", kSize_m, "Radius of the ring, in metres.")
+              .only_for({"ball_ring"})
+              .needed_for({"ball_ring"}),
+          number("low_m", kPlace_m, "South-west corner of the field: x, y in metres.")
+              .vector(2)
+              .only_for({"ball_field"})
+              .needed_for({"ball_field"}),
+          number("high_m", kPlace_m, "North-east corner of the field: x, y in metres.")
+              .vector(2)
+              .only_for({"ball_field"})
+              .needed_for({"ball_field"}),
+          whole("columns", 1, 50, "Cells from west to east.").only_for(lattices).otherwise("3"),
+          whole("rows", 1, 50, "Cells from south to north.").only_for(lattices).otherwise("3"),
+          number("pitch_m", kSize_m, "Side of a cell, in metres.").only_for(lattices).otherwise("6"),
+          number("width_m", {0.5, 100.0}, "Width of corridors, in metres.")
+              .only_for(corridors)
+              .otherwise("2.4"),
+          whole("turns", 4, 200, "Turns of the tour, at least.").only_for(corridors).otherwise("4"),
+          whole("doors", 0, 1000, "Panels of wood on the walls.").only_for({"corridor_loop"}).otherwise("0"),
+          number("height_m", kSize_m, "Height of the walls, in metres.").only_for(lattices).otherwise("2.6"),
+      }};
+  return keys;
+}
+
 Generator read_generator(const YamlValue& value, double ball_radius_m) {
-  const YamlMap map(value, kKeys);
+  const YamlMap map(value, generator_keys());
   Generator generator;
-  generator.rules.radius_m = ball_radius_m;
-  read_rules(map, generator.rules);
+  PlacementRules& rules = generator.rules;
+  rules.radius_m = ball_radius_m;
+  rules.seed = static_cast<std::uint64_t>(map.whole("seed", static_cast<int>(rules.seed)));
+  rules.in_view = map.whole("balls_in_view", rules.in_view);
+  rules.most_balls = map.whole("most_balls", rules.most_balls);
+  rules.clearance_m = map.number("clearance_m", rules.clearance_m);
   try {
-    make(value, static_cast<Kind>(map.at("kind").choice(kKinds)), map, generator);
+    make(static_cast<Kind>(map.choice("kind")), map, generator);
   } catch (const std::invalid_argument& error) {
     value.refuse(error.what());
   }

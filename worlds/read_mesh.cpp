@@ -1,4 +1,3 @@
-#include <array>
 #include <numbers>
 #include <span>
 
@@ -9,9 +8,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
-constexpr Interval kFactor = {1e-3, 1e3};
 constexpr Interval kTurn_deg = {-360.0, 360.0};
-constexpr std::array<std::string_view, 2> kUps = {"z", "y"};
 
 /// Puts a mesh of unit height between the floor and the ball that `ball` names.
 void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInstance& mesh) {
@@ -23,25 +20,19 @@ void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInst
   mesh.scale.z() = height_m / mesh.unit_m;
 }
 
-/// One factor, or one for each axis.
-Eigen::Vector3d read_scale(const YamlValue& value) {
-  return value.is_list() ? read_vector<3>(value, kFactor) : Eigen::Vector3d::Constant(value.number(kFactor));
-}
-
 /// A file that exists, or a shape of our own.
 void read_form(const YamlValue& value, const YamlMap& map, const std::filesystem::path& folder,
                MeshInstance& mesh) {
   const auto shape = map.find("shape");
-  const auto file = map.find("file");
-  if (shape && file) value.refuse("expected either file or shape");
+  if (shape && map.find("file")) value.refuse("expected either file or shape");
   if (shape) {
-    mesh.shape = static_cast<MeshShape>(1 + shape->choice(kShapeNames));
+    mesh.shape = static_cast<MeshShape>(1 + map.choice("shape"));
     mesh.material = Material::kPaint;
     return;
   }
-  const std::filesystem::path path =
-      std::filesystem::absolute(folder / map.at("file").text()).lexically_normal();
-  if (!std::filesystem::is_regular_file(path)) file->fail("expected a mesh file that exists");
+  const YamlValue file = map.at("file");
+  const std::filesystem::path path = std::filesystem::absolute(folder / file.text()).lexically_normal();
+  if (!std::filesystem::is_regular_file(path)) file.fail("expected a mesh file that exists");
   mesh.file = path.string();
 }
 
@@ -53,37 +44,85 @@ Material read_material(const YamlValue& value, MeshShape shape) {
 
 }  // namespace
 
+const KeyGroup& mesh_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          text("file", "Mesh file (obj, dae, gltf, glb, stl, fbx), relative to the scenario's folder.")
+              .needed_unless("shape"),
+          choice("shape", {kShapeNames.begin(), kShapeNames.end()},
+                 "A shape of unit size in place of a file.")
+              .otherwise_says("file"),
+          number("unit_m", {1e-6, 1e3}, "Length of the file's unit, in metres.").otherwise("1"),
+          choice("up", {"z", "y"}, "Which of the file's axes points up.").otherwise("z"),
+          number("at_m", kPlace_m, "Where its origin stands in the world: x, y, z in metres.")
+              .vector(3)
+              .needed_unless("under_ball"),
+          whole("under_ball", 0, 253,
+                "Index of the ball that it carries: it reaches from the floor up to it.")
+              .otherwise_says("at_m"),
+          number("heading_deg", kTurn_deg, "Turn about the vertical axis, in degrees, after pitch and roll.")
+              .otherwise("0"),
+          number("pitch_deg", kTurn_deg, "Turn about the y axis, in degrees, after roll.").otherwise("0"),
+          number("roll_deg", kTurn_deg, "Turn about the x axis, in degrees.").otherwise("0"),
+          number("scale", {1e-3, 1e3}, "Factor on its size, or one for each axis.")
+              .or_vector(3)
+              .otherwise("[1, 1, 1]"),
+          choice("material", {kMaterialNames.begin(), kMaterialNames.end()},
+                 "What it is made of; `file` takes the file's own colours and textures.")
+              .otherwise_says("wood; paint for a shape"),
+          number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
+              .vector(3)
+              .otherwise("[1, 1, 1]"),
+      }};
+  return keys;
+}
+
 MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& folder,
                        const std::vector<Ball>& balls) {
-  const YamlMap map(value, {"file", "shape", "unit_m", "up", "at_m", "under_ball", "heading_deg", "pitch_deg",
-                            "roll_deg", "scale", "material", "tint_rgb"});
+  const YamlMap map(value, mesh_keys());
   MeshInstance mesh;
   read_form(value, map, folder, mesh);
-  mesh.unit_m = map.number("unit_m", {1e-6, 1e3}, 1.0);
-  if (const auto up = map.find("up")) mesh.up = static_cast<MeshUp>(up->choice(kUps));
-  mesh.heading_rad = map.number("heading_deg", kTurn_deg, 0.0) * kDegree;
-  mesh.pitch_rad = map.number("pitch_deg", kTurn_deg, 0.0) * kDegree;
-  mesh.roll_rad = map.number("roll_deg", kTurn_deg, 0.0) * kDegree;
-  if (const auto scale = map.find("scale")) mesh.scale = read_scale(*scale);
-  const auto at = map.find("at_m");
+  mesh.unit_m = map.number("unit_m", mesh.unit_m);
+  mesh.up = read_choice(map, "up", mesh.up);
+  mesh.heading_rad = map.number("heading_deg", 0.0) * kDegree;
+  mesh.pitch_rad = map.number("pitch_deg", 0.0) * kDegree;
+  mesh.roll_rad = map.number("roll_deg", 0.0) * kDegree;
+  mesh.scale = read_vector<3>(map, "scale", mesh.scale);
   const auto ball = map.find("under_ball");
-  if (at.has_value() == ball.has_value()) value.refuse("expected either at_m or under_ball");
-  if (at) mesh.position_m = read_vector<3>(*at, kPlace_m);
-  if (ball) stand_under(*ball, balls, mesh);
+  if (ball && map.find("at_m")) value.refuse("expected either at_m or under_ball");
+  if (ball)
+    stand_under(*ball, balls, mesh);
+  else
+    mesh.position_m = read_vector<3>(map, "at_m");
   if (const auto material = map.find("material")) mesh.material = read_material(*material, mesh.shape);
-  if (const auto tint = map.find("tint_rgb")) mesh.tint_rgb = read_vector<3>(*tint, kTint);
+  mesh.tint_rgb = read_vector<3>(map, "tint_rgb", mesh.tint_rgb);
   return mesh;
 }
 
+const KeyGroup& mesh_limit_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          whole("triangles", 1, 100000000, "Triangles of a file, and of all instances in the world together.")
+              .otherwise("2000000"),
+          whole("file_mib", 1, 65536, "Size of a mesh file, in MiB.").otherwise("64"),
+          number("seconds", {1e-3, 3600.0}, "Time to read a file, in seconds.").otherwise("4"),
+          whole("memory_mib", 1, 1048576, "Memory to read a file, in MiB.").otherwise("1024"),
+          whole("texture_px", 1, 32768, "Longer side of a texture, in pixels.").otherwise("4096"),
+          whole("texture_mib", 1, 512, "All textures of the world together, as they are drawn, in MiB.")
+              .otherwise("256"),
+      }};
+  return keys;
+}
+
 MeshLimits read_mesh_limits(const YamlValue& value) {
-  const YamlMap map(value, {"triangles", "file_mib", "seconds", "memory_mib", "texture_px", "texture_mib"});
+  const YamlMap map(value, mesh_limit_keys());
   MeshLimits limits;
-  if (const auto most = map.find("triangles")) limits.triangles = most->integer(1, 100000000);
-  if (const auto most = map.find("file_mib")) limits.file_mib = most->integer(1, 65536);
-  if (const auto most = map.find("memory_mib")) limits.memory_mib = most->integer(1, 1048576);
-  if (const auto most = map.find("texture_px")) limits.texture_px = most->integer(1, 32768);
-  if (const auto most = map.find("texture_mib")) limits.texture_mib = most->integer(1, 512);
-  limits.seconds = map.number("seconds", {1e-3, 3600.0}, limits.seconds);
+  limits.triangles = map.whole("triangles", limits.triangles);
+  limits.file_mib = map.whole("file_mib", limits.file_mib);
+  limits.seconds = map.number("seconds", limits.seconds);
+  limits.memory_mib = map.whole("memory_mib", limits.memory_mib);
+  limits.texture_px = map.whole("texture_px", limits.texture_px);
+  limits.texture_mib = map.whole("texture_mib", limits.texture_mib);
   return limits;
 }
 

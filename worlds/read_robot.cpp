@@ -1,6 +1,4 @@
-#include <array>
 #include <numbers>
-#include <span>
 
 #include "vision/distortion.h"
 #include "worlds/oracle.h"
@@ -12,120 +10,142 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kNoise = {0.0, 100.0};
+constexpr Interval kFocal_px = {1.0, 1e5};
+constexpr Interval kCentre_px = {0.0, 4095.0};
+constexpr Interval kBaseline_m = {1e-3, 10.0};
+constexpr Interval kHeight_m = {1e-3, 100.0};
+constexpr Interval kPitch_deg = {-80.0, 80.0};
 constexpr Interval kTurn_deg = {-45.0, 45.0};
+constexpr Interval kLens = {-100.0, 100.0};
 
-vision::Distortion read_distortion(const YamlValue& value, const vision::Intrinsics& camera) {
-  const Eigen::Matrix<double, 5, 1> k = read_vector<5>(value, {-100.0, 100.0});
-  const vision::Distortion lens = {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
-  if (!vision::directions_seen(lens, camera))
-    value.refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
-  return lens;
+void read_distortion(const YamlMap& map, vision::StereoRig& rig) {
+  const auto value = map.find("distortion");
+  const Eigen::Matrix<double, 5, 1> otherwise(rig.distortion.k1, rig.distortion.k2, rig.distortion.p1,
+                                              rig.distortion.p2, rig.distortion.k3);
+  const Eigen::Matrix<double, 5, 1> k = read_vector<5>(map, "distortion", otherwise);
+  rig.distortion = {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+  if (value && !vision::directions_seen(rig.distortion, rig.camera))
+    value->refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
+}
+
+/// A centre of the picture lies within it.
+double read_centre_px(const YamlMap& map, std::string_view key, double last_px, double otherwise_px) {
+  const auto value = map.find(key);
+  return value ? value->number({0.0, last_px}) : map.number(key, otherwise_px);
+}
+
+/// What the true rig and the believed one have in common. @param rig defaults
+void read_rig_parts(const YamlMap& map, vision::StereoRig& rig) {
+  vision::Intrinsics& camera = rig.camera;
+  camera.cx_px = read_centre_px(map, "cx_px", camera.width_px - 1.0, camera.cx_px);
+  camera.cy_px = read_centre_px(map, "cy_px", camera.height_px - 1.0, camera.cy_px);
+  rig.pitch_down_rad = map.number("pitch_down_deg", rig.pitch_down_rad / kDegree) * kDegree;
+  if (map.find("right_turn_deg")) rig.right_turn_rad = read_vector<3>(map, "right_turn_deg") * kDegree;
+  read_distortion(map, rig);
 }
 
 }  // namespace
 
+const KeyGroup& rig_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          whole("width_px", 16, 4096, "Columns of a picture.").needed(),
+          whole("height_px", 16, 4096, "Rows of a picture.").needed(),
+          number("focal_px", kFocal_px, "Focal length, in pixels.").needed(),
+          number("cx_px", kCentre_px, "Column of the principal point, in pixels.")
+              .otherwise_says("(width_px - 1) / 2"),
+          number("cy_px", kCentre_px, "Row of the principal point, in pixels.")
+              .otherwise_says("(height_px - 1) / 2"),
+          number("baseline_m", kBaseline_m, "Distance between the two eyes, in metres.").needed(),
+          number("height_m", kHeight_m, "Height of the eyes above the floor, in metres.").needed(),
+          number("pitch_down_deg", kPitch_deg, "How far the eyes look down, in degrees.").otherwise("0"),
+          number("right_turn_deg", kTurn_deg,
+                 "Turn of the right eye out of its place, about the camera's x, y and z, in degrees.")
+              .vector(3)
+              .otherwise("[0, 0, 0]"),
+          number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
+              .vector(5)
+              .otherwise("[0, 0, 0, 0, 0]"),
+      }};
+  return keys;
+}
+
 vision::StereoRig read_rig(const YamlValue& value) {
-  const YamlMap map(value, {"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
-                            "pitch_down_deg", "right_turn_deg", "distortion"});
+  const YamlMap map(value, rig_keys());
   vision::StereoRig rig;
-  rig.camera.width_px = map.at("width_px").integer(16, 4096);
-  rig.camera.height_px = map.at("height_px").integer(16, 4096);
-  rig.camera.focal_px = map.number("focal_px", {1.0, 1e5});
-  const double right_px = rig.camera.width_px - 1;
-  const double bottom_px = rig.camera.height_px - 1;
-  rig.camera.cx_px = map.number("cx_px", {0.0, right_px}, right_px / 2.0);
-  rig.camera.cy_px = map.number("cy_px", {0.0, bottom_px}, bottom_px / 2.0);
-  rig.baseline_m = map.number("baseline_m", {1e-3, 10.0});
-  rig.height_m = map.number("height_m", {1e-3, 100.0});
-  rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, 0.0) * kDegree;
-  if (const auto turn = map.find("right_turn_deg"))
-    rig.right_turn_rad = read_vector<3>(*turn, kTurn_deg) * kDegree;
-  if (const auto lens = map.find("distortion")) rig.distortion = read_distortion(*lens, rig.camera);
+  rig.camera.width_px = map.whole("width_px");
+  rig.camera.height_px = map.whole("height_px");
+  rig.camera.focal_px = map.number("focal_px");
+  rig.camera.cx_px = (rig.camera.width_px - 1) / 2.0;
+  rig.camera.cy_px = (rig.camera.height_px - 1) / 2.0;
+  rig.baseline_m = map.number("baseline_m");
+  rig.height_m = map.number("height_m");
+  rig.pitch_down_rad = 0.0;
+  read_rig_parts(map, rig);
   return rig;
+}
+
+const KeyGroup& believed_rig_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          number("focal_px", kFocal_px, "Focal length, in pixels.").otherwise_as("rig.focal_px"),
+          number("cx_px", kCentre_px, "Column of the principal point, in pixels.").otherwise_as("rig.cx_px"),
+          number("cy_px", kCentre_px, "Row of the principal point, in pixels.").otherwise_as("rig.cy_px"),
+          number("baseline_m", kBaseline_m, "Distance between the two eyes, in metres.")
+              .otherwise_as("rig.baseline_m"),
+          number("height_m", kHeight_m, "Height of the eyes above the floor, in metres.")
+              .otherwise_as("rig.height_m"),
+          number("pitch_down_deg", kPitch_deg, "How far the eyes look down, in degrees.")
+              .otherwise_as("rig.pitch_down_deg"),
+          number("right_turn_deg", kTurn_deg,
+                 "Turn of the right eye out of its place, about the camera's x, y and z, in degrees.")
+              .vector(3)
+              .otherwise_as("rig.right_turn_deg"),
+          number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
+              .vector(5)
+              .otherwise_as("rig.distortion"),
+      }};
+  return keys;
 }
 
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth) {
-  const YamlMap map(value, {"focal_px", "cx_px", "cy_px", "baseline_m", "height_m", "pitch_down_deg",
-                            "right_turn_deg", "distortion"});
+  const YamlMap map(value, believed_rig_keys());
   vision::StereoRig rig = truth;
-  rig.camera.focal_px = map.number("focal_px", {1.0, 1e5}, rig.camera.focal_px);
-  rig.camera.cx_px = map.number("cx_px", {0.0, rig.camera.width_px - 1.0}, rig.camera.cx_px);
-  rig.camera.cy_px = map.number("cy_px", {0.0, rig.camera.height_px - 1.0}, rig.camera.cy_px);
-  rig.baseline_m = map.number("baseline_m", {1e-3, 10.0}, rig.baseline_m);
-  rig.height_m = map.number("height_m", {1e-3, 100.0}, rig.height_m);
-  rig.pitch_down_rad = map.number("pitch_down_deg", {-80.0, 80.0}, rig.pitch_down_rad / kDegree) * kDegree;
-  if (const auto turn = map.find("right_turn_deg"))
-    rig.right_turn_rad = read_vector<3>(*turn, kTurn_deg) * kDegree;
-  if (const auto lens = map.find("distortion")) rig.distortion = read_distortion(*lens, rig.camera);
+  rig.camera.focal_px = map.number("focal_px", rig.camera.focal_px);
+  rig.baseline_m = map.number("baseline_m", rig.baseline_m);
+  rig.height_m = map.number("height_m", rig.height_m);
+  read_rig_parts(map, rig);
   return rig;
 }
 
+const KeyGroup& odometry_noise_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          number("v_constant_mps", kNoise, "Standard deviation of the forward speed: constant part, in m/s.")
+              .otherwise("0"),
+          number("v_per_v", kNoise, "The same per m/s of forward speed.").otherwise("0"),
+          number("v_per_w", kNoise, "The same per rad/s of turn rate.").otherwise("0"),
+          number("w_constant_degps", {0.0, 1e4},
+                 "Standard deviation of the turn rate: constant part, in degrees per second.")
+              .otherwise("0"),
+          number("w_per_v", kNoise, "The same, in rad/s, per m/s of forward speed.").otherwise("0"),
+          number("w_per_w", kNoise, "The same, in rad/s, per rad/s of turn rate.").otherwise("0"),
+          number("correlation_s", {0.0, 1e3}, "How long an error lasts, in seconds.").otherwise("0"),
+      }};
+  return keys;
+}
+
 slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
-  const YamlMap map(value, {"v_constant_mps", "v_per_v", "v_per_w", "w_constant_degps", "w_per_v", "w_per_w",
-                            "correlation_s"});
+  const YamlMap map(value, odometry_noise_keys());
   slam::OdometryNoise noise;
-  noise.v_constant_mps = map.number("v_constant_mps", kNoise, 0.0);
-  noise.v_per_v = map.number("v_per_v", kNoise, 0.0);
-  noise.v_per_w = map.number("v_per_w", kNoise, 0.0);
-  noise.w_constant_radps = map.number("w_constant_degps", {0.0, 1e4}, 0.0) * kDegree;
-  noise.w_per_v = map.number("w_per_v", kNoise, 0.0);
-  noise.w_per_w = map.number("w_per_w", kNoise, 0.0);
-  noise.correlation_s = map.number("correlation_s", {0.0, 1e3}, 0.0);
+  noise.v_constant_mps = map.number("v_constant_mps", 0.0);
+  noise.v_per_v = map.number("v_per_v", 0.0);
+  noise.v_per_w = map.number("v_per_w", 0.0);
+  noise.w_constant_radps = map.number("w_constant_degps", 0.0) * kDegree;
+  noise.w_per_v = map.number("w_per_v", 0.0);
+  noise.w_per_w = map.number("w_per_w", 0.0);
+  noise.correlation_s = map.number("correlation_s", 0.0);
   return noise;
-}
-
-namespace {
-
-constexpr Interval kScale = {1e-3, 1e3};
-
-MeasurementNoise read_stated_noise(const YamlValue& value) {
-  const YamlMap map(value, {"kind", "range_sd_scale", "bearing_sd_scale"});
-  return {.stated_sd_scale = {map.number("range_sd_scale", kScale, 1.0),
-                              map.number("bearing_sd_scale", kScale, 1.0)}};
-}
-
-MeasurementNoise read_constant_noise(const YamlValue& value) {
-  const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg"});
-  return {.law = slam::NoiseLaw{.range_sd_m = map.number("range_sd_m", kNoise),
-                                .bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree}};
-}
-
-MeasurementNoise read_stereo_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig) {
-  const YamlMap map(value, {"kind", "range_sd_m", "disparity_sd_px", "bearing_sd_px"});
-  if (!rig) value.refuse("expected a rig beside the stereo law");
-  const double focal_px = rig->camera.focal_px;
-  return {.law = slam::NoiseLaw{
-              .range_sd_m = map.number("range_sd_m", kNoise, 0.0),
-              .range_sd_per_m2 = map.number("disparity_sd_px", kNoise) / (focal_px * rig->baseline_m),
-              .bearing_sd_rad = map.number("bearing_sd_px", kNoise) / focal_px}};
-}
-
-constexpr std::array<std::string_view, 4> kNoiseKinds = {"per_observation", "constant", "stereo", "file"};
-
-std::size_t noise_kind(const YamlValue& value, std::size_t kinds) {
-  const YamlMap map(value, {"kind", "range_sd_m", "bearing_sd_deg", "disparity_sd_px", "bearing_sd_px",
-                            "range_sd_scale", "bearing_sd_scale", "file"});
-  return map.at("kind").choice(std::span(kNoiseKinds).first(kinds));
-}
-
-/// A law that is written where it is asked for, and not in a file.
-MeasurementNoise read_noise_law(const YamlValue& value, const std::optional<vision::StereoRig>& rig) {
-  const std::size_t kind = noise_kind(value, kNoiseKinds.size() - 1);
-  if (kind == 0) return read_stated_noise(value);
-  return kind == 1 ? read_constant_noise(value) : read_stereo_noise(value, rig);
-}
-
-}  // namespace
-
-MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig,
-                                        const std::filesystem::path& folder) {
-  if (noise_kind(value, kNoiseKinds.size()) + 1 < kNoiseKinds.size()) return read_noise_law(value, rig);
-  const YamlValue file = YamlMap(value, {"kind", "file"}).at("file");
-  const std::filesystem::path path = folder / file.text();
-  if (!std::filesystem::is_regular_file(path))
-    file.fail("expected a file that `stereobench calibrate` wrote");
-  const YamlDocument document = load_yaml(path, {});
-  return read_noise_law(YamlValue(document, "", document.root, document.root.Mark()), rig);
 }
 
 namespace {
@@ -136,27 +156,55 @@ constexpr Interval kFalse = {0.0, 100.0};
 
 }  // namespace
 
+const KeyGroup& oracle_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          number("range_sd_m", kNoise, "Standard deviation of a range, in metres.").needed(),
+          number("bearing_sd_deg", {0.0, 180.0}, "Standard deviation of a bearing, in degrees.").needed(),
+          number("max_range_m", kSize_m, "How far it sees, in metres.").needed(),
+          number("field_of_view_deg", kFieldOfView_deg, "Whole angle of its sector, in degrees.").needed(),
+          number("miss_probability", kMisses, "Probability that it misses a ball in view.").otherwise("0"),
+          number("false_per_look", kFalse, "Mean number of sightings of nothing in a look.").otherwise("0"),
+      }};
+  return keys;
+}
+
+const KeyGroup& believed_oracle_keys() {
+  static const KeyGroup keys = {
+      .keys = {
+          number("max_range_m", {0.0, kSize_m.most},
+                 "How far filters believe it to see, in metres; 0: no limit.")
+              .otherwise_as("oracle.max_range_m"),
+          number("field_of_view_deg", kFieldOfView_deg, "Whole angle of its believed sector, in degrees.")
+              .otherwise_as("oracle.field_of_view_deg"),
+          number("miss_probability", kMisses, "Believed probability that it misses a ball in view.")
+              .otherwise_as("oracle.miss_probability"),
+          number("false_per_look", kFalse, "Believed mean number of sightings of nothing in a look.")
+              .otherwise_as("oracle.false_per_look"),
+      }};
+  return keys;
+}
+
 OracleSensor read_oracle(const YamlValue& value) {
-  const YamlMap map(value, {"range_sd_m", "bearing_sd_deg", "max_range_m", "field_of_view_deg",
-                            "miss_probability", "false_per_look"});
+  const YamlMap map(value, oracle_keys());
   OracleSensor sensor;
-  sensor.range_sd_m = map.number("range_sd_m", kNoise);
-  sensor.bearing_sd_rad = map.number("bearing_sd_deg", {0.0, 180.0}) * kDegree;
-  sensor.max_range_m = map.number("max_range_m", kSize_m);
-  sensor.field_of_view_rad = map.number("field_of_view_deg", kFieldOfView_deg) * kDegree;
-  sensor.miss_probability = map.number("miss_probability", kMisses, 0.0);
-  sensor.false_per_look = map.number("false_per_look", kFalse, 0.0);
+  sensor.range_sd_m = map.number("range_sd_m");
+  sensor.bearing_sd_rad = map.number("bearing_sd_deg") * kDegree;
+  sensor.max_range_m = map.number("max_range_m");
+  sensor.field_of_view_rad = map.number("field_of_view_deg") * kDegree;
+  sensor.miss_probability = map.number("miss_probability", 0.0);
+  sensor.false_per_look = map.number("false_per_look", 0.0);
   return sensor;
 }
 
 slam::SensorSector read_believed_oracle(const YamlValue& value, const OracleSensor& oracle) {
-  const YamlMap map(value, {"max_range_m", "field_of_view_deg", "miss_probability", "false_per_look"});
+  const YamlMap map(value, believed_oracle_keys());
   slam::SensorSector believed = sector_of(oracle);
-  believed.range_m = map.number("max_range_m", {0.0, kSize_m.most}, believed.range_m);
-  if (const auto view = map.find("field_of_view_deg"))
-    believed.half_angle_rad = view->number(kFieldOfView_deg) * kDegree / 2.0;
-  believed.miss_probability = map.number("miss_probability", kMisses, believed.miss_probability);
-  believed.false_per_look = map.number("false_per_look", kFalse, believed.false_per_look);
+  believed.range_m = map.number("max_range_m", believed.range_m);
+  if (map.find("field_of_view_deg"))
+    believed.half_angle_rad = map.number("field_of_view_deg") * kDegree / 2.0;
+  believed.miss_probability = map.number("miss_probability", believed.miss_probability);
+  believed.false_per_look = map.number("false_per_look", believed.false_per_look);
   return believed;
 }
 

@@ -15,6 +15,9 @@
 namespace stereobench::worlds {
 namespace {
 
+constexpr std::string_view kNamePattern = "^[a-z0-9_]{1,64}$";
+constexpr std::string_view kSeedsPattern = R"(^[0-9]+(\.\.[0-9]+|(,[0-9]+)*)$)";
+
 std::string read_name(const YamlValue& value) {
   const std::string name = value.text();
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
@@ -24,12 +27,15 @@ std::string read_name(const YamlValue& value) {
   return name;
 }
 
-std::vector<std::string> read_filters(const YamlValue& value) {
-  const std::vector<std::string> known = slam::filter_names();
-  const std::vector<std::string_view> names(known.begin(), known.end());
+const std::vector<std::string>& filter_names() {
+  static const std::vector<std::string> names = slam::filter_names();
+  return names;
+}
+
+std::vector<std::string> read_filters(const YamlMap& map) {
   std::vector<std::string> filters;
-  for (const YamlValue& entry : value.list(1, 16)) {
-    filters.push_back(known[entry.choice(names)]);
+  for (const YamlValue& entry : map.list("filters")) {
+    filters.push_back(filter_names()[entry.choice(map.declared("filters").names)]);
     if (std::ranges::count(filters, filters.back()) > 1) entry.fail("expected each filter once");
   }
   return filters;
@@ -46,12 +52,26 @@ std::vector<std::uint64_t> read_seeds(const YamlValue& value) {
 
 /// What is done with the world: who looks at it, how often, and what the outcome must be.
 void read_run(const YamlMap& map, Scenario& scenario) {
-  if (const auto filters = map.find("filters")) scenario.filters = read_filters(*filters);
-  if (const auto particles = map.find("particles")) scenario.particles = particles->integer(1, 100000);
-  if (const auto draw_every = map.find("draw_every")) scenario.draw_every = draw_every->integer(1, 100000);
-  if (const auto refit = map.find("refit")) scenario.refit = refit->flag();
+  if (map.find("filters")) scenario.filters = read_filters(map);
+  scenario.particles = map.whole("particles", scenario.particles);
+  scenario.draw_every = map.whole("draw_every", scenario.draw_every);
+  scenario.refit = map.flag("refit", scenario.refit);
   if (const auto seeds = map.find("seeds")) scenario.seeds = read_seeds(*seeds);
-  if (const auto gates = map.find("gates")) scenario.gates = read_gates(*gates);
+  for (const YamlValue& gate : map.list("gates")) scenario.gates.push_back(read_gate(gate));
+}
+
+void read_eyes(const YamlMap& map, Scenario& scenario) {
+  const bool stereo = scenario.sensor == SensorKind::kStereo;
+  if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
+  const auto believed = map.find("believed_rig");
+  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
+  if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
+  if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
+  if (const auto detector = map.find("detector")) {
+    if (!stereo) detector->refuse("the oracle has no pictures to look at");
+    scenario.detector.command = detector->text();
+  }
+  scenario.detector.timeout_s = map.number("detector_timeout_s", scenario.detector.timeout_s);
 }
 
 void read_oracles(const YamlMap& map, Scenario& scenario) {
@@ -64,32 +84,18 @@ void read_oracles(const YamlMap& map, Scenario& scenario) {
 }
 
 void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scenario& scenario) {
-  constexpr std::array<std::string_view, 2> kSensors = {"stereo", "oracle"};
-  constexpr std::array<std::string_view, 3> kIdentities = {"known", "colour_class", "none"};
-  constexpr std::array<std::string_view, 2> kAssociations = {"individual", "joint"};
-  scenario.sensor = static_cast<SensorKind>(map.at("sensor").choice(kSensors));
-  scenario.identity = static_cast<Identity>(map.at("identity").choice(kIdentities));
-  scenario.colour_spacing_m = map.number("colour_spacing_m", {0.0, 1e4}, 0.0);
-  if (const auto association = map.find("association"))
-    scenario.association = static_cast<slam::Association>(association->choice(kAssociations));
-  const bool stereo = scenario.sensor == SensorKind::kStereo;
-  if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
-  const auto believed = map.find("believed_rig");
-  scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
-  if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
-  if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
-  if (const auto detector = map.find("detector")) {
-    if (!stereo) detector->refuse("the oracle has no pictures to look at");
-    scenario.detector.command = detector->text();
-  }
-  scenario.detector.timeout_s = map.number("detector_timeout_s", {1e-3, 1e6}, scenario.detector.timeout_s);
+  scenario.sensor = static_cast<SensorKind>(map.choice("sensor"));
+  scenario.identity = static_cast<Identity>(map.choice("identity"));
+  scenario.colour_spacing_m = map.number("colour_spacing_m", scenario.colour_spacing_m);
+  scenario.association = read_choice(map, "association", scenario.association);
+  read_eyes(map, scenario);
+  read_oracles(map, scenario);
   if (const auto noise = map.find("believed_measurement_noise")) {
     const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;
     const MeasurementNoise told = read_measurement_noise(*noise, rig, folder);
     scenario.believed_measurement_noise = told.law;
     scenario.stated_sd_scale = told.stated_sd_scale;
   }
-  read_oracles(map, scenario);
 }
 
 void read_odometry(const YamlMap& map, Scenario& scenario) {
@@ -110,7 +116,7 @@ void generate(const YamlValue& value, const Generator& generator, Scenario& scen
 
 void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder, const SolidReader& solids,
                          Scenario& scenario) {
-  const YamlMap world(map.at("world"), kWorldKeys);
+  const YamlMap world(map.at("world"), world_keys());
   const auto made = world.find("generator");
   std::optional<Generator> generator;
   if (made) generator = read_generator(*made, read_ball_radius_m(world));
@@ -130,44 +136,71 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
 
 }  // namespace
 
+const KeyGroup& scenario_keys() {
+  static const KeyGroup keys = {
+      .kind_key = "sensor",
+      .keys = {
+          text("name", "Name of the results: small letters, digits and _.", kNamePattern).needed(),
+          text("description", "What it is, for people.").otherwise_says("none"),
+          choice("filters", {filter_names().begin(), filter_names().end()},
+                 "Filters that are run; dead reckoning always is.")
+              .list(1, 16)
+              .otherwise("[dead_reckoning, fastslam2, ufastslam]"),
+          whole("particles", 1, 100000, "Particles of each particle filter.").otherwise("100"),
+          whole("draw_every", 1, 100000, "Frames of a block, of the filters that draw poses in blocks.")
+              .otherwise("40"),
+          text("seeds", "Which seeds are run: 0..9 (both included), 3, or 0,4,7.", kSeedsPattern)
+              .otherwise("0"),
+          group("gates", gate_keys(), "Limits on metrics of run.json; a broken one is exit code 1.")
+              .list(0, 1000),
+          choice("sensor", {"stereo", "oracle"}, "Whether pictures are rendered, or range and bearing drawn.")
+              .needed(),
+          choice("identity", {"known", "colour_class", "none"}, "How landmarks are told apart.").needed(),
+          choice("association", {"individual", "joint"},
+                 "Whether sightings that compete for landmarks are settled each for itself or as a set.")
+              .otherwise("joint"),
+          number("colour_spacing_m", {0.0, 1e4},
+                 "Least distance between balls that look alike, in metres, which filters may rely on.")
+              .otherwise("0"),
+          group("rig", rig_keys(), "The stereo rig as it is.").needed_for({"stereo"}),
+          group("believed_rig", believed_rig_keys(), "What vision takes the rig for, where it is wrong."),
+          group("camera", camera_keys(), "What the camera makes of the light."),
+          group("shutter", shutter_keys(), "When the cameras look."),
+          text("detector", "Command of a program that finds the balls in the pictures.")
+              .otherwise_says("our own detector"),
+          number("detector_timeout_s", {1e-3, 1e6}, "How long it may think about a frame, in seconds.")
+              .otherwise("30"),
+          group("oracle", oracle_keys(), "The sensor without pixels.").needed_for({"oracle"}),
+          group("odometry_noise", odometry_noise_keys(), "Noise that the odometry really has.").needed(),
+          group("believed_odometry_noise", odometry_noise_keys(),
+                "Noise of the odometry that filters are told.")
+              .otherwise_as("odometry_noise"),
+          group("believed_measurement_noise", measurement_noise_keys(),
+                "Noise of sightings that filters are told.")
+              .otherwise_says("what each sighting states"),
+          group("path", path_keys(), "The drive.").needed(),
+          number("placement_jitter_m", {0.0, 100.0},
+                 "Each seed moves each ball by up to so much in x and in y, in metres.")
+              .otherwise("0"),
+          group("randomise", randomisation_keys(), "What each seed draws anew.").otherwise_says("nothing"),
+          group("world", world_keys(), "Balls, walls, meshes, floor, light and sky.").needed(),
+      }};
+  return keys;
+}
+
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const SolidReader& solids) {
-  const YamlDocument document = load_yaml(file, overrides);
-  const YamlMap map(YamlValue(document, "", document.root, document.root.Mark()),
-                    {"name",
-                     "description",
-                     "filters",
-                     "particles",
-                     "draw_every",
-                     "refit",
-                     "seeds",
-                     "gates",
-                     "sensor",
-                     "identity",
-                     "association",
-                     "colour_spacing_m",
-                     "rig",
-                     "believed_rig",
-                     "camera",
-                     "shutter",
-                     "detector",
-                     "detector_timeout_s",
-                     "oracle",
-                     "believed_oracle",
-                     "odometry_noise",
-                     "believed_odometry_noise",
-                     "believed_measurement_noise",
-                     "path",
-                     "placement_jitter_m",
-                     "randomise",
-                     "world"});
+  const YamlDocument document = load_yaml(file, overrides, &scenario_keys());
+  const YamlValue top(document, "", document.root, document.root.Mark());
+  check_keys(top, scenario_keys());
+  const YamlMap map(top, scenario_keys());
   Scenario scenario;
   scenario.name = read_name(map.at("name"));
   if (const auto description = map.find("description")) scenario.description = description->text();
   read_run(map, scenario);
   read_sensing(map, file.parent_path(), scenario);
   read_odometry(map, scenario);
-  scenario.placement_jitter_m = map.number("placement_jitter_m", {0.0, 100.0}, 0.0);
+  scenario.placement_jitter_m = map.number("placement_jitter_m", 0.0);
   read_world_and_path(map, file.parent_path(), solids, scenario);
   return scenario;
 }

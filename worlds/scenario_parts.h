@@ -12,10 +12,6 @@
 
 namespace stereobench::worlds {
 
-inline constexpr std::array<std::string_view, 11> kWorldKeys = {
-    "generator", "ball_radius_m",  "balls", "walls",   "meshes",       "mesh_limits",
-    "floor",     "floor_tint_rgb", "light", "sky_rgb", "floor_texture"};
-
 /// What materials are called, by Material; the last is for meshes alone: walls and the floor name a texture.
 inline constexpr std::array<std::string_view, 7> kMaterialNames = {"plain", "tiles", "plaster", "bricks",
                                                                    "wood",  "paint", "file"};
@@ -86,8 +82,34 @@ OracleSensor read_oracle(const YamlValue& value);
 /// `believed_oracle:` what filters are told of its sector and rates; what is left out is as it really is.
 slam::SensorSector read_believed_oracle(const YamlValue& value, const OracleSensor& oracle);
 
-/// `gates:` limits on metrics of the run.
-std::vector<Gate> read_gates(const YamlValue& value);
+/// An entry of `gates:` a limit on a metric of the run.
+Gate read_gate(const YamlValue& value);
+
+/// The keys of each group of a scenario, declared beside its reader.
+const KeyGroup& world_keys();
+const KeyGroup& ball_keys();
+const KeyGroup& wall_keys();
+const KeyGroup& light_keys();
+const KeyGroup& mesh_keys();
+const KeyGroup& mesh_limit_keys();
+const KeyGroup& surface_texture_keys();
+const KeyGroup& generator_keys();
+const KeyGroup& path_keys();
+const KeyGroup& rig_keys();
+const KeyGroup& believed_rig_keys();
+const KeyGroup& camera_keys();
+const KeyGroup& shutter_keys();
+const KeyGroup& odometry_noise_keys();
+const KeyGroup& measurement_noise_keys();
+const KeyGroup& oracle_keys();
+const KeyGroup& believed_oracle_keys();
+const KeyGroup& gate_keys();
+const KeyGroup& randomisation_keys();
+const KeyGroup& surface_keys();
+const KeyGroup& ball_colour_keys();
+const KeyGroup& light_range_keys();
+const KeyGroup& clutter_keys();
+const KeyGroup& distractor_keys();
 
 /// A list of exactly N numbers within bounds, e.g. [1, 2.5].
 template <int N>
@@ -96,6 +118,23 @@ Eigen::Matrix<double, N, 1> read_vector(const YamlValue& value, const Interval& 
   const std::vector<YamlValue> entries = value.list(N, N);
   for (int i = 0; i < N; ++i) vector[i] = entries[static_cast<std::size_t>(i)].number(within);
   return vector;
+}
+
+/// A key whose value is N numbers, as it is declared: required, or `fallback` where it is left out.
+template <int N>
+Eigen::Matrix<double, N, 1> read_vector(
+    const YamlMap& map, std::string_view key,
+    const std::optional<Eigen::Matrix<double, N, 1>>& fallback = std::nullopt) {
+  std::vector<double> otherwise;
+  if (fallback) otherwise.assign(fallback->data(), fallback->data() + N);
+  const std::vector<double> numbers = map.numbers(key, std::move(otherwise));
+  return Eigen::Matrix<double, N, 1>(numbers.data());
+}
+
+/// A key whose value is one of the declared names, which are in the order of `Choice`.
+template <typename Choice>
+Choice read_choice(const YamlMap& map, std::string_view key, Choice fallback) {
+  return static_cast<Choice>(map.choice(key, static_cast<std::size_t>(fallback)));
 }
 
 }  // namespace stereobench::worlds

@@ -99,7 +99,7 @@ void write_tour(const Layout& layout, YAML::Node path) {
 
 /// The generator that a scenario's text names, made again.
 Layout layout_of(const YamlDocument& document) {
-  const YamlMap map(YamlValue(document, "world", document.root["world"], {}), kWorldKeys);
+  const YamlMap map(YamlValue(document, "world", document.root["world"], {}), world_keys());
   return read_generator(map.at("generator"), read_ball_radius_m(map)).layout;
 }
 
@@ -159,7 +159,7 @@ void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node ro
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         std::optional<std::uint64_t> seed, const SolidReader& solids) {
   const Scenario scenario = read_scenario(file, overrides, solids);
-  YamlDocument document = load_yaml(file, overrides);
+  YamlDocument document = load_yaml(file, overrides, &scenario_keys());
   YAML::Node lines = document.root["world"];
   name_files_from_anywhere(file.parent_path(), document.root);
   const std::vector<MeshInstance>& meshes = scenario.world.meshes;

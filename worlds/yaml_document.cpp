@@ -1,10 +1,15 @@
 #include "worlds/yaml_document.h"
 
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "worlds/scenario_keys.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -42,39 +47,92 @@ YAML::Node parse_one_document(const std::filesystem::path& file) {
   return documents.front();
 }
 
-[[noreturn]] void refuse(const std::string& override_text, const std::string& expected) {
-  const std::string key = override_text.substr(0, override_text.find('='));
-  throw std::runtime_error(fmt::format("--set {}: {}", key, expected));
-}
-
-/// The node that a dotted path names; groups that are missing on the way are made.
-YAML::Node node_at(YAML::Node node, std::string_view path, const std::string& override_text) {
-  while (true) {
-    if (node.IsSequence()) refuse(override_text, "expected a path of keys (a list is only replaced whole)");
-    if (node.IsDefined() && node.IsScalar())
-      refuse(override_text, "expected a path of keys (got one below a value)");
-    const std::size_t dot = path.find('.');
-    const std::string key(path.substr(0, dot));
-    if (key.empty()) refuse(override_text, "expected key.path=value (got an empty key)");
-    YAML::Node child = node[key];
-    if (dot == std::string_view::npos) return child;
-    path.remove_prefix(dot + 1);
-    node.reset(child);
+/// One "key.path=value" on its way into a document.
+class Override {
+ public:
+  Override(std::string text, const KeyGroup* keys) : text_(std::move(text)), keys_(keys) {
+    const std::size_t equals = text_.find('=');
+    if (equals == std::string::npos) refuse("expected key.path=value (got no =)");
+    path_ = text_.substr(0, equals);
   }
-}
 
-void put_in_place(YamlDocument& document, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) refuse(text, "expected key.path=value (got no =)");
-  YAML::Node value;
-  try {
-    value = YAML::Load(text.substr(equals + 1));
-  } catch (const YAML::Exception& error) {
-    refuse(text, fmt::format("expected a YAML value ({})", error.msg));
+  const std::string& path() const { return path_; }
+
+  void put_into(const YAML::Node& root) const {
+    YAML::Node value;
+    try {
+      value = YAML::Load(text_.substr(path_.size() + 1));
+    } catch (const YAML::Exception& error) {
+      refuse(fmt::format("expected a YAML value ({})", error.msg));
+    }
+    node_in(root) = value;
   }
-  node_at(document.root, std::string_view(text).substr(0, equals), text) = value;
-  document.overridden.push_back(text.substr(0, equals));
-}
+
+ private:
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw std::runtime_error(fmt::format("--set {}: {}", text_.substr(0, text_.find('=')), expected));
+  }
+
+  /// The node that the path names; groups and lists with defaults that are missing on the way are made.
+  YAML::Node node_in(const YAML::Node& root) const {
+    YAML::Node node = root;
+    for (std::size_t begin = 0; begin <= path_.size();) {
+      const std::size_t end = std::min(path_.find('.', begin), path_.size());
+      const std::string part = path_.substr(begin, end - begin);
+      const std::string key = part.substr(0, part.find('['));
+      if (key.empty()) refuse("expected key.path=value (got an empty key)");
+      if (node.IsSequence())
+        refuse(fmt::format("expected an entry of the list, e.g. {}[0]", path_.substr(0, begin - 1)));
+      if (node.IsDefined() && node.IsScalar()) refuse("expected a path of keys (got one below a value)");
+      YAML::Node child = node[key];
+      if (key.size() < part.size()) {
+        if (!child.IsDefined()) make_list(root, path_.substr(0, begin + key.size()), child);
+        child.reset(entry_of(child, part.substr(key.size())));
+      }
+      node.reset(child);
+      begin = end + 1;
+    }
+    return node;
+  }
+
+  /// A list that is left out has its declared default.
+  void make_list(const YAML::Node& root, const std::string& path, YAML::Node& list) const {
+    const Key* const key = keys_ == nullptr ? nullptr : declared_key(*keys_, path);
+    if (key == nullptr) return;
+    if (!key->fallback.empty()) list = YAML::Load(key->fallback);
+    if (key->same_as.empty()) return;
+    const std::string other(key->same_as);
+    const std::size_t dot = other.find('.');
+    const YAML::Node group = root[other.substr(0, dot)];
+    const YAML::Node written = group && group.IsMap() ? group[other.substr(dot + 1)] : YAML::Node();
+    if (written && written.IsSequence())
+      list = YAML::Clone(written);
+    else
+      make_list(root, other, list);
+  }
+
+  /// @param places "[1]", or "[1][0]" in a list of lists
+  YAML::Node entry_of(YAML::Node list, std::string_view places) const {
+    while (!places.empty()) {
+      std::size_t place = 0;
+      const auto [end, error] = std::from_chars(places.data() + 1, places.data() + places.size(), place);
+      if (places.front() != '[' || error != std::errc() || end == places.data() + places.size() ||
+          *end != ']')
+        refuse("expected the place of an entry in brackets, e.g. corners_m[0][1]");
+      if (!list.IsDefined() || !list.IsSequence()) refuse("expected a list there, to set an entry of");
+      if (place >= list.size())
+        refuse(fmt::format("expected a place from 0 to {} (the list has {} entries)",
+                           std::max<std::size_t>(list.size(), 1) - 1, list.size()));
+      list.reset(list[place]);
+      places.remove_prefix(static_cast<std::size_t>(end + 1 - places.data()));
+    }
+    return list;
+  }
+
+  std::string text_;
+  const KeyGroup* keys_;
+  std::string path_;
+};
 
 bool lies_within(const std::string& key, const std::string& group) {
   return key.starts_with(group) &&
@@ -83,12 +141,17 @@ bool lies_within(const std::string& key, const std::string& group) {
 
 }  // namespace
 
-YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       const KeyGroup* keys) {
   YamlDocument document{file, {}, parse_one_document(file)};
   if (!document.root.IsMap()) {
     throw std::runtime_error(fmt::format("{}:1: expected a map of keys at the top", file.string()));
   }
-  for (const std::string& text : overrides) put_in_place(document, text);
+  for (const std::string& text : overrides) {
+    const Override change(text, keys);
+    change.put_into(document.root);
+    document.overridden.push_back(change.path());
+  }
   return document;
 }
 

@@ -9,6 +9,8 @@
 
 namespace stereobench::worlds {
 
+struct KeyGroup;
+
 /// One YAML document and where it came from.
 struct YamlDocument {
   std::filesystem::path file;
@@ -16,10 +18,14 @@ struct YamlDocument {
   YAML::Node root;
 };
 
-/// Loads a file of exactly one YAML document and puts "key.path=value" overrides in place.
+/// Loads a file of exactly one YAML document and puts "key.path=value" overrides in place; "key[1]=value" is
+/// one entry of a list.
 ///
+/// @param keys what the keys are: a list of which an entry is set, and which is left out, has its declared
+///   default; null where nothing is declared
 /// @throws std::runtime_error when the file is missing, empty or not YAML, or an override is malformed
-YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                       const KeyGroup* keys = nullptr);
 
 /// Where a complaint about a value points to: "file:line: key", or "--set key" when an override put it there.
 std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark);

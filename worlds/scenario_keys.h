@@ -1,0 +1,92 @@
+/// What the keys of a scenario file are.
+///
+/// Each key is declared once, beside the code that reads it. Readers take ranges, names and lengths from the
+/// declaration; complaints about unknown and missing keys and the JSON Schema are made of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stereobench::worlds {
+
+/// The finite numbers between two bounds, both included.
+struct Interval {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+enum class ValueKind { kNumber, kWhole, kText, kFlag, kChoice, kGroup };
+
+struct KeyGroup;
+
+/// How many values a key takes: one, a list of them, or either.
+struct Lengths {
+  bool single = true;     ///< one value without a list
+  std::size_t least = 0;  ///< entries of a list, where `most` is not 0
+  std::size_t most = 0;   ///< 0: no list
+  std::size_t inner = 0;  ///< not 0: each entry is itself a list of so many numbers
+};
+
+/// One key of a group, with what it may hold.
+struct Key {
+  std::string_view name;
+  ValueKind kind = ValueKind::kNumber;
+  std::string says;                     ///< one sentence: what it is
+  Interval within = {};                 ///< of kNumber and kWhole
+  std::vector<std::string_view> names;  ///< of kChoice
+  std::string_view pattern;             ///< of kText: a regular expression, or empty
+  const KeyGroup* group = nullptr;      ///< of kGroup
+  Lengths lengths;
+  bool required = false;
+  std::vector<std::string_view> kinds;         ///< of the group that have this key; empty: all
+  std::vector<std::string_view> required_for;  ///< kinds of the group that need it
+  std::string_view alternative;                ///< the key that may stand in place of this required one
+  std::string fallback;                        ///< its value where it is left out, as YAML
+  std::string fallback_says;                   ///< the same in words, where it is no constant
+  std::string_view same_as;                    ///< path of the key whose value it has where it is left out
+
+  Key needed() const;                                              ///< required, whatever the kind
+  Key needed_unless(std::string_view other) const;                 ///< required where `other` is left out
+  Key needed_for(std::vector<std::string_view> some_kinds) const;  ///< required for these kinds
+  Key only_for(std::vector<std::string_view> some_kinds) const;    ///< unknown to other kinds
+  Key otherwise(std::string_view value) const;                     ///< a constant default, as YAML
+  Key otherwise_says(std::string_view words) const;                ///< a default that depends on other things
+  Key otherwise_as(std::string_view path) const;                   ///< the value of another key
+  Key vector(std::size_t length) const;                            ///< a list of exactly so many
+  Key or_vector(std::size_t length) const;                         ///< one value, or a list of so many
+  Key list(std::size_t least, std::size_t most, std::size_t inner = 0) const;
+};
+
+Key number(std::string_view name, const Interval& within, std::string_view says);
+Key whole(std::string_view name, int least, int most, std::string_view says);
+Key text(std::string_view name, std::string_view says, std::string_view pattern = {});
+Key flag(std::string_view name, std::string_view says);
+Key choice(std::string_view name, std::vector<std::string_view> names, std::string_view says);
+Key group(std::string_view name, const KeyGroup& keys, std::string_view says);
+
+/// The keys that stand together below one key.
+struct KeyGroup {
+  std::string_view kind_key;  ///< the key whose value is the group's kind; empty: there are no kinds
+  std::vector<Key> keys;
+
+  /// @return the key, or null when there is none of this name
+  const Key* find(std::string_view name) const;
+};
+
+/// @return whether groups of a kind have the key; all keys where the kind is not known
+bool belongs(const Key& key, std::string_view kind);
+
+/// @return whether groups of a kind need the key (or its alternative)
+bool is_needed(const Key& key, std::string_view kind);
+
+/// The keys at the top of a scenario file, and below them all others.
+const KeyGroup& scenario_keys();
+
+/// The declaration of a key.
+/// @param path e.g. "camera.gain", "world.balls[3].colour"
+/// @return null when there is no such key
+const Key* declared_key(const KeyGroup& top, std::string_view path);
+
+}  // namespace stereobench::worlds
