@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/regression/gates.h"
 #include "renderer/backend.h"
 #include "slam/filter_names.h"
+#include "worlds/advice.h"
 #include "worlds/seeds.h"
 
 namespace stereobench::harness {
@@ -43,11 +45,15 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 
 std::vector<std::string> parse_filters(const std::string& text) {
   const std::vector<std::string> known = slam::filter_names();
+  const std::vector<std::string_view> names(known.begin(), known.end());
   std::vector<std::string> filters = {kBaselineFilter};
   for (const std::string& name : split_at_commas(text)) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::runtime_error(
-          fmt::format("--filters: no filter is called '{}'; there are {}", name, fmt::join(known, ", ")));
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const auto meant = name.empty() ? std::nullopt : worlds::nearest_word(name, names);
+      throw std::runtime_error(fmt::format("--filters: no filter is called '{}'{}; there are {}", name,
+                                           meant ? fmt::format(", did you mean {}?", *meant) : "",
+                                           fmt::join(known, ", ")));
+    }
     if (std::find(filters.begin(), filters.end(), name) == filters.end()) filters.push_back(name);
   }
   return filters;
@@ -72,17 +78,31 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "whether filters fit a frame with a refused sighting once more as a whole, which the published ones do "
       "not (default: yes)");
   add_seed_options(command, arguments);
+  add_gate_option(command, arguments.gates);
 }
 
 void add_seed_options(CLI::App& command, RunArguments& arguments) {
   command.add_option_function<std::string>(
-      "--seeds", [&arguments](const std::string& text) { arguments.seeds = parse_seeds(text); },
+      "--seeds,--seed", [&arguments](const std::string& text) { arguments.seeds = parse_seeds(text); },
       "which seeds to run: 0..9, or 0,2,5");
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   command.add_option("--jobs,-j", arguments.jobs, "processes at a time; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command.add_option("--out,-o", arguments.out, "folder for the results (default: out/<name>)");
+}
+
+void add_gate_option(CLI::App& command, std::vector<worlds::Gate>& gates) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--gate",
+          [&gates](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) gates.push_back(parse_gate(text));
+          },
+          "a limit on a number of the result, e.g. --gate 'vision.recall>=0.98'; exit code 1 where it is "
+          "broken; may be repeated")
+      ->type_name("METRIC<=LIMIT")
+      ->allow_extra_args(false);
 }
 
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "renderer/types.h"
+#include "worlds/types.h"
 
 namespace stereobench::harness {
 
@@ -20,7 +21,8 @@ struct RunArguments {
   std::optional<bool> refit;  ///< none: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
-  std::filesystem::path out;  ///< empty: out/<name>
+  std::filesystem::path out;        ///< empty: out/<name>
+  std::vector<worlds::Gate> gates;  ///< beside those of the scenario
 };
 
 /// The filter that is always run, as the yardstick of the others.
@@ -38,8 +40,11 @@ void check_identities(const std::vector<std::string>& filters, bool known, const
 /// Adds --seeds, --jobs and --out to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
 
-/// Adds --filters, --particles and --refit, and the options above.
+/// Adds --filters, --particles, --refit and --gate, and the options above.
 void add_run_options(CLI::App& command, RunArguments& arguments);
+
+/// Adds --gate, a limit on the result; may be repeated.
+void add_gate_option(CLI::App& command, std::vector<worlds::Gate>& gates);
 
 /// Adds --set KEY=VALUE, a change of the scenario.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);

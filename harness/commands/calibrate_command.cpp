@@ -9,6 +9,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/regression/gates.h"
 #include "vision/observe.h"
 #include "worlds/gallery.h"
 #include "worlds/seeds.h"
@@ -37,6 +38,8 @@ int run_calibration(const CalibrateArguments& arguments) {
   const std::vector<std::uint64_t>& seeds = arguments.scenario.run.seeds;
   if (seeds.size() < 2)
     throw std::runtime_error("--seeds: expected at least two, one of them to be held out");
+  const std::vector<worlds::Gate>& gates = arguments.scenario.run.gates;
+  check_metrics(gates, calibration_json({}));
   const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
   prepare_output_folder(out);
   const worlds::GalleryDepths depths = worlds::measurable_depths(scenario.rig, scenario.world.ball_radius_m(),
@@ -49,12 +52,14 @@ int run_calibration(const CalibrateArguments& arguments) {
   const NoiseKind kind = arguments.law == "stereo" ? NoiseKind::kStereo : NoiseKind::kScaled;
   write_file_atomically(out / "noise.yaml", noise_yaml(result, kind, scenario.believed_rig));
   write_file_atomically(out / "calibration.json", calibration_json(result).dump(2) + "\n");
+  const auto broken = broken_gates(calibration_json(result), gates);
   fmt::print(
       "{}: {} balls seen in the half held out, recall {:.4f}, {} misidentified, {} spurious, {} flagged\n\n"
-      "{}\nresults: {}\n",
+      "{}\n{}results: {}\n",
       scenario.name, result.score.observations, result.score.recall(), result.score.misidentified,
-      result.score.spurious, result.score.flagged, calibration_table(result), (out / "").string());
-  return kPassed;
+      result.score.spurious, result.score.flagged, calibration_table(result),
+      gate_report(broken, gates.size()), (out / "").string());
+  return broken.empty() ? kPassed : kGateBroken;
 }
 
 }  // namespace
@@ -67,6 +72,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
   scenario.run.seeds = worlds::parse_seeds(kUsualSeeds);
   add_eyes_options(*command, scenario);
   add_seed_options(*command, scenario.run);
+  add_gate_option(*command, scenario.run.gates);
   command
       ->add_option("--law", arguments->law,
                    "what noise.yaml says: stated covariances to scale, or the stereo law")
@@ -81,7 +87,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       "is\n"
       "1 where covariances are honest. Writes noise.yaml, for a scenario's\n"
       "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
-      "and calibration.json.\n\n"
+      "and calibration.json, whose numbers --gate can limit.\n\n"
       "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");
   command->callback([arguments, &action] { action = [arguments] { return run_calibration(*arguments); }; });
 }

@@ -21,7 +21,7 @@ int run(const ScenarioArguments& arguments) {
   const worlds::Scenario scenario = read_scenario(arguments);
   const std::filesystem::path out = output_folder(arguments.run, scenario.name);
   const auto gates = gates_of(scenario);
-  check_metrics(gates, scenario);
+  check_metrics(gates, result_without_values(scenario));
   prepare_output_folder(out);
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : scenario.seeds)
@@ -34,9 +34,7 @@ int run(const ScenarioArguments& arguments) {
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));
   const auto broken = broken_gates(run_json(result), gates);
-  for (const BrokenGate& gate : broken) fmt::print("gate broken: {}\n", gate.message);
-  if (!gates.empty() && broken.empty()) fmt::print("all {} gates hold\n", gates.size());
-  fmt::print("results: {}\n", (out / "").string());
+  fmt::print("{}results: {}\n", gate_report(broken, gates.size()), (out / "").string());
   return broken.empty() ? kPassed : kGateBroken;
 }
 

@@ -47,6 +47,7 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   if (run.particles > 0) scenario.particles = run.particles;
   if (run.refit) scenario.refit = *run.refit;
   if (!run.seeds.empty()) scenario.seeds = run.seeds;
+  scenario.gates.insert(scenario.gates.end(), run.gates.begin(), run.gates.end());
   if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;
   if (arguments.detector.empty()) return scenario;
   if (scenario.sensor != worlds::SensorKind::kStereo)

@@ -10,6 +10,7 @@
 #include "harness/commands/commands.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/measurement_log_reader.h"
+#include "harness/regression/gates.h"
 #include "harness/run/detections_file.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
@@ -78,6 +79,14 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
   return drives;
 }
 
+/// Makes sure that the gates name numbers of run.json before anything is replayed.
+void check_gates(const SlamArguments& arguments) {
+  RunResult nothing_yet{.odometry_delay_s = 0.0};
+  if (!arguments.detections.empty()) nothing_yet.vision = VisionScore{};
+  for (const std::string& filter : arguments.run.filters) nothing_yet.filters.push_back({.filter = filter});
+  check_metrics(arguments.run.gates, run_json(nothing_yet));
+}
+
 bool knows_identities(const MeasurementLog& log) {
   return std::ranges::all_of(log.steps, [](const LogStep& step) {
     return std::ranges::all_of(
@@ -101,6 +110,7 @@ int run_slam(SlamArguments arguments) {
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
   if (run.refit) arguments.config.refit = *run.refit;
+  check_gates(arguments);
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
@@ -117,8 +127,10 @@ int run_slam(SlamArguments arguments) {
   result.assumed = assumptions_of(recorded.facts, arguments.stated);
   write_run(out, result, drives, {});
   print_summary(result, drives.size(), recorded);
-  fmt::print("\n{}\nresults: {}\n", result_table(result), (out / "").string());
-  return kPassed;
+  const auto broken = broken_gates(run_json(result), run.gates);
+  fmt::print("\n{}\n{}results: {}\n", result_table(result), gate_report(broken, run.gates.size()),
+             (out / "").string());
+  return broken.empty() ? kPassed : kGateBroken;
 }
 
 void add_noise_options(CLI::App& command, SlamArguments& arguments) {

@@ -3,6 +3,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/regression/gates.h"
 #include "harness/report/text_table.h"
 #include "harness/run/seed_drive.h"
 #include "harness/sweep/grid.h"
@@ -32,6 +33,25 @@ void write_sweep(const std::filesystem::path& out, const SweepResult& sweep,
   write_file_atomically(out / "sweep.json", sweep_json(sweep).dump(2) + "\n");
 }
 
+/// Holds each cell against the gates of its scenario. @return a line for each broken gate, and how many there
+/// are
+std::pair<std::string, std::size_t> gates_of_cells(const SweepResult& sweep,
+                                                   const std::vector<worlds::Scenario>& scenarios) {
+  std::string lines;
+  std::size_t broken = 0;
+  std::size_t gates = 0;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const auto limits = gates_of(scenarios[i]);
+    const auto off = broken_gates(run_json(sweep.cells[i].result), limits);
+    if (!off.empty())
+      lines += gate_report(off, limits.size(), name_of(sweep.variations, sweep.cells[i].values) + ": ");
+    broken += off.size();
+    gates += limits.size();
+  }
+  if (broken == 0) lines = gate_report({}, gates);
+  return {lines, broken};
+}
+
 int run_sweep(const SweepArguments& arguments) {
   SweepResult sweep;
   for (const std::string& text : arguments.variations) sweep.variations.push_back(parse_variation(text));
@@ -39,6 +59,8 @@ int run_sweep(const SweepArguments& arguments) {
   std::vector<worlds::Scenario> scenarios;
   for (const Cell& cell : cells)
     scenarios.push_back(read_scenario(arguments.scenario, overrides_of(sweep.variations, cell)));
+  for (const worlds::Scenario& scenario : scenarios)
+    check_metrics(gates_of(scenario), result_without_values(scenario));
   sweep.name = scenarios.front().name;
   const std::filesystem::path out = output_folder(arguments.scenario.run, sweep.name + "_sweep");
   prepare_output_folder(out);
@@ -53,9 +75,10 @@ int run_sweep(const SweepArguments& arguments) {
     rest = rest.subspan(seeds);
   }
   write_sweep(out, sweep, drives);
-  fmt::print("{}: {} cells\n\n{}\n{}\nresults: {}\n", sweep.name, cells.size(), kIntervalNote,
-             sweep_table(sweep), (out / "").string());
-  return kPassed;
+  const auto [gate_lines, broken] = gates_of_cells(sweep, scenarios);
+  fmt::print("{}: {} cells\n\n{}\n{}\n{}results: {}\n", sweep.name, cells.size(), kIntervalNote,
+             sweep_table(sweep), gate_lines, (out / "").string());
+  return broken == 0 ? kPassed : kGateBroken;
 }
 
 }  // namespace

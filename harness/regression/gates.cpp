@@ -1,12 +1,15 @@
 #include "harness/regression/gates.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/report/text_table.h"
+#include "worlds/advice.h"
 
 namespace stereobench::harness {
 namespace {
@@ -34,12 +37,12 @@ std::string filter_of(const std::string& metric) {
   return metric.substr(prefix.size(), metric.find('.', prefix.size()) - prefix.size());
 }
 
-/// Has all the keys that a result has.
-RunResult result_without_runs(const worlds::Scenario& scenario) {
-  RunResult nothing_yet;
-  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
-  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
-  return nothing_yet;
+/// All that gates can name, as dotted paths.
+void append_metrics(const Json& json, const std::string& path, std::vector<std::string>& metrics) {
+  if (json.is_number() || json.is_null()) metrics.push_back(path);
+  if (!json.is_object()) return;
+  for (const auto& [key, child] : json.items())
+    append_metrics(child, path.empty() ? key : path + "." + key, metrics);
 }
 
 std::string broken_message(const worlds::Gate& gate, const Json& metric) {
@@ -71,13 +74,38 @@ std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario) {
   return gates;
 }
 
-void check_metrics(std::span<const worlds::Gate> gates, const worlds::Scenario& scenario) {
-  const Json json = run_json(result_without_runs(scenario));
-  for (const worlds::Gate& gate : gates)
-    if (find_metric(json, gate.metric) == nullptr)
-      throw std::runtime_error(fmt::format(
-          "gate '{}': run.json has no such number; gates name one by its keys, e.g. vision.recall",
-          gate.metric));
+worlds::Gate parse_gate(const std::string& text) {
+  for (const auto& [sign, relation] : {std::pair("<=", worlds::Gate::Relation::kAtMost),
+                                       std::pair(">=", worlds::Gate::Relation::kAtLeast)}) {
+    const std::size_t at = text.find(sign);
+    if (at == std::string::npos || at == 0) continue;
+    worlds::Gate gate{.metric = text.substr(0, at), .relation = relation};
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data() + at + 2, end, gate.limit);
+    if (error == std::errc() && read == end && std::isfinite(gate.limit)) return gate;
+  }
+  throw std::runtime_error(fmt::format(
+      "--gate: expected a metric, <= or >=, and a limit, e.g. 'vision.recall>=0.98' (got '{}')", text));
+}
+
+Json result_without_values(const worlds::Scenario& scenario) {
+  RunResult nothing_yet;
+  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
+  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
+  return run_json(nothing_yet);
+}
+
+void check_metrics(std::span<const worlds::Gate> gates, const Json& result) {
+  for (const worlds::Gate& gate : gates) {
+    if (find_metric(result, gate.metric) != nullptr) continue;
+    std::vector<std::string> metrics;
+    append_metrics(result, "", metrics);
+    const std::vector<std::string_view> known(metrics.begin(), metrics.end());
+    const auto meant = worlds::nearest_word(gate.metric, known);
+    throw std::runtime_error(fmt::format("gate '{}': the result has no such number{}", gate.metric,
+                                         meant ? fmt::format(", did you mean {}?", *meant)
+                                               : "; gates name one by its keys, e.g. vision.recall"));
+  }
 }
 
 std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json,
@@ -91,6 +119,13 @@ std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json,
     broken.push_back({gate, value, broken_message(gate, *metric)});
   }
   return broken;
+}
+
+std::string gate_report(std::span<const BrokenGate> broken, std::size_t gates, const std::string& where) {
+  std::string report;
+  for (const BrokenGate& gate : broken) report += fmt::format("gate broken: {}{}\n", where, gate.message);
+  if (gates > 0 && broken.empty()) report = fmt::format("{}all {} gates hold\n", where, gates);
+  return report;
 }
 
 }  // namespace stereobench::harness

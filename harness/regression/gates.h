@@ -23,12 +23,24 @@ struct BrokenGate {
 /// The gates that speak of a run: not those of a filter that was left out.
 std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario);
 
-/// Makes sure, before any work is done, that each gate names a number of run.json.
-/// @throws std::runtime_error that names the gate which does not
-void check_metrics(std::span<const worlds::Gate> gates, const worlds::Scenario& scenario);
+/// Reads a gate of the command line: "vision.recall>=0.98", "filters.ufastslam.ate_rms_m.mean<=0.05".
+/// @throws std::runtime_error that says what was expected
+worlds::Gate parse_gate(const std::string& text);
+
+/// What a run of a scenario would give, without values: run.json with all keys that gates can name.
+nlohmann::ordered_json result_without_values(const worlds::Scenario& scenario);
+
+/// Makes sure, before any work is done, that each gate names a number of a result.
+/// @param result its values do not matter
+/// @throws std::runtime_error that names the gate which does not, and a number that may be meant
+void check_metrics(std::span<const worlds::Gate> gates, const nlohmann::ordered_json& result);
 
 /// Holds a result against limits.
 /// @param json as run_json gives it
 std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const worlds::Gate> gates);
+
+/// A line for each broken gate, or one that says that all hold; empty where there are none.
+/// @param where of a sweep, the cell that the gates are about, e.g. "gain = 2: "
+std::string gate_report(std::span<const BrokenGate> broken, std::size_t gates, const std::string& where = "");
 
 }  // namespace stereobench::harness

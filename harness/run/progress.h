@@ -1,18 +1,33 @@
-/// How far long work has come, for people: a line on a terminal, nothing when piped.
+/// How far long work has come, for people: a line that is redrawn on a terminal, a line a minute elsewhere.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace stereobench::harness {
 
-/// One line on standard error that is redrawn in place while work goes on. Silent unless standard error
-/// is a terminal.
+/// Where progress is shown, and the clock that it goes by.
+struct ProgressOutput {
+  using Clock = std::chrono::steady_clock;
+  bool is_terminal = false;
+  std::function<void(const std::string&)> write;
+  std::function<Clock::time_point()> now = Clock::now;
+};
+
+/// Standard error; nothing at all once `silence_progress` was called.
+ProgressOutput standard_progress();
+
+/// Shows no progress from now on.
+void silence_progress();
+
+/// On a terminal one line that is redrawn in place while work goes on; in a file or pipe a line a minute, so
+/// that a log shows a long run to be alive.
 class Progress {
  public:
   /// @param what is being done, e.g. "run ball_circle"
   /// @param total how much there is to do, > 0
-  Progress(std::string what, double total);
+  Progress(std::string what, double total, ProgressOutput output = standard_progress());
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -21,10 +36,10 @@ class Progress {
   void show(double done);
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = ProgressOutput::Clock;
   std::string what_;
   double total_;
-  bool on_terminal_;
+  ProgressOutput output_;
   Clock::time_point started_;
   Clock::time_point drawn_;
 };

@@ -11,11 +11,15 @@ namespace stereobench::harness {
 
 namespace {
 
-/// The parts of a text between separators; "a,," has three, the last two of them empty.
+/// The parts of a text between separators; "a,," has three, the last two of them empty. Lists and groups are
+/// not taken apart: "[1,2],[3,4]" has two.
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts = {""};
+  int depth = 0;
   for (const char c : text) {
-    if (c == separator) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (c == separator && depth == 0) {
       parts.emplace_back();
     } else {
       parts.back() += c;
@@ -85,6 +89,13 @@ std::vector<Setting> settings_of(const std::vector<Variation>& variations, const
     for (std::size_t k = 0; k < parts.size(); ++k) settings.push_back({variations[i].keys[k], parts[k]});
   }
   return settings;
+}
+
+std::string name_of(const std::vector<Variation>& variations, const Cell& cell) {
+  std::vector<std::string> parts;
+  for (const Setting& setting : settings_of(variations, cell))
+    parts.push_back(fmt::format("{} = {}", setting.key, setting.value));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::vector<std::string> overrides_of(const std::vector<Variation>& variations, const Cell& cell) {

@@ -38,6 +38,9 @@ struct Setting {
 /// What a cell sets: each key of each variation, in their order.
 std::vector<Setting> settings_of(const std::vector<Variation>& variations, const Cell& cell);
 
+/// What a cell sets, for people: "camera.gain = 2, path.laps = 1".
+std::string name_of(const std::vector<Variation>& variations, const Cell& cell);
+
 /// A cell as overrides of the scenario: "key=value" for each setting.
 std::vector<std::string> overrides_of(const std::vector<Variation>& variations, const Cell& cell);
 

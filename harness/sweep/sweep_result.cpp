@@ -25,6 +25,14 @@ std::string csv_cell(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
+/// A list's commas are none of the file's.
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 /// How much one filter is worse than another, and whether that may be chance.
 std::string with_p_value(const PairedDifference& pair) {
   if (pair.difference.count < 2) return "-";
@@ -108,7 +116,8 @@ std::string sweep_csv(const SweepResult& sweep) {
   for (const SweepCell& cell : sweep.cells)
     for (const FilterResult& filter : cell.result.filters) {
       const FilterSummary& s = filter.summary;
-      for (const Setting& setting : settings_of(sweep.variations, cell.values)) csv += setting.value + ",";
+      for (const Setting& setting : settings_of(sweep.variations, cell.values))
+        csv += csv_cell(setting.value) + ",";
       csv += fmt::format("{},{},{},{},{},{}", filter.filter, cell.result.seeds.size(),
                          csv_cell(s.ate_rms_m.mean), csv_cell(s.ate_rms_m.half_width),
                          csv_cell(s.landmark_rms_m.mean), s.failures);

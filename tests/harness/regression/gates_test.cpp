@@ -75,13 +75,43 @@ TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
 // Mutations: no check; letting objects and text pass as numbers.
 TEST(Gates, NameANumberOfTheResultBeforeAnythingIsRun) {
   worlds::Scenario scenario;
-  const auto check = [&](const std::string& metric) { check_metrics(std::vector{Gate{metric}}, scenario); };
+  const auto check = [&](const std::string& metric) {
+    check_metrics(std::vector{Gate{metric}}, result_without_values(scenario));
+  };
   for (const char* metric : {"vision.recall", "vision.flagged", "filters.ufastslam.ate_rms_m.mean",
                              "filters.dead_reckoning.landmarks.missed", "filters.fastslam2.failures"})
     EXPECT_NO_THROW(check(metric)) << metric;
   for (const char* metric : {"", "vision", "vision.", "vision.beauty", "vision.recall.mean", "scenario",
                              "filters.nobody.failures", "filters.ufastslam.ate_rms_m"})
     EXPECT_THAT([&] { check(metric); }, ThrowsMessage<std::runtime_error>(HasSubstr(metric)));
+}
+
+// Mutation: no suggestion, or one from far away.
+TEST(Gates, AMisspeltMetricIsAskedBack) {
+  const auto check = [&](const std::string& metric) {
+    check_metrics(std::vector{Gate{metric}}, result_without_values({}));
+  };
+  EXPECT_THAT([&] { check("vision.recal"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("did you mean vision.recall?")));
+  EXPECT_THAT([&] { check("filters.ufastslam.ate_rms_m.maen"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("did you mean filters.ufastslam.ate_rms_m.mean?")));
+  EXPECT_THAT([&] { check("beauty"); }, ThrowsMessage<std::runtime_error>(HasSubstr("by its keys")));
+}
+
+// Mutations: the wrong relation; a limit read up to the first letter that is no number.
+TEST(Gates, AreReadFromTheCommandLine) {
+  const Gate most = parse_gate("filters.ufastslam.ate_rms_m.mean<=5e-2");
+  EXPECT_EQ(most.metric, "filters.ufastslam.ate_rms_m.mean");
+  EXPECT_EQ(most.relation, Gate::Relation::kAtMost);
+  EXPECT_EQ(most.limit, 0.05);
+  const Gate least = parse_gate("vision.recall>=0.98");
+  EXPECT_EQ(least.relation, Gate::Relation::kAtLeast);
+  EXPECT_EQ(least.limit, 0.98);
+  for (const char* text :
+       {"", "vision.recall", "vision.recall=1", "<=1", "vision.recall<=", "vision.recall<=1mm",
+        "vision.recall<=nan", "vision.recall<=inf", "vision.recall<1"})
+    EXPECT_THAT([&] { parse_gate(text); }, ThrowsMessage<std::runtime_error>(HasSubstr("--gate: expected")))
+        << text;
 }
 
 }  // namespace

@@ -78,5 +78,18 @@ TEST(ParseVariation, RefusesWhatIsEmptyOrRepeated) {
         << text;
 }
 
+// Mutation: lists taken apart at their own commas and colons.
+TEST(Grid, ListsAndGroupsAreValues) {
+  const Variation turn = parse_variation("believed_rig.right_turn_deg=[0,0,0],[0.05,0,0]");
+  EXPECT_THAT(turn.values, ElementsAre("[0,0,0]", "[0.05,0,0]"));
+  const Variation light = parse_variation("world.light={ambient: 0.3, diffuse: 0.5},{ambient: 0.4}");
+  EXPECT_THAT(light.values, ElementsAre("{ambient: 0.3, diffuse: 0.5}", "{ambient: 0.4}"));
+  const Variation both =
+      parse_variation("rig.distortion:world.light=[0,0,0,0,0]:{ambient: 0.3},[1,0,0,0,0]:{}");
+  EXPECT_THAT(overrides_of({both}, {"[1,0,0,0,0]:{}"}),
+              ElementsAre("rig.distortion=[1,0,0,0,0]", "world.light={}"));
+  EXPECT_THAT(parse_variation("rig.distortion[0]=-0.1,0.1").values, ElementsAre("-0.1", "0.1"));
+}
+
 }  // namespace
 }  // namespace stereobench::harness
