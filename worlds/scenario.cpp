@@ -149,6 +149,7 @@ const KeyGroup& scenario_keys() {
           whole("particles", 1, 100000, "Particles of each particle filter.").otherwise("100"),
           whole("draw_every", 1, 100000, "Frames of a block, of the filters that draw poses in blocks.")
               .otherwise("40"),
+          flag("refit", "Whether a refused frame is fitted anew as a whole.").otherwise("true"),
           text("seeds", "Which seeds are run: 0..9 (both included), 3, or 0,4,7.", kSeedsPattern)
               .otherwise("0"),
           group("gates", gate_keys(), "Limits on metrics of run.json; a broken one is exit code 1.")
@@ -171,6 +172,8 @@ const KeyGroup& scenario_keys() {
           number("detector_timeout_s", {1e-3, 1e6}, "How long it may think about a frame, in seconds.")
               .otherwise("30"),
           group("oracle", oracle_keys(), "The sensor without pixels.").needed_for({"oracle"}),
+          group("believed_oracle", believed_oracle_keys(),
+                "What filters are told of that sensor's sector and rates."),
           group("odometry_noise", odometry_noise_keys(), "Noise that the odometry really has.").needed(),
           group("believed_odometry_noise", odometry_noise_keys(),
                 "Noise of the odometry that filters are told.")

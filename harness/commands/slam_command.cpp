@@ -81,8 +81,9 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
 
 /// Makes sure that the gates name numbers of run.json before anything is replayed.
 void check_gates(const SlamArguments& arguments) {
-  RunResult nothing_yet{.odometry_delay_s = 0.0};
-  if (!arguments.detections.empty()) nothing_yet.vision = VisionScore{};
+  RunResult nothing_yet;
+  nothing_yet.recorded.emplace();
+  if (!arguments.detections.empty()) nothing_yet.vision.emplace();
   for (const std::string& filter : arguments.run.filters) nothing_yet.filters.push_back({.filter = filter});
   check_metrics(arguments.run.gates, run_json(nothing_yet));
 }

@@ -45,6 +45,14 @@ void append_metrics(const Json& json, const std::string& path, std::vector<std::
     append_metrics(child, path.empty() ? key : path + "." + key, metrics);
 }
 
+/// Has all the keys that a result has.
+RunResult result_without_runs(const worlds::Scenario& scenario) {
+  RunResult nothing_yet;
+  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
+  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
+  return nothing_yet;
+}
+
 std::string broken_message(const worlds::Gate& gate, const Json& metric) {
   const bool at_most = gate.relation == worlds::Gate::Relation::kAtMost;
   const std::string limit = fmt::format("{} {}", at_most ? "at most" : "at least", gate.limit);
@@ -89,10 +97,7 @@ worlds::Gate parse_gate(const std::string& text) {
 }
 
 Json result_without_values(const worlds::Scenario& scenario) {
-  RunResult nothing_yet;
-  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
-  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
-  return run_json(nothing_yet);
+  return run_json(result_without_runs(scenario));
 }
 
 void check_metrics(std::span<const worlds::Gate> gates, const Json& result) {
