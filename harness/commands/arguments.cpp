@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/commands/talk.h"
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
 #include "slam/filter_names.h"
@@ -16,14 +17,6 @@
 
 namespace stereobench::harness {
 namespace {
-
-std::vector<std::uint64_t> parse_seeds(const std::string& text) {
-  try {
-    return worlds::parse_seeds(text);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
-  }
-}
 
 renderer::Backend parse_backend(const std::string& name) {
   try {
@@ -42,6 +35,14 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+  try {
+    return worlds::parse_seeds(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
+  }
+}
 
 std::vector<std::string> parse_filters(const std::string& text) {
   const std::vector<std::string> known = slam::filter_names();
@@ -90,6 +91,9 @@ void add_seed_options(CLI::App& command, RunArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command.add_option("--out,-o", arguments.out, "folder for the results (default: out/<name>)");
+  command.add_flag("--dry-run", arguments.dry_run,
+                   "check the input, say what would be done, and write nothing");
+  add_quiet_option(command);
 }
 
 void add_gate_option(CLI::App& command, std::vector<worlds::Gate>& gates) {

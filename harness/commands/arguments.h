@@ -22,6 +22,7 @@ struct RunArguments {
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
   std::filesystem::path out;        ///< empty: out/<name>
+  bool dry_run = false;             ///< check everything, say what would be done, and stop
   std::vector<worlds::Gate> gates;  ///< beside those of the scenario
 };
 
@@ -37,7 +38,10 @@ std::vector<std::string> parse_filters(const std::string& text);
 /// @throws std::runtime_error that names the first filter that needs identities where there are none
 void check_identities(const std::vector<std::string>& filters, bool known, const std::string& whose);
 
-/// Adds --seeds, --jobs and --out to a command.
+/// Reads "0..9", "3" or "0,4,7". @throws std::runtime_error that begins with "--seeds: "
+std::vector<std::uint64_t> parse_seeds(const std::string& text);
+
+/// Adds --seeds, --jobs, --out, --dry-run and --quiet to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
 
 /// Adds --filters, --particles, --refit and --gate, and the options above.

@@ -8,6 +8,7 @@
 #include "harness/calibration/galleries.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "vision/observe.h"
@@ -41,6 +42,11 @@ int run_calibration(const CalibrateArguments& arguments) {
   const std::vector<worlds::Gate>& gates = arguments.scenario.run.gates;
   check_metrics(gates, calibration_json({}));
   const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
+  if (arguments.scenario.run.dry_run) {
+    fmt::print("{}: would look at {} galleries; results: {}\n", scenario.name, seeds.size(),
+               (out / "").string());
+    return kPassed;
+  }
   prepare_output_folder(out);
   const worlds::GalleryDepths depths = worlds::measurable_depths(scenario.rig, scenario.world.ball_radius_m(),
                                                                  vision::ObserverSettings{}.min_radius_px);
@@ -55,10 +61,11 @@ int run_calibration(const CalibrateArguments& arguments) {
   const auto broken = broken_gates(calibration_json(result), gates);
   fmt::print(
       "{}: {} balls seen in the half held out, recall {:.4f}, {} misidentified, {} spurious, {} flagged\n\n"
-      "{}\n{}results: {}\n",
+      "{}\n",
       scenario.name, result.score.observations, result.score.recall(), result.score.misidentified,
-      result.score.spurious, result.score.flagged, calibration_table(result),
-      gate_report(broken, gates.size()), (out / "").string());
+      result.score.spurious, result.score.flagged, calibration_table(result));
+  say_gates(gate_report(broken, gates.size()), !broken.empty());
+  fmt::print("results: {}\n", (out / "").string());
   return broken.empty() ? kPassed : kGateBroken;
 }
 

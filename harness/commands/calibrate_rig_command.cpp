@@ -9,6 +9,7 @@
 #include "harness/board/rig_calibration.h"
 #include "harness/board/rig_picture.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/picture_reader.h"
@@ -123,6 +124,7 @@ void add_calibrate_rig_command(CLI::App& program, Action& action) {
       ->check(CLI::Range(3, 10000))
       ->capture_default_str();
   command->add_option("--out,-o", arguments->out, "folder for the results")->capture_default_str();
+  add_quiet_option(*command);
   command->footer(
       "Writes calibration.yaml (for detect --rig), calibration.json (every parameter with its standard\n"
       "deviation, every view with its errors) and rectified.png.\n\n"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/colour_marks.h"
 #include "harness/dataset/palette_file.h"
@@ -79,6 +80,7 @@ void add_learn_palette_command(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"linear", "srgb"}))
       ->capture_default_str();
   command->add_option("--out,-o", arguments->out, "file for the palette")->capture_default_str();
+  add_quiet_option(*command);
   command->footer(
       "A file of marks, whose pictures lie beside it:\n"
       "  {\"marks\": [{\"picture\": \"a.png\", \"colour\": \"red\", \"circle_px\": [34, 229, 20]},\n"

@@ -10,6 +10,7 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/dataset/rendered_dataset.h"
@@ -62,6 +63,7 @@ int render(const RenderArguments& arguments) {
   require_truth(arguments.truth, scenario);
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / (scenario.name + "_dataset") : arguments.out;
+  warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   const worlds::World world = worlds::world_for_seed(scenario, arguments.seed);
   const RenderedDataset dataset(out, identity_of(arguments));
   std::optional<RenderedTruth> truth;
@@ -110,6 +112,7 @@ void add_render_command(CLI::App& program, Action& action) {
       ->default_str("exact")
       ->needs(truth);
   command->add_option("--out,-o", arguments->out, "folder for the data set (default: out/<name>_dataset)");
+  add_quiet_option(*command);
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "
       "metres),\n"

@@ -5,6 +5,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/regression/gates.h"
@@ -22,6 +23,12 @@ int run(const ScenarioArguments& arguments) {
   const std::filesystem::path out = output_folder(arguments.run, scenario.name);
   const auto gates = gates_of(scenario);
   check_metrics(gates, result_without_values(scenario));
+  warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
+  if (arguments.run.dry_run) {
+    fmt::print("{}: would run {}; {} gates; results: {}\n", scenario.name, work_of(scenario), gates.size(),
+               (out / "").string());
+    return kPassed;
+  }
   prepare_output_folder(out);
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : scenario.seeds)
@@ -34,7 +41,8 @@ int run(const ScenarioArguments& arguments) {
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));
   const auto broken = broken_gates(run_json(result), gates);
-  fmt::print("{}results: {}\n", gate_report(broken, gates.size()), (out / "").string());
+  say_gates(gate_report(broken, gates.size()), !broken.empty());
+  fmt::print("results: {}\n", (out / "").string());
   return broken.empty() ? kPassed : kGateBroken;
 }
 

@@ -57,6 +57,23 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   return scenario;
 }
 
+std::string work_of(const worlds::Scenario& scenario) {
+  return fmt::format("seed{} {} of {} steps{} with {} ({} particles)", scenario.seeds.size() == 1 ? "" : "s",
+                     fmt::join(scenario.seeds, ", "), scenario.path.size(),
+                     scenario.seeds.size() == 1 ? "" : " each", fmt::join(scenario.filters, ", "),
+                     scenario.particles);
+}
+
+void warn_of_crossings(std::span<const worlds::Crossing> crossings) {
+  if (crossings.empty()) return;
+  const worlds::Crossing& first = crossings.front();
+  fmt::print(
+      stderr,
+      "stereobench: warning: the drive goes through a wall or a mesh at step {}, at ({:.2f}, {:.2f}) m{}\n",
+      first.step, first.at_m.x(), first.at_m.y(),
+      crossings.size() == 1 ? "" : fmt::format(", and {} times more", crossings.size() - 1));
+}
+
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend) {
   return scenario.sensor == worlds::SensorKind::kStereo ? renderer::name_of(backend) : "none";
 }

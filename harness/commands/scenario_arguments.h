@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "harness/commands/arguments.h"
 #include "renderer/mesh_shelf.h"
 #include "worlds/types.h"
+#include "worlds/wall_crossings.h"
 
 namespace stereobench::harness {
 
@@ -33,6 +35,12 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 /// @throws std::runtime_error as worlds::read_scenario and check_identities do
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
                                const std::vector<std::string>& more_overrides = {});
+
+/// What is to be done, for --dry-run: "seeds 0, 1 of 145 steps each with ufastslam (100 particles)".
+std::string work_of(const worlds::Scenario& scenario);
+
+/// Says on standard error where the drive goes through a wall, or through a mesh; nothing where it does not.
+void warn_of_crossings(std::span<const worlds::Crossing> crossings);
 
 /// What run.json says of who rendered: the back end's name, or "none" for a sensor without pixels.
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend);

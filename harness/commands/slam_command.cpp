@@ -8,6 +8,7 @@
 
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/measurement_log_reader.h"
 #include "harness/regression/gates.h"
@@ -79,13 +80,13 @@ std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArgumen
   return drives;
 }
 
-/// Makes sure that the gates name numbers of run.json before anything is replayed.
-void check_gates(const SlamArguments& arguments) {
+/// Has all the keys that the result will have.
+RunResult result_without_runs(const SlamArguments& arguments) {
   RunResult nothing_yet;
   nothing_yet.recorded.emplace();
-  if (!arguments.detections.empty()) nothing_yet.vision.emplace();
+  if (!arguments.detections.empty()) nothing_yet.vision = VisionScore{};
   for (const std::string& filter : arguments.run.filters) nothing_yet.filters.push_back({.filter = filter});
-  check_metrics(arguments.run.gates, run_json(nothing_yet));
+  return nothing_yet;
 }
 
 bool knows_identities(const MeasurementLog& log) {
@@ -111,7 +112,7 @@ int run_slam(SlamArguments arguments) {
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
   if (run.refit) arguments.config.refit = *run.refit;
-  check_gates(arguments);
+  check_metrics(run.gates, run_json(result_without_runs(arguments)));
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
@@ -119,6 +120,11 @@ int run_slam(SlamArguments arguments) {
   check_identities(run.filters, knows_identities(recorded.log), arguments.log.string());
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
+  if (run.dry_run) {
+    fmt::print("{}: would replay {} steps with {} filters for {} seeds; results: {}\n", name,
+               recorded.log.steps.size(), run.filters.size(), run.seeds.size(), (out / "").string());
+    return kPassed;
+  }
   prepare_output_folder(out);
   const auto drives = replay_seeds(recorded.log, arguments);
   RunResult result = assemble(name, "none", drives, Seeds::kFilters);
@@ -129,8 +135,9 @@ int run_slam(SlamArguments arguments) {
   write_run(out, result, drives, {});
   print_summary(result, drives.size(), recorded);
   const auto broken = broken_gates(run_json(result), run.gates);
-  fmt::print("\n{}\n{}results: {}\n", result_table(result), gate_report(broken, run.gates.size()),
-             (out / "").string());
+  fmt::print("\n{}\n", result_table(result));
+  say_gates(gate_report(broken, run.gates.size()), !broken.empty());
+  fmt::print("results: {}\n", (out / "").string());
   return broken.empty() ? kPassed : kGateBroken;
 }
 

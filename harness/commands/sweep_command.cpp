@@ -2,6 +2,7 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/report/text_table.h"
@@ -63,6 +64,12 @@ int run_sweep(const SweepArguments& arguments) {
     check_metrics(gates_of(scenario), result_without_values(scenario));
   sweep.name = scenarios.front().name;
   const std::filesystem::path out = output_folder(arguments.scenario.run, sweep.name + "_sweep");
+  if (arguments.scenario.run.dry_run) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      fmt::print("{}: would run {}\n", name_of(sweep.variations, cells[i]), work_of(scenarios[i]));
+    fmt::print("{} cells; results: {}\n", cells.size(), (out / "").string());
+    return kPassed;
+  }
   prepare_output_folder(out);
   const renderer::Backend backend = arguments.scenario.backend;
   const auto drives =
@@ -76,8 +83,9 @@ int run_sweep(const SweepArguments& arguments) {
   }
   write_sweep(out, sweep, drives);
   const auto [gate_lines, broken] = gates_of_cells(sweep, scenarios);
-  fmt::print("{}: {} cells\n\n{}\n{}\n{}results: {}\n", sweep.name, cells.size(), kIntervalNote,
-             sweep_table(sweep), gate_lines, (out / "").string());
+  fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, cells.size(), kIntervalNote, sweep_table(sweep));
+  say_gates(gate_lines, broken > 0);
+  fmt::print("results: {}\n", (out / "").string());
   return broken == 0 ? kPassed : kGateBroken;
 }
 

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/scenario_arguments.h"
+#include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/report/plan_picture.h"
@@ -47,8 +49,9 @@ void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
              std::accumulate(seen.begin(), seen.end(), 0.0) / static_cast<double>(seen.size()),
              share_of_steps(coverage, 1), share_of_steps(coverage, 2), share_of_steps(coverage, 3));
   const auto& worst = scenario.path[static_cast<std::size_t>(fewest - seen.begin())].pose;
-  fmt::print("fewest first at ({:.2f}, {:.2f}) m; {} balls never in view\n", worst.x_m, worst.y_m,
-             std::ranges::count(coverage.steps_seen, 0));
+  const std::vector<int> unseen = never_in_view(coverage);
+  fmt::print("fewest first at ({:.2f}, {:.2f}) m; {} balls never in view{}\n", worst.x_m, worst.y_m,
+             unseen.size(), unseen.empty() ? "" : fmt::format(": {}", fmt::join(unseen, ", ")));
 }
 
 int show_world(const WorldArguments& arguments) {
@@ -58,17 +61,16 @@ int show_world(const WorldArguments& arguments) {
   const worlds::World world =
       arguments.seed ? worlds::world_for_seed(scenario, *arguments.seed) : scenario.world;
   const ViewCoverage coverage = view_coverage(scenario, world);
-  if (!arguments.out.empty()) {
-    const std::string plan =
-        draw_plan(scenario, world, coverage, mesh_outlines(world, scenario.rig.height_m, meshes.forms()));
-    write_file_atomically(arguments.out, plan);
-  }
+  const auto outlines = mesh_outlines(world, scenario.rig.height_m, meshes.forms());
+  if (!arguments.out.empty())
+    write_file_atomically(arguments.out, draw_plan(scenario, world, coverage, outlines));
   if (!arguments.written.empty())
     write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides,
                                                                  arguments.seed, meshes.solids()));
   if (!arguments.draws.empty())
     write_file_atomically(arguments.draws, draws_jsonl(scenario, std::array{*arguments.seed}));
   print_summary(scenario, world, coverage);
+  warn_of_crossings(drive_crossings(world, scenario.path, outlines));
   if (!arguments.out.empty()) fmt::print("plan: {}\n", arguments.out.string());
   if (!arguments.written.empty()) fmt::print("scenario: {}\n", arguments.written.string());
   if (!arguments.draws.empty()) fmt::print("draws: {}\n", arguments.draws.string());
@@ -83,11 +85,15 @@ void add_world_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<WorldArguments>();
   command->add_option("scenario", arguments->scenario, "scenario file (YAML)")->required();
   add_set_option(*command, arguments->overrides);
-  CLI::Option* const seed =
-      command
-          ->add_option("--seed", arguments->seed,
-                       "the world of this seed (default: no ball moved, nothing left to chance drawn)")
-          ->check(CLI::NonNegativeNumber);
+  CLI::Option* const seed = command->add_option_function<std::string>(
+      "--seeds,--seed",
+      [arguments](const std::string& text) {
+        const auto seeds = parse_seeds(text);
+        if (seeds.size() > 1)
+          throw std::runtime_error(fmt::format("--seeds: a plan is of one seed (got {})", seeds.size()));
+        arguments->seed = seeds.front();
+      },
+      "the world of this seed (default: no ball moved, nothing left to chance drawn)");
   command->add_option("--out,-o", arguments->out, "SVG file for the plan");
   command->add_option(
       "--write", arguments->written,
@@ -97,6 +103,7 @@ void add_world_command(CLI::App& program, Action& action) {
       ->add_option("--draws", arguments->draws,
                    "file for the log of what the seed drew: a line of JSON for each value")
       ->needs(seed);
+  add_quiet_option(*command);
   command->footer(
       "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
       "what is behind them, and so do meshes, boxes and other shapes. For an oracle it is what lies in its "

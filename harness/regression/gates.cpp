@@ -37,20 +37,20 @@ std::string filter_of(const std::string& metric) {
   return metric.substr(prefix.size(), metric.find('.', prefix.size()) - prefix.size());
 }
 
-/// All that gates can name, as dotted paths.
-void append_metrics(const Json& json, const std::string& path, std::vector<std::string>& metrics) {
-  if (json.is_number() || json.is_null()) metrics.push_back(path);
-  if (!json.is_object()) return;
-  for (const auto& [key, child] : json.items())
-    append_metrics(child, path.empty() ? key : path + "." + key, metrics);
-}
-
 /// Has all the keys that a result has.
 RunResult result_without_runs(const worlds::Scenario& scenario) {
   RunResult nothing_yet;
   if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
   for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
   return nothing_yet;
+}
+
+/// All that gates can name, as dotted paths.
+void append_metrics(const Json& json, const std::string& path, std::vector<std::string>& metrics) {
+  if (json.is_number() || json.is_null()) metrics.push_back(path);
+  if (!json.is_object()) return;
+  for (const auto& [key, child] : json.items())
+    append_metrics(child, path.empty() ? key : path + "." + key, metrics);
 }
 
 std::string broken_message(const worlds::Gate& gate, const Json& metric) {

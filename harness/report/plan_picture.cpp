@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "harness/report/plan_sheet.h"
 #include "vision/palette.h"
 #include "worlds/path.h"
 #include "worlds/sight.h"
@@ -13,9 +14,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kSide_px = 900.0;  // the longer side of the plan
-constexpr double kMargin_px = 30.0;
-constexpr double kText_px = 62.0;  // below it
 constexpr std::size_t kSectors = 12;
 
 /// How the drive is drawn where so many balls are in view; the last stands for more.
@@ -24,52 +22,6 @@ constexpr std::array<const char*, 4> kCoverage = {"#d62728", "#ff9f1c", "#8fbf5a
 const char* coverage_colour(int balls) {
   return kCoverage[static_cast<std::size_t>(std::clamp(balls, 0, static_cast<int>(kCoverage.size()) - 1))];
 }
-
-/// The sheet: from metres to pixels, and what has been drawn.
-class Sheet {
- public:
-  explicit Sheet(const Eigen::AlignedBox2d& extent_m)
-      : extent_(extent_m), scale_(kSide_px / std::max(extent_m.sizes().maxCoeff(), 1e-3)) {}
-
-  double to_px(double length_m) const { return scale_ * length_m; }
-  std::string point(const Eigen::Vector2d& at_m) const {
-    return fmt::format("{:.1f},{:.1f}", x(at_m), y(at_m));
-  }
-  void line(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, std::string_view style) {
-    body_ += fmt::format("<path d=\"M{} L{}\" {}/>\n", point(from_m), point(to_m), style);
-  }
-  void disc(const Eigen::Vector2d& at_m, double radius_px, std::string_view style) {
-    body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>\n", x(at_m), y(at_m),
-                         radius_px, style);
-  }
-  void polygon(std::span<const Eigen::Vector2d> corners_m, std::string_view style) {
-    std::vector<std::string> points;
-    for (const Eigen::Vector2d& corner : corners_m) points.push_back(point(corner));
-    body_ += fmt::format("<polygon points=\"{}\" {}/>\n", fmt::join(points, " "), style);
-  }
-  /// Text below the plan, in lines.
-  void text(double x_px, int row, std::string_view words, std::string_view style = "") {
-    body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x_px,
-                         bottom_px() + 18.0 * (row + 1), style, words);
-  }
-  double bottom_px() const { return scale_ * extent_.sizes().y() + 2.0 * kMargin_px; }
-  std::string document() const {
-    const double width_px = std::max(scale_ * extent_.sizes().x() + 2.0 * kMargin_px, 640.0);
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\">\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
-        width_px, bottom_px() + kText_px, body_);
-  }
-
- private:
-  double x(const Eigen::Vector2d& at_m) const { return kMargin_px + scale_ * (at_m.x() - extent_.min().x()); }
-  double y(const Eigen::Vector2d& at_m) const { return kMargin_px + scale_ * (extent_.max().y() - at_m.y()); }
-
-  Eigen::AlignedBox2d extent_;
-  double scale_;
-  std::string body_;
-};
 
 Eigen::Vector2d place_of(const worlds::PathStep& step) {
   return {step.pose.x_m, step.pose.y_m};
@@ -82,23 +34,9 @@ Eigen::AlignedBox2d extent_of(const worlds::World& world, const worlds::GroundTr
   for (const FloorLine& line : outlines) box.extend(line.from_m).extend(line.to_m);
   for (const worlds::Ball& ball : world.balls) box.extend(Eigen::Vector2d(ball.centre_m.head<2>()));
   for (const worlds::PathStep& step : path) box.extend(place_of(step));
-  return box;
-}
-
-/// A length of 1, 2 or 5 times a power of ten, about a tenth of the plan.
-double bar_m(const Sheet& sheet) {
-  double length_m = 1e-3;
-  for (const double factor :
-       {2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5})
-    if (sheet.to_px(length_m) < 60.0) length_m *= factor;
-  return length_m;
-}
-
-void draw_scale(Sheet& sheet, const Eigen::AlignedBox2d& extent) {
-  const double length_m = bar_m(sheet);
-  const Eigen::Vector2d foot = extent.min() - Eigen::Vector2d(0.0, 20.0 / sheet.to_px(1.0));
-  sheet.line(foot, foot + Eigen::Vector2d(length_m, 0.0), "stroke=\"black\" stroke-width=\"2\"");
-  sheet.text(kMargin_px, 0, fmt::format("{:g} m", length_m));
+  const double edge_m =
+      0.03 * std::max(box.sizes().maxCoeff(), 1e-3);  // what stands at the edge is seen whole
+  return {box.min() - Eigen::Vector2d(edge_m, edge_m), box.max() + Eigen::Vector2d(edge_m, edge_m)};
 }
 
 /// How far, and how wide, the robot looks.
@@ -133,7 +71,7 @@ double sight_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, do
   return reach_m;
 }
 
-void draw_sectors(Sheet& sheet, const worlds::Scenario& scenario, std::span<const FloorLine> lines) {
+void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<const FloorLine> lines) {
   const Sector sector = sector_of(scenario);
   const std::size_t steps = scenario.path.size();
   const std::size_t count = std::min(kSectors, steps);
@@ -159,7 +97,7 @@ std::vector<FloorLine> hiding_lines(const worlds::World& world, double eye_heigh
   return lines;
 }
 
-void draw_drive(Sheet& sheet, const worlds::GroundTruth& path, const ViewCoverage& coverage) {
+void draw_drive(PlanSheet& sheet, const worlds::GroundTruth& path, const ViewCoverage& coverage) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     sheet.line(place_of(path[i - 1]), place_of(path[i]),
                fmt::format("stroke=\"{}\" stroke-width=\"3\" stroke-linecap=\"round\"",
@@ -175,7 +113,7 @@ void draw_drive(Sheet& sheet, const worlds::GroundTruth& path, const ViewCoverag
                 "fill=\"black\"");
 }
 
-void draw_balls(Sheet& sheet, const worlds::World& world, const ViewCoverage& coverage) {
+void draw_balls(PlanSheet& sheet, const worlds::World& world, const ViewCoverage& coverage) {
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const worlds::Ball& ball = world.balls[i];
     const auto [r, g, b] = vision::kPalette[static_cast<std::size_t>(ball.colour)];
@@ -183,6 +121,7 @@ void draw_balls(Sheet& sheet, const worlds::World& world, const ViewCoverage& co
     const double radius_px = std::max(5.0, sheet.to_px(ball.radius_m));
     sheet.disc(at, radius_px,
                fmt::format("fill=\"rgb({},{},{})\" stroke=\"black\" stroke-width=\"0.7\"", r, g, b));
+    sheet.label(at, {radius_px + 2.0, -radius_px}, fmt::format("{}", i), "fill=\"#333\" font-size=\"10\"");
     if (coverage.steps_seen[i] > 0) continue;
     const Eigen::Vector2d arm = Eigen::Vector2d(radius_px, radius_px) / sheet.to_px(1.0);
     for (const double side : {1.0, -1.0}) {
@@ -192,16 +131,26 @@ void draw_balls(Sheet& sheet, const worlds::World& world, const ViewCoverage& co
   }
 }
 
-void write_legend(Sheet& sheet, const worlds::Scenario& scenario, const ViewCoverage& coverage) {
+/// A cross where the drive goes through something.
+void draw_crossings(PlanSheet& sheet, std::span<const worlds::Crossing> crossings) {
+  const double arm_m = 9.0 / sheet.to_px(1.0);
+  for (const worlds::Crossing& crossing : crossings)
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector2d way(arm_m, side * arm_m);
+      sheet.line(crossing.at_m - way, crossing.at_m + way, "stroke=\"#d6006e\" stroke-width=\"3\"");
+    }
+}
+
+void write_legend(PlanSheet& sheet, const worlds::Scenario& scenario, const ViewCoverage& coverage) {
   const auto unseen = std::ranges::count(coverage.steps_seen, 0);
-  sheet.text(kMargin_px, 2,
-             fmt::format("{}: {} balls ({} never in view), {:.1f} m in {} steps", scenario.name,
-                         scenario.world.balls.size(), unseen, worlds::length_m(scenario.path),
-                         scenario.path.size()));
-  sheet.text(200.0, 0, "balls in view:");
+  sheet.text(0.0, 1,
+             fmt::format("{}: {} balls ({} never in view{}), {:.1f} m in {} steps", scenario.name,
+                         scenario.world.balls.size(), unseen, unseen > 0 ? ", crossed out" : "",
+                         worlds::length_m(scenario.path), scenario.path.size()));
+  sheet.text(0.0, 0, "balls in view on the drive:");
   for (int balls = 0; balls < static_cast<int>(kCoverage.size()); ++balls) {
     const bool last = balls + 1 == static_cast<int>(kCoverage.size());
-    sheet.text(310.0 + 70.0 * balls, 0, fmt::format("&#9632; {}{}", balls, last ? " or more" : ""),
+    sheet.text(190.0 + 70.0 * balls, 0, fmt::format("&#9632; {}{}", balls, last ? " or more" : ""),
                fmt::format("fill=\"{}\"", coverage_colour(balls)));
   }
 }
@@ -244,10 +193,25 @@ std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_heig
   return lines;
 }
 
+std::vector<worlds::Crossing> drive_crossings(const worlds::World& world, const worlds::GroundTruth& path,
+                                              std::span<const FloorLine> outlines) {
+  std::vector<worlds::FloorSegment> lines = worlds::feet_of(world.walls);
+  for (const FloorLine& line : outlines)
+    if (line.hides) lines.push_back({line.from_m, line.to_m});
+  return worlds::crossings(path, lines);
+}
+
+std::vector<int> never_in_view(const ViewCoverage& coverage) {
+  std::vector<int> balls;
+  for (std::size_t i = 0; i < coverage.steps_seen.size(); ++i)
+    if (coverage.steps_seen[i] == 0) balls.push_back(static_cast<int>(i));
+  return balls;
+}
+
 std::string draw_plan(const worlds::Scenario& scenario, const worlds::World& world,
                       const ViewCoverage& coverage, std::span<const FloorLine> outlines) {
-  const Eigen::AlignedBox2d extent = extent_of(world, scenario.path, outlines);
-  Sheet sheet(extent);
+  PlanSheet sheet(extent_of(world, scenario.path, outlines));
+  sheet.axes();
   draw_sectors(sheet, scenario, hiding_lines(world, scenario.rig.height_m, outlines));
   for (const FloorLine& line : outlines)
     sheet.line(line.from_m, line.to_m, "stroke=\"#a0795a\" stroke-width=\"1\"");
@@ -255,7 +219,7 @@ std::string draw_plan(const worlds::Scenario& scenario, const worlds::World& wor
     sheet.line(wall.from_m, wall.to_m, "stroke=\"#444\" stroke-width=\"2\" stroke-linecap=\"square\"");
   draw_drive(sheet, scenario.path, coverage);
   draw_balls(sheet, world, coverage);
-  draw_scale(sheet, extent);
+  draw_crossings(sheet, drive_crossings(world, scenario.path, outlines));
   write_legend(sheet, scenario, coverage);
   return sheet.document();
 }

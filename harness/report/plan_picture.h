@@ -9,6 +9,7 @@
 
 #include "renderer/mesh_surfaces.h"
 #include "worlds/types.h"
+#include "worlds/wall_crossings.h"
 
 namespace stereobench::harness {
 
@@ -33,8 +34,16 @@ struct FloorLine {
 std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m,
                                      const renderer::FormReader& read = renderer::read_form);
 
-/// Walls, outlines of meshes, balls in their colours (crossed out where never in view), the drive coloured by
-/// how many balls are in view, and sectors of view along it.
+/// Where the drive goes through a wall, or through the outline of a mesh that reaches above the eyes.
+std::vector<worlds::Crossing> drive_crossings(const worlds::World& world, const worlds::GroundTruth& path,
+                                              std::span<const FloorLine> outlines);
+
+/// The indices of the balls that are in view at no step.
+std::vector<int> never_in_view(const ViewCoverage& coverage);
+
+/// Walls, outlines of meshes, balls in their colours with their indices (crossed out where never in view),
+/// the drive coloured by how many balls are in view, sectors of view along it and crosses where it goes
+/// through something, on a grid with coordinates in metres.
 /// @return an SVG document, the same bytes for the same arguments
 std::string draw_plan(const worlds::Scenario& scenario, const worlds::World& world,
                       const ViewCoverage& coverage, std::span<const FloorLine> outlines);

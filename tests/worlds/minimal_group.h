@@ -98,6 +98,9 @@ inline std::vector<Context> contexts_of(const Context& above) {
     for (const std::string_view kind : kinds) {
       Context next{&below, path_of(above, key.name) + (key.lengths.single ? "" : "[0]"), std::string(kind)};
       next.set = overrides_of(above, minimal(*above.group, above.kind));
+      const bool replaces_another = std::ranges::any_of(
+          above.group->keys, [&](const Key& other) { return other.alternative == key.name; });
+      if (replaces_another) next.set.push_back(fmt::format("{}={{}}", above.path));
       if (kind == "tour") next.set.push_back("world={generator: {kind: maze}}");
       next.is_written = next.path == "world" || next.path == "world.balls[0]";
       const auto more = contexts_of(next);

@@ -28,7 +28,7 @@ TEST(SweepGates, AreThoseOfTheScenarioForEachCell) {
   const Outcome kept = sweep("1e6");
   EXPECT_EQ(kept.exit_code, 0) << kept.err;
   EXPECT_THAT(kept.out, HasSubstr("all 2 gates hold"));
-  const Outcome broken = sweep("20");
+  const Outcome broken = sweep("10");
   EXPECT_EQ(broken.exit_code, 1) << broken.out;
   EXPECT_THAT(broken.out,
               HasSubstr("gate broken: odometry_noise.v_constant_mps = 5: " + std::string(kDeadReckoning)));
@@ -118,6 +118,45 @@ TEST(Misspelt, CommandsFiltersAndOptionsAreAskedBack) {
   EXPECT_THAT(complaint({"photograph"}), HasSubstr("expected one of run, render, slam"));
   EXPECT_THAT(complaint({"run", "x", "--filters", "ufastslm"}), HasSubstr("did you mean ufastslam?"));
   EXPECT_THAT(complaint({"run", "x", "--partciles", "3"}), HasSubstr("did you mean --particles?"));
+}
+
+// Mutations: tables on standard output all the same; broken gates that nobody hears of.
+TEST(QuietOption, LeavesErrorsAndBrokenGates) {
+  const ScratchFolder scratch;
+  const auto run = [&](const std::string& gate) {
+    return run_stereobench({"run", scenario_path("open_field"), "--seeds", "0", "--particles", "5",
+                            "--filters", "dead_reckoning", "--set", "gates=[]", "--gate", gate, "--quiet",
+                            "--out", scratch.path().string()});
+  };
+  const Outcome kept = run(std::string(kDeadReckoning) + "<=1e6");
+  EXPECT_EQ(kept.exit_code, 0);
+  EXPECT_EQ(kept.out, "");
+  EXPECT_EQ(kept.err, "");
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "run.json"));
+  const Outcome broken = run(std::string(kDeadReckoning) + "<=0");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_EQ(broken.out, "");
+  EXPECT_THAT(broken.err, HasSubstr("gate broken: "));
+}
+
+// Mutations: a dry run that writes; one that passes what a run would refuse.
+TEST(DryRunOption, ChecksAndWritesNothing) {
+  const ScratchFolder scratch;
+  const std::string out = (scratch.path() / "out").string();
+  const auto dry = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--dry-run", "--out", out});
+    return run_stereobench(arguments);
+  };
+  const Outcome run = dry({"run", scenario_path("ball_circle"), "--seeds", "3..4", "--filters", "ekf"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("would run seeds 3, 4 of"));
+  EXPECT_THAT(run.out, HasSubstr("each with dead_reckoning, ekf"));
+  const Outcome sweep = dry({"sweep", scenario_path("ball_circle"), "--vary", "rig.distortion[0]=0,-0.1"});
+  EXPECT_THAT(sweep.out, HasSubstr("rig.distortion[0] = -0.1: would run"));
+  EXPECT_EQ(dry({"calibrate", scenario_path("ball_circle")}).exit_code, 0);
+  EXPECT_EQ(dry({"sweep", scenario_path("ball_circle"), "--vary", "path.laps=1,0"}).exit_code, 2);
+  EXPECT_EQ(dry({"run", scenario_path("ball_circle"), "--gate", "vision.beauty>=1"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "harness/commands/commands.h"
+#include "harness/commands/scenario_schema.h"
+#include "harness/dataset/atomic_file.h"
+
+namespace stereobench::harness {
+
+void add_schema_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
+  auto out = std::make_shared<std::filesystem::path>();
+  command->add_option("--out,-o", *out, "file for it (default: stdout)");
+  command->footer(
+      "Editors with a YAML language server then complete keys, show what they are, and underline what is "
+      "wrong:\n"
+      "  # yaml-language-server: $schema=scenario.schema.json\n"
+      "as the first line of a scenario.\n\n"
+      "Example: stereobench schema -o scenario.schema.json");
+  command->callback([out, &action] {
+    action = [out] {
+      const std::string text = scenario_schema().dump(2) + "\n";
+      if (out->empty())
+        fmt::print("{}", text);
+      else
+        write_file_atomically(*out, text);
+      return kPassed;
+    };
+  });
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,33 @@
+#include "harness/commands/talk.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/run/progress.h"
+
+namespace stereobench::harness {
+namespace {
+
+bool is_quiet = false;
+
+void be_quiet() {
+  is_quiet = true;
+  silence_progress();
+  if (std::freopen("/dev/null", "w", stdout) == nullptr)
+    throw std::runtime_error("--quiet: no /dev/null here");
+}
+
+}  // namespace
+
+void add_quiet_option(CLI::App& command) {
+  command.add_flag_callback("--quiet,-q", be_quiet,
+                            "say nothing but errors, warnings and broken gates; results are in files");
+}
+
+void say_gates(std::string_view report, bool broken) {
+  fmt::print(is_quiet && broken ? stderr : stdout, "{}", report);
+}
+
+}  // namespace stereobench::harness

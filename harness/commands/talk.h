@@ -1,0 +1,17 @@
+/// What commands say to people at their end, and what they keep to themselves.
+#pragma once
+
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace stereobench::harness {
+
+/// Adds --quiet: from then on standard output goes nowhere and no progress is shown. Errors and warnings
+/// remain.
+void add_quiet_option(CLI::App& command);
+
+/// Prints what gate_report says. Broken gates are said on standard error when the command is quiet.
+void say_gates(std::string_view report, bool broken);
+
+}  // namespace stereobench::harness
