@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/standard_streams.h"
+#include "harness/run/interruption.h"
 #include "harness/run/process_pool.h"
 #include "worlds/advice.h"
 
@@ -92,13 +94,17 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace stereobench::harness;
+  open_standard_streams();
+  end_on_signals();
   try {
-    return run_program(argc, argv);
+    const int outcome = run_program(argc, argv);
+    flush_standard_output();
+    return outcome;
   } catch (const RunCrash& crash) {
-    fmt::print(stderr, "stereobench: {}\n", crash.what());
+    complain(crash);
     return kRunCrashed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "stereobench: {}\n", error.what());
+    complain(error);
     return kBadInput;
   }
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -33,7 +34,15 @@ class KeyCheck {
       if (is_needed(key, kind) && !present.contains(key.name)) miss(value, key, present);
   }
 
-  const std::vector<std::string>& complaints() const { return complaints_; }
+  /// @return the first complaints, a line each, and how many more there are
+  std::string complaints() const {
+    constexpr std::size_t kShown = 20;
+    const std::size_t shown = std::min(complaints_.size(), kShown);
+    std::string text = fmt::format(
+        "{}", fmt::join(complaints_.begin(), complaints_.begin() + static_cast<long>(shown), "\n"));
+    if (shown < complaints_.size()) text += fmt::format("\nand {} more", complaints_.size() - shown);
+    return text;
+  }
 
  private:
   using Names = std::set<std::string, std::less<>>;
@@ -78,8 +87,8 @@ class KeyCheck {
 void check_keys(const YamlValue& value, const KeyGroup& group) {
   KeyCheck check;
   check.check(value, group);
-  if (!check.complaints().empty())
-    throw std::runtime_error(fmt::format("{}", fmt::join(check.complaints(), "\n")));
+  const std::string complaints = check.complaints();
+  if (!complaints.empty()) throw std::runtime_error(complaints);
 }
 
 }  // namespace stereobench::worlds

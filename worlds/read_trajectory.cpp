@@ -9,6 +9,7 @@
 
 #include "slam/elementary.h"
 #include "slam/motion.h"
+#include "worlds/excerpt.h"
 #include "worlds/smooth_path.h"
 
 namespace stereobench::worlds {
@@ -35,10 +36,11 @@ std::vector<double> numbers_in(std::string_view text, char separator, std::size_
     double number = 0.0;
     const auto [next, error] = std::from_chars(at, end, number);
     if (error != std::errc() || !(std::abs(number) <= kLargest))
-      place.refuse(fmt::format("expected {} finite numbers (got '{}')", count, text));
+      place.refuse(fmt::format("expected {} finite numbers (got '{}')", count, excerpt(text)));
     numbers.push_back(number);
     if (next == end) break;
-    if (*next != separator) place.refuse(fmt::format("expected {} finite numbers (got '{}')", count, text));
+    if (*next != separator)
+      place.refuse(fmt::format("expected {} finite numbers (got '{}')", count, excerpt(text)));
     at = next + 1;
   }
   if (numbers.size() != count)

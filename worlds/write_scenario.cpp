@@ -154,7 +154,32 @@ void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node ro
   }
 }
 
+std::string text_of(const YAML::Node& root) {
+  YAML::Emitter text;
+  text << root;
+  return std::string(text.c_str()) + "\n";
+}
+
+void gather_files(const YAML::Node& node, std::set<std::string>& files) {
+  for (const auto& entry : node) {
+    const YAML::Node& value = node.IsMap() ? entry.second : entry;
+    if (node.IsMap() && value.IsScalar() && entry.first.Scalar() == "file") files.insert(value.Scalar());
+    if (value.IsMap() || value.IsSequence()) gather_files(value, files);
+  }
+}
+
 }  // namespace
+
+std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return text_of(load_yaml(file, overrides).root);
+}
+
+std::set<std::string> files_named_in(const std::filesystem::path& file,
+                                     const std::vector<std::string>& overrides) {
+  std::set<std::string> files;
+  gather_files(load_yaml(file, overrides).root, files);
+  return files;
+}
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         std::optional<std::uint64_t> seed, const SolidReader& solids) {
@@ -172,9 +197,7 @@ std::string written_out(const std::filesystem::path& file, const std::vector<std
     document.root["placement_jitter_m"] = 0;
     document.root["seeds"] = *seed;
   }
-  YAML::Emitter text;
-  text << document.root;
-  return std::string(text.c_str()) + "\n";
+  return text_of(document.root);
 }
 
 }  // namespace stereobench::worlds

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,16 @@ namespace stereobench::worlds {
 /// @throws std::runtime_error, std::invalid_argument as read_scenario
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                         std::optional<std::uint64_t> seed = std::nullopt, const SolidReader& solids = {});
+
+/// The lines of a scenario with its overrides put in place, and nothing else changed but that comments are
+/// lost: files have the names that they have there.
+/// @throws std::runtime_error as load_yaml
+std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// The files that a scenario names, each once, as they are named: meshes, textures, paths, noise. Those that
+/// lie within a mesh file are not among them.
+/// @throws std::runtime_error as load_yaml
+std::set<std::string> files_named_in(const std::filesystem::path& file,
+                                     const std::vector<std::string>& overrides);
 
 }  // namespace stereobench::worlds

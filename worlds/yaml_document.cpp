@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "worlds/parse_yaml.h"
 #include "worlds/scenario_keys.h"
 
 namespace stereobench::worlds {
@@ -35,7 +36,7 @@ YAML::Node parse_one_document(const std::filesystem::path& file) {
   const std::string text = read_text(file);
   std::vector<YAML::Node> documents;
   try {
-    documents = YAML::LoadAll(text);
+    documents = parse_yaml(text);
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(
         fmt::format("{}:{}: expected YAML ({})", file.string(), error.mark.line + 1, error.msg));
@@ -61,7 +62,8 @@ class Override {
   void put_into(const YAML::Node& root) const {
     YAML::Node value;
     try {
-      value = YAML::Load(text_.substr(path_.size() + 1));
+      const std::vector<YAML::Node> documents = parse_yaml(text_.substr(path_.size() + 1));
+      if (!documents.empty()) value = documents.front();
     } catch (const YAML::Exception& error) {
       refuse(fmt::format("expected a YAML value ({})", error.msg));
     }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "worlds/excerpt.h"
+
 namespace stereobench::worlds {
 namespace {
 
@@ -15,12 +17,7 @@ std::string describe(const YAML::Node& node) {
   if (node.IsMap()) return "a group of keys";
   if (node.IsSequence()) return fmt::format("a list of {}", node.size());
   if (!node.IsScalar()) return "nothing";
-  constexpr std::size_t kShown = 40;
-  std::string text = node.Scalar().substr(0, kShown);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  if (node.Scalar().size() > kShown) text += "...";
+  const std::string text = excerpt(node.Scalar(), 40);
   return node.Tag() == "!" ? '"' + text + '"' : text;
 }
 
@@ -91,7 +88,7 @@ std::vector<YamlValue> YamlValue::list(std::size_t least, std::size_t most) cons
 }
 
 std::string YamlValue::place() const {
-  return blame(*document_, key_, mark_);
+  return excerpt(blame(*document_, key_, mark_), 1000);  // a key may be as long as the file
 }
 
 void YamlValue::fail(std::string_view expected) const {

@@ -12,6 +12,7 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/dataset_truth.h"
+#include "harness/dataset/file_list.h"
 #include "harness/dataset/palette_file.h"
 #include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
@@ -181,6 +182,7 @@ int detect(const DetectArguments& arguments) {
   if (arguments.serve) return serve();
   if (arguments.pictures.empty())
     throw std::runtime_error("detect: expected LEFT, LEFT RIGHT or a folder; see --help");
+  require_as_rendered(arguments.pictures.front());
   const Looker looker(arguments);
   if (!arguments.draw.empty()) prepare_output_folder(arguments.draw);
   std::string lines;

@@ -10,12 +10,14 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/standard_streams.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/rendered_truth.h"
 #include "harness/dataset/truth_limits.h"
+#include "harness/run/interruption.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
 #include "harness/run/recording.h"
@@ -38,7 +40,7 @@ struct RenderArguments {
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
 /// own text, what was changed of it, the seed, what renders, what truth was asked for, and the program's
 /// version.
-std::string identity_of(const RenderArguments& arguments) {
+nlohmann::ordered_json identity_of(const RenderArguments& arguments) {
   std::ostringstream text;
   text << std::ifstream(arguments.scenario, std::ios::binary).rdbuf();
   nlohmann::ordered_json identity = {{"schema", 1},
@@ -49,7 +51,7 @@ std::string identity_of(const RenderArguments& arguments) {
                                      {"scenario", text.str()}};
   for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
   if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
-  return identity.dump(2) + "\n";
+  return identity;
 }
 
 int render(const RenderArguments& arguments) {
@@ -66,6 +68,12 @@ int render(const RenderArguments& arguments) {
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   const worlds::World world = worlds::world_for_seed(scenario, arguments.seed);
   const RenderedDataset dataset(out, identity_of(arguments));
+  if (!dataset.spoilt().empty())
+    note(
+        fmt::format("{}: {} files were missing or not as they had been written (the first: {}); they are "
+                    "rendered again",
+                    out.string(), dataset.spoilt().size(), dataset.spoilt().front()));
+  say_that_work_is_kept();
   std::optional<RenderedTruth> truth;
   if (!arguments.truth.kinds.empty()) truth.emplace(out, arguments.truth, scenario, world, arguments.backend);
   Progress progress("render " + scenario.name, 1.0);

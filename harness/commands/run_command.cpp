@@ -4,6 +4,7 @@
 
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
@@ -30,14 +31,17 @@ int run(const ScenarioArguments& arguments) {
     return kPassed;
   }
   prepare_output_folder(out);
-  std::vector<DriveTask> tasks;
-  for (const std::uint64_t seed : scenario.seeds)
-    tasks.push_back({&scenario, seed, seed == scenario.seeds.front() ? kSnapshots : 0, arguments.backend});
-  const auto drives = drive_seeds(tasks, arguments.run.jobs, "run " + scenario.name);
-  const RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
+  KeptDrives kept(out);
+  const std::string pixels = pixels_of(scenario, arguments.backend);
+  const auto tasks = drive_tasks(arguments, {}, scenario, pixels, kSnapshots);
+  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name);
+  const std::vector<SeedDrive> drives = kept.of(tasks);
+  RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
+  result.made_from = provenance_of(arguments, {}, scenario, pixels);
   write_run(out, result, drives, scenario.world.walls);
   const std::string draws = draws_jsonl(scenario, scenario.seeds);
   if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
+  kept.discard();
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));
   const auto broken = broken_gates(run_json(result), gates);

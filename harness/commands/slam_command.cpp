@@ -10,6 +10,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
+#include "harness/dataset/file_list.h"
 #include "harness/dataset/measurement_log_reader.h"
 #include "harness/regression/gates.h"
 #include "harness/run/detections_file.h"
@@ -113,6 +114,7 @@ int run_slam(SlamArguments arguments) {
   if (run.particles > 0) arguments.config.particles = run.particles;
   if (run.refit) arguments.config.refit = *run.refit;
   check_metrics(run.gates, run_json(result_without_runs(arguments)));
+  require_as_rendered(arguments.log);
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())

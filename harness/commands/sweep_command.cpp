@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/report/text_table.h"
-#include "harness/run/seed_drive.h"
+#include "harness/run/run_output.h"
 #include "harness/sweep/grid.h"
 #include "harness/sweep/sweep_result.h"
 
@@ -18,31 +19,46 @@ struct SweepArguments {
   std::vector<std::string> variations;
 };
 
-std::vector<DriveTask> tasks_of(const std::vector<worlds::Scenario>& scenarios, renderer::Backend backend) {
-  std::vector<DriveTask> tasks;
-  for (const worlds::Scenario& scenario : scenarios)
-    for (const std::uint64_t seed : scenario.seeds) tasks.push_back({&scenario, seed, 0, backend});
-  return tasks;
-}
-
 void write_sweep(const std::filesystem::path& out, const SweepResult& sweep,
-                 std::span<const SeedDrive> drives) {
+                 const nlohmann::ordered_json& timing, const Provenance& made_from) {
   for (const NamedPicture& picture : sweep_pictures(sweep))
     write_file_atomically(out / picture.file_name, picture.png);
   write_file_atomically(out / "sweep.csv", sweep_csv(sweep));
-  write_file_atomically(out / "timing.json", timing_json(drives).dump(2) + "\n");
+  write_file_atomically(out / "timing.json", timing.dump(2) + "\n");
+  write_file_atomically(out / kResolvedScenario, made_from.scenario);
   write_file_atomically(out / "sweep.json", sweep_json(sweep).dump(2) + "\n");
+}
+
+/// A cell before it is run.
+struct CellPlan {
+  Cell values;
+  std::vector<std::string> overrides;
+  worlds::Scenario scenario;
+  Provenance made_from;
+  std::vector<DriveTask> tasks;  ///< they refer to the scenario
+};
+
+/// @throws std::runtime_error when a cell's scenario cannot be read, or its gates name no number of run.json
+std::vector<CellPlan> plans_of(const SweepArguments& arguments, const std::vector<Variation>& variations) {
+  std::vector<CellPlan> plans;
+  for (const Cell& cell : grid(variations)) {
+    const auto overrides = overrides_of(variations, cell);
+    plans.push_back({cell, overrides, read_scenario(arguments.scenario, overrides)});
+    const worlds::Scenario& scenario = plans.back().scenario;
+    check_metrics(gates_of(scenario), result_without_values(scenario));
+  }
+  return plans;
 }
 
 /// Holds each cell against the gates of its scenario. @return a line for each broken gate, and how many there
 /// are
 std::pair<std::string, std::size_t> gates_of_cells(const SweepResult& sweep,
-                                                   const std::vector<worlds::Scenario>& scenarios) {
+                                                   const std::vector<CellPlan>& plans) {
   std::string lines;
   std::size_t broken = 0;
   std::size_t gates = 0;
-  for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    const auto limits = gates_of(scenarios[i]);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const auto limits = gates_of(plans[i].scenario);
     const auto off = broken_gates(run_json(sweep.cells[i].result), limits);
     if (!off.empty())
       lines += gate_report(off, limits.size(), name_of(sweep.variations, sweep.cells[i].values) + ": ");
@@ -53,37 +69,62 @@ std::pair<std::string, std::size_t> gates_of_cells(const SweepResult& sweep,
   return {lines, broken};
 }
 
+std::string pixels_of_any(const std::vector<CellPlan>& plans, renderer::Backend backend) {
+  for (const CellPlan& plan : plans)
+    if (plan.scenario.sensor == worlds::SensorKind::kStereo) return pixels_of(plan.scenario, backend);
+  return {};
+}
+
+/// Adds to each plan its tasks and what it is made from. @return all tasks, cell by cell
+std::vector<DriveTask> add_tasks(std::vector<CellPlan>& plans, const ScenarioArguments& base,
+                                 const std::string& pixels) {
+  std::vector<DriveTask> all;
+  for (CellPlan& plan : plans) {
+    plan.made_from = provenance_of(base, plan.overrides, plan.scenario, pixels);
+    plan.tasks = drive_tasks(base, plan.overrides, plan.scenario, pixels, 0);
+    all.insert(all.end(), plan.tasks.begin(), plan.tasks.end());
+  }
+  return all;
+}
+
+/// Scores the cells one after another: in memory are the drives of one. @return the seconds of all drives
+Timing assemble_cells(const KeptDrives& kept, const std::vector<CellPlan>& plans, renderer::Backend backend,
+                      SweepResult& sweep) {
+  Timing timing;
+  for (const CellPlan& plan : plans) {
+    const std::vector<SeedDrive> drives = kept.of(plan.tasks);
+    sweep.cells.push_back(
+        assemble_cell(sweep.name, rendered_by(plan.scenario, backend), plan.values, drives));
+    sweep.cells.back().result.made_from = plan.made_from;
+    for (const auto& [stage, seconds] : timing_of(drives)) timing[stage] += seconds;
+  }
+  return timing;
+}
+
 int run_sweep(const SweepArguments& arguments) {
+  const ScenarioArguments& base = arguments.scenario;
   SweepResult sweep;
   for (const std::string& text : arguments.variations) sweep.variations.push_back(parse_variation(text));
-  const std::vector<Cell> cells = grid(sweep.variations);
-  std::vector<worlds::Scenario> scenarios;
-  for (const Cell& cell : cells)
-    scenarios.push_back(read_scenario(arguments.scenario, overrides_of(sweep.variations, cell)));
-  for (const worlds::Scenario& scenario : scenarios)
-    check_metrics(gates_of(scenario), result_without_values(scenario));
-  sweep.name = scenarios.front().name;
-  const std::filesystem::path out = output_folder(arguments.scenario.run, sweep.name + "_sweep");
-  if (arguments.scenario.run.dry_run) {
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      fmt::print("{}: would run {}\n", name_of(sweep.variations, cells[i]), work_of(scenarios[i]));
-    fmt::print("{} cells; results: {}\n", cells.size(), (out / "").string());
+  std::vector<CellPlan> plans = plans_of(arguments, sweep.variations);
+  sweep.name = plans.front().scenario.name;
+  const std::filesystem::path out = output_folder(base.run, sweep.name + "_sweep");
+  if (base.run.dry_run) {
+    for (const CellPlan& plan : plans)
+      fmt::print("{}: would run {}\n", name_of(sweep.variations, plan.values), work_of(plan.scenario));
+    fmt::print("{} cells; results: {}\n", plans.size(), (out / "").string());
     return kPassed;
   }
   prepare_output_folder(out);
-  const renderer::Backend backend = arguments.scenario.backend;
-  const auto drives =
-      drive_seeds(tasks_of(scenarios, backend), arguments.scenario.run.jobs, "sweep " + sweep.name);
-  std::span<const SeedDrive> rest = drives;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t seeds = scenarios[i].seeds.size();
-    sweep.cells.push_back(
-        assemble_cell(sweep.name, rendered_by(scenarios[i], backend), cells[i], rest.first(seeds)));
-    rest = rest.subspan(seeds);
-  }
-  write_sweep(out, sweep, drives);
-  const auto [gate_lines, broken] = gates_of_cells(sweep, scenarios);
-  fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, cells.size(), kIntervalNote, sweep_table(sweep));
+  KeptDrives kept(out);
+  const std::string pixels = pixels_of_any(plans, base.backend);
+  const std::vector<DriveTask> tasks = add_tasks(plans, base, pixels);
+  kept.complete(tasks, base.run.jobs, "sweep " + sweep.name);
+  const Timing timing = assemble_cells(kept, plans, base.backend, sweep);
+  write_sweep(out, sweep, timing_json(timing, tasks.size()),
+              provenance_of(base, {}, plans.front().scenario, pixels));
+  kept.discard();
+  const auto [gate_lines, broken] = gates_of_cells(sweep, plans);
+  fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, plans.size(), kIntervalNote, sweep_table(sweep));
   say_gates(gate_lines, broken > 0);
   fmt::print("results: {}\n", (out / "").string());
   return broken == 0 ? kPassed : kGateBroken;

@@ -1,6 +1,10 @@
 #include "harness/dataset/atomic_file.h"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -25,6 +29,11 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
 }
 
+/// The name of the temporary file, for a signal's handler; empty where there is none.
+std::array<char, PATH_MAX> unfinished_name = {};
+std::atomic<bool> is_unfinished = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
 /// A file under a name of its own, which is removed again unless it was renamed into place.
 class TemporaryFile {
  public:
@@ -34,12 +43,16 @@ class TemporaryFile {
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ < 0 && errno != EEXIST) fail(final_path_, "cannot be written", errno);
     }
+    if (name_.size() >= unfinished_name.size()) return;
+    std::copy_n(name_.c_str(), name_.size() + 1, unfinished_name.begin());
+    is_unfinished = true;
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
     if (descriptor_ >= 0) close(descriptor_);
     if (!moved_) unlink(name_.c_str());
+    is_unfinished = false;
   }
 
   void write_all(std::string_view bytes) {
@@ -55,6 +68,7 @@ class TemporaryFile {
     if (fsync(descriptor_) != 0) fail(final_path_, "cannot be written", errno);
     if (close(std::exchange(descriptor_, -1)) != 0) fail(final_path_, "cannot be written", errno);
     if (std::rename(name_.c_str(), final_path_.c_str()) != 0) fail(final_path_, "cannot be replaced", errno);
+    is_unfinished = false;
     moved_ = true;
   }
 
@@ -93,12 +107,22 @@ bool is_leftover(const std::string& name) {
 
 }  // namespace
 
-void remove_leftovers(const fs::path& folder) {
+void remove_unfinished_file() noexcept {
+  if (is_unfinished) unlink(unfinished_name.data());
+}
+
+void remove_leftovers_in(const fs::path& folder) {
   std::vector<fs::path> leftovers;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.is_regular_file() && is_leftover(entry.path().filename().string()))
       leftovers.push_back(entry.path());
   for (const fs::path& leftover : leftovers) fs::remove(leftover);
+}
+
+void remove_leftovers(const fs::path& folder) {
+  remove_leftovers_in(folder);
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_directory()) remove_leftovers_in(entry.path());
 }
 
 void prepare_output_folder(const fs::path& folder) {

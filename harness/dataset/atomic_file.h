@@ -18,8 +18,15 @@ void prepare_output_folder(const std::filesystem::path& folder);
 /// @throws std::runtime_error naming the path and the cause (missing folder, no permission, full disk)
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes what processes that were killed left below a folder under temporary names. Those of processes that
+/// Removes the file that write_file_atomically is just writing, of which there is no more than one. Safe to
+/// call in a signal's handler.
+void remove_unfinished_file() noexcept;
+
+/// Removes what processes that were killed left in a folder under temporary names. Those of processes that
 /// are still alive stay.
+void remove_leftovers_in(const std::filesystem::path& folder);
+
+/// The same for a folder and all below it.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace stereobench::harness

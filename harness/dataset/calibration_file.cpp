@@ -1,6 +1,7 @@
 #include "harness/dataset/calibration_file.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include <Eigen/Core>
@@ -8,9 +9,11 @@
 #include <opencv2/core.hpp>
 
 #include "harness/dataset/text_file.h"
+#include "harness/detector/json_line.h"
 #include "slam/elementary.h"
 #include "vision/distortion.h"
 #include "vision/rig.h"
+#include "worlds/parse_yaml.h"
 
 namespace stereobench::harness {
 namespace {
@@ -23,13 +26,21 @@ constexpr double kRounding = 1e-12;  // of a rotation that went through a file
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-double number(const fs::path& file, const cv::FileNode& storage, const char* key) {
-  const cv::FileNode node = storage[key];
-  if (!node.isReal() && !node.isInt()) refuse(file, fmt::format("{}: expected a number", key));
-  return node.real();
+/// The number that a node holds, infinities and NaN included; empty where it holds none.
+std::optional<double> number_in(const YAML::Node& node) {
+  double value = 0.0;
+  if (!node.IsDefined() || !node.IsScalar()) return std::nullopt;
+  if (node.Scalar() == ".Nan") return std::nan("");  // OpenCV's spelling
+  return YAML::convert<double>::decode(node, value) ? std::optional(value) : std::nullopt;
 }
 
-int pixels(const fs::path& file, const cv::FileNode& storage, const char* key) {
+double number(const fs::path& file, const YAML::Node& storage, const char* key) {
+  const std::optional<double> value = number_in(storage[key]);
+  if (!value) refuse(file, fmt::format("{}: expected a number", key));
+  return *value;
+}
+
+int pixels(const fs::path& file, const YAML::Node& storage, const char* key) {
   constexpr double kMost = 65536.0;
   const double value = number(file, storage, key);
   if (!(value >= 1.0 && value <= kMost))
@@ -37,21 +48,30 @@ int pixels(const fs::path& file, const cv::FileNode& storage, const char* key) {
   return static_cast<int>(value);
 }
 
-/// Whether a node says that it is a matrix of a size, and is: OpenCV would make any size that is said.
-bool holds_matrix(const cv::FileNode& node, const cv::Size& size) {
-  if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt()) return false;
-  return static_cast<int>(node["rows"]) == size.height && static_cast<int>(node["cols"]) == size.width &&
-         node["data"].isSeq() && node["data"].size() == static_cast<std::size_t>(size.area());
+/// The numbers of a matrix, row by row; empty where the node is no matrix of this size.
+std::optional<cv::Mat> matrix_in(const YAML::Node& node, const cv::Size& size) {
+  if (!node.IsMap() || number_in(node["rows"]) != size.height || number_in(node["cols"]) != size.width)
+    return std::nullopt;
+  const YAML::Node data = node["data"];
+  if (!data.IsDefined() || !data.IsSequence() || data.size() != static_cast<std::size_t>(size.area()))
+    return std::nullopt;
+  cv::Mat matrix(size, CV_64F);
+  for (int i = 0; i < size.area(); ++i) {
+    const std::optional<double> entry = number_in(data[static_cast<std::size_t>(i)]);
+    if (!entry) return std::nullopt;
+    matrix.at<double>(i / size.width, i % size.width) = *entry;
+  }
+  return matrix;
 }
 
 /// A matrix of doubles; empty where the key is left out.
-cv::Mat matrix(const fs::path& file, const cv::FileNode& storage, const char* key, const cv::Size& size) {
-  const cv::FileNode node = storage[key];
-  if (node.empty()) return {};
-  const cv::Mat matrix = holds_matrix(node, size) ? node.mat() : cv::Mat();
-  if (matrix.size() != size || matrix.type() != CV_64F)
+cv::Mat matrix(const fs::path& file, const YAML::Node& storage, const char* key, const cv::Size& size) {
+  const YAML::Node node = storage[key];
+  if (!node.IsDefined() || node.IsNull()) return {};
+  const std::optional<cv::Mat> matrix = matrix_in(node, size);
+  if (!matrix)
     refuse(file, fmt::format("{}: expected a matrix of {} x {} doubles", key, size.height, size.width));
-  return matrix;
+  return *matrix;
 }
 
 Eigen::Matrix3d rotation_of(const cv::Mat& transform) {
@@ -62,7 +82,7 @@ Eigen::Matrix3d rotation_of(const cv::Mat& transform) {
 }
 
 /// The camera of a K, with pictures of a size that is yet to be said.
-vision::Intrinsics camera_in(const fs::path& file, const cv::FileNode& storage) {
+vision::Intrinsics camera_in(const fs::path& file, const YAML::Node& storage) {
   const cv::Mat k = matrix(file, storage, "K", {3, 3});
   if (k.empty()) refuse(file, "K: this key is missing");
   if (!(std::abs(k.at<double>(0, 0) - k.at<double>(1, 1)) <= 1e-9 * std::abs(k.at<double>(0, 0))))
@@ -70,7 +90,7 @@ vision::Intrinsics camera_in(const fs::path& file, const cv::FileNode& storage) 
   return {0, 0, k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2)};
 }
 
-vision::Distortion lens_in(const fs::path& file, const cv::FileNode& storage) {
+vision::Distortion lens_in(const fs::path& file, const YAML::Node& storage) {
   const cv::Mat d = matrix(file, storage, "D", {5, 1});
   if (d.empty()) return {};
   return {.k1 = d.at<double>(0),
@@ -80,8 +100,8 @@ vision::Distortion lens_in(const fs::path& file, const cv::FileNode& storage) {
           .k3 = d.at<double>(4)};
 }
 
-vision::EyeCamera eye_in(const fs::path& file, const cv::FileNode& storage, const vision::Intrinsics& size) {
-  if (!storage.isMap())
+vision::EyeCamera eye_in(const fs::path& file, const YAML::Node& storage, const vision::Intrinsics& size) {
+  if (!storage.IsDefined() || !storage.IsMap())
     refuse(file, "left_eye, right_eye: expected both, each with K, D, rectified_from_eye");
   vision::EyeCamera eye{.camera = camera_in(file, storage), .lens = lens_in(file, storage)};
   eye.camera.width_px = size.width_px;
@@ -93,7 +113,7 @@ vision::EyeCamera eye_in(const fs::path& file, const cv::FileNode& storage, cons
   return eye;
 }
 
-vision::StereoRig rig_in(const fs::path& file, const cv::FileNode& storage) {
+vision::StereoRig rig_in(const fs::path& file, const YAML::Node& storage) {
   vision::StereoRig rig;
   rig.camera = camera_in(file, storage);
   rig.camera.width_px = pixels(file, storage, "image_width");
@@ -110,6 +130,18 @@ vision::StereoRig rig_in(const fs::path& file, const cv::FileNode& storage) {
   rig.pitch_down_rad = slam::arc_tangent(-left.at<double>(2, 2), left.at<double>(0, 2));
   if (!right.empty()) rig.right_turn_rad = turn_angles(rotation_of(left).transpose() * rotation_of(right));
   return rig;
+}
+
+/// The map of keys that OpenCV's YAML files are.
+YAML::Node document_in(const std::string& text, const fs::path& name) {
+  try {
+    const std::vector<YAML::Node> documents = worlds::parse_yaml(text);
+    if (documents.size() == 1 && documents.front().IsMap()) return documents.front();
+  } catch (const YAML::Exception& error) {
+    refuse(name, fmt::format("expected a calibration as an OpenCV YAML file (line {}: {})",
+                             error.mark.line + 1, excerpt(error.msg)));
+  }
+  refuse(name, "expected a calibration as an OpenCV YAML file");
 }
 
 cv::Mat camera_matrix(const vision::Intrinsics& c) {
@@ -177,22 +209,14 @@ Eigen::Vector3d turn_angles(const Eigen::Matrix3d& rotation) {
 }
 
 RigCalibration parse_calibration(const std::string& text, const fs::path& name) {
-  if (text.empty()) refuse(name, "expected a calibration (the file is empty)");
-  try {
-    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    const cv::FileNode root = storage.root();
-    RigCalibration calibration{.rig = rig_in(name, root)};
-    if (!vision::is_usable(calibration.rig))
-      refuse(name, "expected finite numbers, positive sizes and baseline");
-    if (root["left_eye"].empty() && root["right_eye"].empty()) return calibration;
-    calibration.eyes = {eye_in(name, root["left_eye"], calibration.rig.camera),
-                        eye_in(name, root["right_eye"], calibration.rig.camera)};
-    return calibration;
-  } catch (const std::runtime_error&) {
-    throw;
-  } catch (const std::exception&) {  // OpenCV's parser throws its own and the standard library's
-    refuse(name, "expected a calibration as an OpenCV YAML file");
-  }
+  const YAML::Node root = document_in(text, name);
+  RigCalibration calibration{.rig = rig_in(name, root)};
+  if (!vision::is_usable(calibration.rig))
+    refuse(name, "expected finite numbers, positive sizes and baseline");
+  if (!root["left_eye"].IsDefined() && !root["right_eye"].IsDefined()) return calibration;
+  calibration.eyes = {eye_in(name, root["left_eye"], calibration.rig.camera),
+                      eye_in(name, root["right_eye"], calibration.rig.camera)};
+  return calibration;
 }
 
 RigCalibration read_rig_calibration(const fs::path& file) {

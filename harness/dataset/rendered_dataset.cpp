@@ -1,8 +1,6 @@
 #include "harness/dataset/rendered_dataset.h"
 
 #include <array>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -10,38 +8,61 @@
 
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/calibration_file.h"
+#include "harness/dataset/file_list.h"
 #include "harness/dataset/measurement_log_writer.h"
 #include "harness/dataset/picture_file.h"
+#include "harness/dataset/text_file.h"
+#include "harness/detector/json_line.h"
 #include "worlds/paint.h"
 
 namespace stereobench::harness {
 namespace {
 
-/// What the folder's marker says while frames are still being written, and after.
+/// The folder's marker while frames are still being written.
 constexpr const char* kUnfinished = "dataset.unfinished.json";
-constexpr const char* kFinished = "dataset.json";
 
-std::string read_whole(const std::filesystem::path& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
+/// What a marker says; nothing where it is not JSON.
+nlohmann::json read_marker(const std::filesystem::path& path) {
+  try {
+    return parse_line(read_text(path));
+  } catch (const BadLine&) {
+    return {};
+  }
 }
 
 }  // namespace
 
-RenderedDataset::RenderedDataset(std::filesystem::path folder, std::string identity)
+RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered_json identity)
     : folder_(std::move(folder)), identity_(std::move(identity)) {
   prepare_output_folder(folder_);
-  for (const char* marker : {kFinished, kUnfinished})
-    if (std::filesystem::exists(folder_ / marker) && read_whole(folder_ / marker) != identity_)
-      throw std::runtime_error(
-          fmt::format("{}: holds a data set of another scenario, seed, back end or version; choose another "
-                      "folder or remove it",
-                      (folder_ / marker).string()));
+  for (const char* marker : {kFinishedDataset, kUnfinished})
+    if (std::filesystem::exists(folder_ / marker)) take_up(folder_ / marker);
   remove_leftovers(folder_);
   for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
     prepare_output_folder(folder_ / part);
-  if (!std::filesystem::exists(folder_ / kFinished)) write_file_atomically(folder_ / kUnfinished, identity_);
+  if (!std::filesystem::exists(folder_ / kFinishedDataset) || !spoilt_.empty())
+    write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
+  if (!spoilt_.empty()) std::filesystem::remove(folder_ / kFinishedDataset);
+  for (const std::string& name : spoilt_) std::filesystem::remove(folder_ / name);
+}
+
+void RenderedDataset::take_up(const std::filesystem::path& marker) {
+  nlohmann::json told = read_marker(marker);
+  nlohmann::json files = nlohmann::json::object();
+  if (told.is_object() && told.contains(kFiles)) {
+    files = told[kFiles];
+    told.erase(kFiles);
+  }
+  if (told != parse_line(identity_.dump()))
+    throw std::runtime_error(
+        fmt::format("{}: holds a data set of another scenario, seed, back end or version; choose another "
+                    "folder or remove it",
+                    marker.string()));
+  try {
+    for (const std::string& name : changed_files(folder_, files)) spoilt_.push_back(name);
+  } catch (const BadLine& error) {
+    throw std::runtime_error(fmt::format("{}: {}", marker.string(), error.what()));
+  }
 }
 
 void RenderedDataset::write(const Look& look) const {
@@ -63,7 +84,9 @@ void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig
   write_file_atomically(folder_ / "balls.csv", balls_csv(world));
   write_log(folder_, log);
   remove_leftovers(folder_);  // of one that was just dying when this one began
-  write_file_atomically(folder_ / kFinished, identity_);
+  nlohmann::ordered_json marker = identity_;
+  marker[kFiles] = file_list(folder_, product_names(folder_));
+  write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
   std::filesystem::remove(folder_ / kUnfinished);
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "harness/run/recording.h"
 #include "worlds/types.h"
 
@@ -18,15 +20,22 @@ namespace stereobench::harness {
 ///     calibration.yaml        true_calibration.yaml   the rig as it is believed to be, and as it is
 ///     balls.csv
 ///     odometry.csv observations.csv landmarks.csv groundtruth.csv instants.csv   what `stereobench slam`
-///     reads dataset.json            written last: where it is, the folder is complete
+///     reads dataset.json            written last: where it is, the folder is complete; what was rendered,
+///     and size and
+///                             SHA-256 of each file
 ///
 /// Frames are named by their step; groundtruth.csv has one line for each.
 class RenderedDataset {
  public:
   /// Prepares the folder, or takes up one that was interrupted.
-  /// @param identity of what is rendered: scenario, overrides, seed, version
+  /// Files of a finished data set that are missing, or do not hold what they held, are removed; they are
+  /// written again with the frames that they belong to.
+  /// @param identity of what is rendered, an object: scenario, overrides, seed, version
   /// @throws std::runtime_error when the folder cannot be written, or holds another rendering
-  RenderedDataset(std::filesystem::path folder, std::string identity);
+  RenderedDataset(std::filesystem::path folder, nlohmann::ordered_json identity);
+
+  /// The files that were removed because they were not as they had been written.
+  const std::vector<std::string>& spoilt() const { return spoilt_; }
 
   /// Writes a step's pictures that are not there yet.
   void write(const Look& look) const;
@@ -36,8 +45,11 @@ class RenderedDataset {
               const MeasurementLog& log) const;
 
  private:
+  void take_up(const std::filesystem::path& marker);
+
   std::filesystem::path folder_;
-  std::string identity_;
+  nlohmann::ordered_json identity_;
+  std::vector<std::string> spoilt_;
 };
 
 /// The balls as CSV: ball_id, colour, its RGB, centre and radius.

@@ -25,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMostBytes = 1 << 20;  // of a line
 constexpr double kStartPatience = 4.0;       // times as long for the first answer: libraries and models load
 constexpr std::chrono::seconds kDying(2);    // from the end of a program's output to its own
+constexpr std::size_t kMostErrorLines = 10;  // of its errors, what is shown: the end of a traceback
 
 fs::path make_scratch_folder() {
   std::string name = (fs::temp_directory_path() / "stereobench_detector_XXXXXX").string();
@@ -132,19 +133,25 @@ void DetectorProcess::fail(const std::string& when, Heard heard, const std::stri
   if (heard == Heard::kTooMuch)
     fault(when, fmt::format("expected a line of at most {} bytes (got more)", kMostBytes));
   const auto status = process_->wait_status(Clock::now() + kDying);
-  if (status && never_started(*status) && !has_answered_)
+  if (status && never_started(*status) && !has_answered_) {
+    const std::vector<std::string> errors = process_->last_errors(1);
     throw std::runtime_error(fmt::format("detector '{}': cannot be started: {}", excerpt(program_.command),
-                                         excerpt(process_->last_words())));
+                                         errors.empty() ? "" : excerpt(errors.back())));
+  }
   const std::string end = status ? "it ended with " + describe(*status) : "it closed its output";
   const std::string part = line.empty() ? "" : fmt::format(" in the middle of '{}'", excerpt(line));
   fault(when, fmt::format("expected a line of detections ({}{})", end, part));
 }
 
 void DetectorProcess::fault(const std::string& when, const std::string& what) {
-  const std::string words = excerpt(process_->last_words());
-  throw DetectorFault(
-      fmt::format("detector '{}': {}, {}: {}{}", excerpt(program_.command), where_, when, what,
-                  words.empty() ? "; it wrote no error" : fmt::format("; its last error: {}", words)));
+  const std::vector<std::string> errors = process_->last_errors(kMostErrorLines);
+  std::string message =
+      fmt::format("detector '{}': {}, {}: {}; ", excerpt(program_.command), where_, when, what);
+  if (errors.empty()) throw DetectorFault(message + "it wrote no error");
+  message += "its last error: " + excerpt(errors.back().substr(errors.back().find_first_not_of(" \t")));
+  if (errors.size() > 1)
+    for (const std::string& error : errors) message += "\n    " + excerpt(error);
+  throw DetectorFault(message);
 }
 
 }  // namespace stereobench::harness

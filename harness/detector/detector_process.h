@@ -30,7 +30,8 @@ class DetectorProcess {
   DetectorProcess(const worlds::DetectorProgram& program, const DetectorSetup& setup, std::string where);
 
   /// Shows it a frame.
-  /// @throws DetectorFault, one line: what was expected, what came instead, and its last words;
+  /// @throws DetectorFault: what was expected, what came instead, its last error; below, up to ten lines of
+  ///   its errors where there are several;
   ///   std::runtime_error when the command cannot be started, or a picture cannot be written
   std::vector<vision::BallObservation> operator()(const DetectorInput& input);
 
@@ -39,7 +40,7 @@ class DetectorProcess {
   void finish();
 
  private:
-  /// How long it may take now; longer until its first answer, since it has to start.
+  /// How long it may take now, its start included until its first answer. [s]
   double patience_s() const;
   SupervisedProcess::Time deadline() const;
   /// Explains why there is no answer.

@@ -6,17 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "worlds/parse_yaml.h"
+
 namespace stereobench::harness {
 
 using Json = nlohmann::json;
-
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t kMost = 160;
-  std::string shown(text.substr(0, kMost));
-  for (char& letter : shown)
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F) letter = ' ';
-  return text.size() > kMost ? shown + "..." : shown;
-}
 
 void JsonValue::refuse(std::string_view expectation) const {
   const std::string got = excerpt(value_->dump(-1, ' ', true, Json::error_handler_t::replace));
@@ -81,8 +75,16 @@ JsonValue JsonValue::at(std::string_view key) const {
 }
 
 Json parse_line(const std::string& line) {
+  const auto limit_nesting = [&](int depth, Json::parse_event_t event, const Json&) {
+    const bool begins =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (!begins || depth < worlds::kMostNesting)
+      return true;  // what begins is a level deeper than its parent
+    throw BadLine(fmt::format("expected lists and objects at most {} deep (got '{}')", worlds::kMostNesting,
+                              excerpt(line)));
+  };
   try {
-    return Json::parse(line);
+    return Json::parse(line, limit_nesting);
   } catch (const Json::exception&) {  // no JSON, or a number that no double can hold
     throw BadLine(fmt::format("expected a line of JSON (got '{}')", excerpt(line)));
   }

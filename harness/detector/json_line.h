@@ -11,16 +11,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "worlds/excerpt.h"
+
 namespace stereobench::harness {
+
+using worlds::excerpt;
 
 /// What is wrong with a line, e.g. "balls[2].range_m: expected a number from 0 to 1e+06 (got -1)".
 class BadLine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// Foreign text for a message: one line, printable, not long.
-std::string excerpt(std::string_view text);
 
 /// A value of a line, and where it stands in it. It refers to the value, which must outlive it.
 class JsonValue {
@@ -51,8 +52,8 @@ class JsonValue {
   std::string place_;  ///< e.g. "balls[2].range_m"; empty for the whole line
 };
 
-/// Reads a line of JSON.
-/// @throws BadLine when it is none
+/// Reads a line of JSON; the only place that parses JSON.
+/// @throws BadLine when it is none, or nested more than worlds::kMostNesting deep
 nlohmann::json parse_line(const std::string& line);
 
 }  // namespace stereobench::harness

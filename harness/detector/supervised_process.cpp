@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -21,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostWords = 4096;  // of the errors, what is kept
+constexpr std::size_t kMostWords = 16384;  // of the errors, what is kept
 
 /// A pipe whose ends are closed unless they are taken.
 struct Pipe {
@@ -54,21 +57,39 @@ void close_file(int& file) {
   ::dup2(pipes.output.ends[1], STDOUT_FILENO);
   ::dup2(pipes.errors.ends[1], STDERR_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
-  ::signal(SIGPIPE, SIG_DFL);
-  ::signal(SIGCHLD, SIG_DFL);
+  for (const int signal : {SIGPIPE, SIGCHLD, SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
   ::sigprocmask(SIG_SETMASK, &signals, nullptr);
   ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
   ::_exit(127);
 }
 
-/// Ends a command and all that it has started, and says how it ended. What it leaves behind is the
-/// supervisor's to bury.
-int end_group(pid_t command) {
+/// Sends SIGKILL to each child of this process. @return whether /proc says which there are
+bool kill_children() {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    const pid_t pid = std::atoi(entry.path().filename().c_str());
+    std::ifstream file(entry.path() / "stat");
+    std::string stat;
+    if (pid <= 0 || !std::getline(file, stat) || stat.rfind(") ") == std::string::npos) continue;
+    if (std::atoi(stat.c_str() + stat.rfind(") ") + 4) != ::getpid()) continue;  // "pid (name) S parent ..."
+    ::kill(pid, SIGKILL);
+  }
+  return !error;
+}
+
+/// Ends a command and all its descendants. Those that have left its process group become children of the
+/// supervisor, a subreaper, once their parents have ended.
+/// @return how the command ended, as of waitpid
+int end_all(pid_t command) {
   ::kill(-command, SIGKILL);
   int of_command = 0;
   int status = 0;
-  for (pid_t pid = 0; pid >= 0 || errno == EINTR; pid = ::waitpid(-command, &status, 0))
-    if (pid == command) of_command = status;
+  for (bool some_left = true; some_left;) {
+    const pid_t ended = ::waitpid(-1, &status, WNOHANG);
+    if (ended == command) of_command = status;
+    some_left = ended > 0 || (ended == 0 && kill_children()) || (ended < 0 && errno == EINTR);
+    if (ended == 0) ::poll(nullptr, 0, 1);  // for a millisecond
+  }
   return of_command;
 }
 
@@ -83,7 +104,7 @@ bool has_ended(pid_t command) {
                             const Pipes& pipes) {
   ::setsid();  // what ends the run from the keyboard does not end the supervisor
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  ::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGINT, SIGTERM}) ::signal(signal, SIG_IGN);  // the lifeline ends it
   ::signal(SIGCHLD, [](int) {});
   sigset_t child, before;
   ::sigemptyset(&child);
@@ -99,13 +120,13 @@ bool has_ended(pid_t command) {
   bool running = pid > 0;
   for (pollfd lifeline{STDIN_FILENO, POLLIN, 0}; (lifeline.revents & (POLLIN | POLLHUP)) == 0;) {
     if (running && has_ended(pid)) {
-      const int status = end_group(pid);
+      const int status = end_all(pid);
       running = false;
       if (::write(STDOUT_FILENO, &status, sizeof(status)) != sizeof(status)) break;
     }
     ::ppoll(&lifeline, 1, nullptr, &before);  // lets SIGCHLD through while it waits, and only then
   }
-  if (running) end_group(pid);
+  if (running) end_all(pid);
   std::error_code ignored;
   std::filesystem::remove_all(scratch, ignored);
   ::_exit(0);
@@ -224,19 +245,21 @@ void SupervisedProcess::read_errors() {
   if (words_.size() > kMostWords) words_.erase(0, words_.size() - kMostWords);
 }
 
-std::string SupervisedProcess::last_words() {
+std::vector<std::string> SupervisedProcess::last_errors(std::size_t most) {
   // What is in the pipe by now, and not what an endless writer may yet add to it.
   for (int reads = 0; errors_ >= 0 && reads < 64; ++reads) {
     pollfd file{errors_, POLLIN, 0};
     if (::poll(&file, 1, 0) <= 0) break;
     read_errors();
   }
-  constexpr const char* kBlanks = " \t\r\n";
-  const std::size_t last = words_.find_last_not_of(kBlanks);
-  if (last == std::string::npos) return {};
-  const std::size_t break_before = words_.find_last_of('\n', last);
-  const std::size_t first = break_before == std::string::npos ? 0 : break_before + 1;
-  return words_.substr(first, last - first + 1);
+  std::vector<std::string> lines;
+  std::istringstream words(words_);
+  for (std::string line; std::getline(words, line);) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (!line.empty()) lines.push_back(line);
+  }
+  if (lines.size() > most) lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
+  return lines;
 }
 
 }  // namespace stereobench::harness

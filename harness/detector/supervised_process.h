@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -21,9 +22,9 @@ enum class Heard {
 
 /// A shell command in a process group of its own, with pipes for its input, output and errors.
 ///
-/// Between this process and the command stands a supervisor. When the command ends it ends all that the
-/// command has started; when this process ends, however it does, it ends the command as well, and removes the
-/// scratch folder.
+/// Between this process and the command stands a supervisor. When the command ends, it ends every descendant
+/// of the command, those in other process groups and sessions too; when this process ends, however it does,
+/// it ends the command as well, and removes the scratch folder.
 class SupervisedProcess {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -48,8 +49,9 @@ class SupervisedProcess {
   /// Waits for the command's end.
   /// @return as of waitpid; empty when the time is over
   std::optional<int> wait_status(Time until);
-  /// The last line that it wrote to its errors so far and is not blank; empty when there is none.
-  std::string last_words();
+  /// The last lines that it wrote to its errors so far, blank ones left out, the latest last.
+  /// @param most how many
+  std::vector<std::string> last_errors(std::size_t most);
 
  private:
   void read_errors();

@@ -70,6 +70,11 @@ constexpr SummaryKey kSummaries[] = {
 constexpr SummaryKey kSingles[] = {
     {"schema", "Version of this file's layout."},
     {"scenario", "Name of the scenario, or of the log."},
+    {"made_from.stereobench", "Version of the program."},
+    {"made_from.scenario_sha256", "SHA-256 of resolved_scenario.yaml, which lies beside."},
+    {"made_from.set[]", "What --set and --vary changed: key=value."},
+    {"made_from.files_sha256.*", "SHA-256 of a file that the scenario names, by that name."},
+    {"made_from.pixels", "The renderer's fingerprint, as `doctor` prints it; null without pictures."},
     {"seeds[]", "The seeds that were run."},
     {"renderer.backend", "What rendered: osmesa, egl, egl-gpu, or none."},
     {"detector", "Who found the balls: stereobench, a program's command, callable, file, or none."},
@@ -159,12 +164,17 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kParts = {{
     {"ci95_half_width", "Half width of the mean's 95 % interval (Student's t)."},
 }};
 
+/// Whether the keys at a path are names of a run's own things.
+bool is_named_by_user(std::string_view path) {
+  return path == "filters" || path == "made_from.files_sha256";
+}
+
 void collect(const nlohmann::ordered_json& json, const std::string& path, std::vector<std::string>& keys) {
   if (json.is_array())
     for (const auto& entry : json) collect(entry, path + "[]", keys);
   else if (json.is_object())
     for (const auto& [key, child] : json.items())
-      collect(child, path.empty() ? key : path + "." + (path == "filters" ? "*" : key), keys);
+      collect(child, path.empty() ? key : path + "." + (is_named_by_user(path) ? "*" : key), keys);
   else if (std::find(keys.begin(), keys.end(), path) == keys.end())
     keys.push_back(path);
 }

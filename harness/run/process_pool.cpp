@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/run/interruption.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -98,8 +100,8 @@ class SharedCounter {
 /// The parent's side: starts workers, gathers answers, and leaves no process behind.
 class Pool {
  public:
-  Pool(std::size_t tasks, const OnProgress& on_progress)
-      : answers_(tasks), fractions_(tasks, 0.0), on_progress_(on_progress) {}
+  Pool(std::size_t tasks, const OnAnswer& on_answer, const OnProgress& on_progress)
+      : fractions_(tasks, 0.0), on_answer_(on_answer), on_progress_(on_progress) {}
   ~Pool() {
     for (Worker& worker : workers_) {
       if (worker.pid > 0) ::kill(worker.pid, SIGKILL);
@@ -114,10 +116,12 @@ class Pool {
     if (::pipe2(ends, O_CLOEXEC) != 0)  // a program that a worker starts shall not hold it open
       throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
     std::fflush(nullptr);  // or the child would print the parent's buffered text again
+    const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0) {
+      follow_parent(parent);
       ::close(ends[0]);
-      work(counter_, answers_.size(), task, ends[1]);
+      work(counter_, fractions_.size(), task, ends[1]);
     }
     ::close(ends[1]);
     if (pid < 0) {
@@ -127,12 +131,11 @@ class Pool {
     workers_.push_back({pid, ends[0], {}, std::nullopt});
   }
 
-  std::vector<std::string> gather() {
+  void gather() {
     while (!error_ && !crash_ && wait_for_input()) {
     }
     if (crash_) throw RunCrash(*crash_);
     if (error_) throw std::runtime_error(*error_);
-    return std::move(answers_);
   }
 
  private:
@@ -173,7 +176,7 @@ class Pool {
   void apply(Worker& worker, const Header& header, std::string payload) {
     worker.current = header.index;
     fractions_[header.index] = header.fraction;
-    if (header.kind == MessageKind::kAnswer) answers_[header.index] = std::move(payload);
+    if (header.kind == MessageKind::kAnswer) on_answer_(header.index, std::move(payload));
     if (header.kind == MessageKind::kError) error_ = std::move(payload);
     if (header.kind == MessageKind::kCrash) crash_ = std::move(payload);
     if (header.kind != MessageKind::kStarted && header.kind != MessageKind::kProgress) worker.current.reset();
@@ -205,8 +208,8 @@ class Pool {
 
   SharedCounter counter_;
   std::vector<Worker> workers_;
-  std::vector<std::string> answers_;
   std::vector<double> fractions_;
+  const OnAnswer& on_answer_;
   const OnProgress& on_progress_;
   std::optional<std::string> error_;
   std::optional<std::string> crash_;
@@ -214,13 +217,21 @@ class Pool {
 
 }  // namespace
 
-std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
-                                          const OnProgress& on_progress) {
+void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                      const OnProgress& on_progress) {
   if (jobs < 1) throw std::invalid_argument("run_in_processes: jobs must be at least 1");
-  Pool pool(tasks, on_progress);
+  Pool pool(tasks, on_answer, on_progress);
   const std::size_t workers = std::min(tasks, static_cast<std::size_t>(jobs));
   for (std::size_t i = 0; i < workers; ++i) pool.start_worker(task);
-  return pool.gather();
+  pool.gather();
+}
+
+std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
+                                          const OnProgress& on_progress) {
+  std::vector<std::string> answers(tasks);
+  const auto keep = [&](std::size_t index, std::string answer) { answers[index] = std::move(answer); };
+  run_in_processes(tasks, jobs, task, keep, on_progress);
+  return answers;
 }
 
 }  // namespace stereobench::harness

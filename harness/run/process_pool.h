@@ -30,13 +30,21 @@ using Task = std::function<std::string(std::size_t index, const std::function<vo
 /// Told by the parent as tasks move on: the sum of all tasks' fractions, in [0, tasks].
 using OnProgress = std::function<void(double tasks_done)>;
 
-/// Runs `task` for each index in forked processes and gives their answers in order of index, so that the
-/// outcome depends neither on the number of jobs nor on which task ends first.
+/// Told by the parent when a task has ended, in the order in which tasks end.
+using OnAnswer = std::function<void(std::size_t index, std::string answer)>;
+
+/// Runs `task` for each index in forked processes, and hands on each answer as soon as it is there.
 /// @param tasks how many there are
 /// @param jobs processes at a time, >= 1
-/// @return one answer a task
 /// @throws std::runtime_error with the message of the first task that fails, at once, a RunCrash when it was
-///   one; WorkerCrash when a process dies. The other processes are ended either way.
+///   one; WorkerCrash when a process dies. The other processes are ended either way, and also when the caller
+///   is killed.
+void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                      const OnProgress& on_progress);
+
+/// The same, and gives the answers in order of index, so that the outcome depends neither on the number of
+/// jobs nor on which task ends first.
+/// @return one answer a task
 std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
                                           const OnProgress& on_progress);
 

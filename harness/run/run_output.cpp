@@ -132,7 +132,8 @@ void write_run(const std::filesystem::path& out, const RunResult& result, std::s
                             snapshot.png);
   }
   write_file_atomically(out / "steps.csv", steps_csv(result, drives));
-  write_file_atomically(out / "timing.json", timing_json(drives).dump(2) + "\n");
+  write_file_atomically(out / "timing.json", timing_json(timing_of(drives), drives.size()).dump(2) + "\n");
+  if (result.made_from) write_file_atomically(out / kResolvedScenario, result.made_from->scenario);
   write_file_atomically(out / "run.json", run_json(result).dump(2) + "\n");
 }
 

@@ -12,8 +12,11 @@
 
 namespace stereobench::harness {
 
-/// Writes map.png and error.png, frames/*.png, steps.csv, timing.json and, last of all, run.json: where there
-/// is a run.json, the run is complete.
+/// The scenario that a result was made from, with what the command line changed, beside the result.
+inline constexpr const char* kResolvedScenario = "resolved_scenario.yaml";
+
+/// Writes map.png and error.png, frames/*.png, steps.csv, timing.json, the resolved scenario and, last of
+/// all, run.json: where there is a run.json, the run is complete.
 /// @param out an existing folder that can be written
 /// @param walls drawn into the map
 /// @throws std::runtime_error when a file cannot be written

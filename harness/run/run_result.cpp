@@ -193,6 +193,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   Json json = {{"schema", kSchema},           {"scenario", result.name},
                {"seeds", result.seeds},       {"renderer", {{"backend", result.backend}}},
                {"detector", result.detector}, {"vision", vision_json(result.vision)}};
+  if (result.made_from) json["made_from"] = provenance_json(*result.made_from);
   if (result.recorded) json["log"] = log_json(*result.recorded, result.assumed, result.start_is_true);
   json["bound"] = bound_json(result.bounds, &BoundScores::filtering);
   json["smoothing_bound"] = bound_json(result.bounds, &BoundScores::smoothing);
@@ -222,11 +223,15 @@ Summary over_seeds(const std::vector<BoundScores>& bounds, BoundScore BoundScore
   return summarise(values);
 }
 
-nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives) {
+Timing timing_of(std::span<const SeedDrive> drives) {
   Timing total;
   for (const SeedDrive& drive : drives)
     for (const auto& [stage, seconds] : drive.recording.timing) total[stage] += seconds;
-  return {{"schema", kSchema}, {"seeds", drives.size()}, {"seconds", total}};
+  return total;
+}
+
+nlohmann::ordered_json timing_json(const Timing& timing, std::size_t drives) {
+  return {{"schema", kSchema}, {"seeds", drives}, {"seconds", timing}};
 }
 
 }  // namespace stereobench::harness

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/dataset/log_facts.h"
+#include "harness/run/provenance.h"
 #include "harness/run/seed_drive.h"
 #include "harness/scoring/paired.h"
 #include "harness/scoring/references.h"
@@ -51,6 +52,7 @@ struct RunResult {
   bool start_is_true = true;            ///< of every log; see MeasurementLog
   std::optional<LogFacts> recorded;     ///< of a recorded log
   std::vector<std::string> assumed;     ///< of it: lines for people
+  std::optional<Provenance> made_from;  ///< empty for a recorded log
 };
 
 /// Scores each filter's runs against their logs and references.
@@ -67,8 +69,11 @@ nlohmann::ordered_json run_json(const RunResult& result);
 /// The content of steps.csv: one line a seed, filter and step.
 std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives);
 
-/// The content of timing.json: seconds of each stage, summed over the seeds.
-nlohmann::ordered_json timing_json(std::span<const SeedDrive> drives);
+/// Seconds of each stage, summed over drives.
+Timing timing_of(std::span<const SeedDrive> drives);
+
+/// The content of timing.json. @param drives how many the times are summed over
+nlohmann::ordered_json timing_json(const Timing& timing, std::size_t drives);
 
 /// One part of a bound over the seeds.
 Summary over_seeds(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound,

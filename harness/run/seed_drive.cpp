@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/dataset/answer_store.h"
 #include "harness/report/detection_picture.h"
 #include "harness/run/process_pool.h"
 #include "harness/run/progress.h"
@@ -77,10 +78,32 @@ std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs
   const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
     return to_bytes(drive_seed(tasks[index], report));
   };
-  const auto answers =
-      run_in_processes(tasks.size(), jobs, drive_task, [&](double done) { progress.show(done); });
+  std::vector<SeedDrive> drives(tasks.size());
+  const auto keep = [&](std::size_t index, const std::string& answer) {
+    drives[index] = seed_drive_from_bytes(answer);
+  };
+  run_in_processes(tasks.size(), jobs, drive_task, keep, [&](double done) { progress.show(done); });
+  return drives;
+}
+
+void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
+  std::vector<const DriveTask*> missing;
+  for (const DriveTask& task : tasks)
+    if (!store.holds(task.key)) missing.push_back(&task);
+  if (missing.empty()) return;
+  Progress progress(what, static_cast<double>(missing.size()));
+  const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
+    return to_bytes(drive_seed(*missing[index], report));
+  };
+  const auto keep = [&](std::size_t index, const std::string& answer) {
+    store.append(missing[index]->key, answer);
+  };
+  run_in_processes(missing.size(), jobs, drive_task, keep, [&](double done) { progress.show(done); });
+}
+
+std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks) {
   std::vector<SeedDrive> drives;
-  for (const std::string& answer : answers) drives.push_back(seed_drive_from_bytes(answer));
+  for (const DriveTask& task : tasks) drives.push_back(seed_drive_from_bytes(store.read(task.key)));
   return drives;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "worlds/types.h"
 
 namespace stereobench::harness {
+
+class AnswerStore;
 
 /// A picture of one step, with the detections drawn on it.
 struct Snapshot {
@@ -36,6 +39,7 @@ struct DriveTask {
   std::size_t snapshots = 0;  ///< evenly spread over the path
   renderer::Backend backend = renderer::Backend::kOsmesa;
   Detector detector = {};  ///< who looks; empty: as the scenario says
+  std::string key = {};    ///< SHA-256 of all that the drive is made from; needed to keep it
 };
 
 /// The settings that a scenario gives its filters.
@@ -54,5 +58,13 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
 /// @param what is shown on the progress line
 /// @return in the order of the tasks, whatever the number of jobs
 std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
+
+/// Drives those of the tasks that a store does not hold yet. Each drive is in the store as soon as it has
+/// ended, and not in memory: a program that is killed loses those alone that it was at.
+/// @param tasks each with its key
+void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
+
+/// The drives of some tasks, all of which a store holds, in their order.
+std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks);
 
 }  // namespace stereobench::harness

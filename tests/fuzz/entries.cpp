@@ -2,50 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <unistd.h>
 
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/palette_file.h"
 #include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
+#include "tests/fuzz/promises.h"
 #include "vision/observe.h"
 #include "vision/palette.h"
 #include "vision/rig.h"
 
 namespace stereobench::fuzz {
 namespace {
-
-[[noreturn]] void fail(const char* promise) {
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
-
-void expect(bool holds, const char* promise) {
-  if (!holds) fail(promise);
-}
-
-/// Runs a reader; an error of one line is fine.
-template <typename Reader>
-void read_or_complain(const Reader& read) {
-  try {
-    read();
-  } catch (const std::runtime_error& error) {
-    const std::string_view text = error.what();
-    expect(!text.empty() && text.find('\n') == std::string_view::npos, "an error is one line");
-  }
-}
-
-std::string text_of(Bytes bytes) {
-  return {bytes.begin(), bytes.end()};
-}
 
 vision::StereoRig small_rig() {
   vision::StereoRig rig;
@@ -63,11 +36,6 @@ void expect_sound(const vision::MeasuredOutline& outline) {
   expect(outline.centre_px.allFinite() && outline.covariance_px2.allFinite(), "an outline is finite");
   expect(outline.radius_px > 0.0 && outline.radius_px < 1e6, "a radius is positive");
   expect(outline.hidden_fraction >= 0.0 && outline.outside_fraction >= 0.0, "shares are not negative");
-}
-
-std::filesystem::path own_file(const char* name) {
-  return std::filesystem::temp_directory_path() /
-         ("stereobench_fuzz." + std::to_string(getpid()) + "." + name);
 }
 
 /// Discs and strips of palette colours: five bytes each.
@@ -197,11 +165,16 @@ void check_palette(Bytes bytes) {
 }
 
 std::span<const Entry> entries() {
-  static constexpr std::array<Entry, 5> kEntries = {{{"scene", check_scene, scene_seeds},
-                                                     {"picture", check_picture, picture_seeds},
-                                                     {"calibration", check_calibration, calibration_seeds},
-                                                     {"detections", check_detections, detection_seeds},
-                                                     {"palette", check_palette, palette_seeds}}};
+  static constexpr std::array<Entry, 10> kEntries = {{{"scene", check_scene, scene_seeds},
+                                                      {"picture", check_picture, picture_seeds},
+                                                      {"calibration", check_calibration, calibration_seeds},
+                                                      {"detections", check_detections, detection_seeds},
+                                                      {"palette", check_palette, palette_seeds},
+                                                      {"scenario", check_scenario, scenario_seeds},
+                                                      {"log", check_log, log_seeds},
+                                                      {"trajectory", check_trajectory, trajectory_seeds},
+                                                      {"marks", check_marks, mark_seeds},
+                                                      {"mesh", check_mesh, mesh_seeds}}};
   return kEntries;
 }
 

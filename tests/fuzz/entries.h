@@ -30,6 +30,22 @@ void check_detections(Bytes bytes);
 /// The text of a palette.
 void check_palette(Bytes bytes);
 
+/// The text of a scenario.
+void check_scenario(Bytes bytes);
+std::vector<std::string> scenario_seeds();
+/// The files of a log: each begins with a line "=== NAME".
+void check_log(Bytes bytes);
+std::vector<std::string> log_seeds();
+/// The text of a trajectory, TUM's or ours.
+void check_trajectory(Bytes bytes);
+std::vector<std::string> trajectory_seeds();
+/// The text of a file of marks, beside a picture a.png.
+void check_marks(Bytes bytes);
+std::vector<std::string> mark_seeds();
+/// A mesh file; the first byte says of which format.
+void check_mesh(Bytes bytes);
+std::vector<std::string> mesh_seeds();
+
 /// All of them.
 std::span<const Entry> entries();
 

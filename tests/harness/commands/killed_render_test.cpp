@@ -71,5 +71,26 @@ TEST(KilledRender, LeavesWholeFilesAndIsTakenUpWhereItWas) {
     EXPECT_TRUE(finished.contains(name) && finished.at(name) == bytes) << name;
 }
 
+// Disks lose parts of files after they were written, too. Mutations: dataset.json without sizes and hashes;
+// hashes that `slam` does not look at.
+TEST(FinishedRender, NoticesFilesThatLostAPart) {
+  const ScratchFolder scratch;
+  const auto data = scratch.path() / "data";
+  ASSERT_EQ(run_stereobench(render_to(data)).exit_code, 0);
+  const auto expected = files_of(data);
+  std::filesystem::resize_file(data / "left/000001.png", 1000);
+  std::filesystem::resize_file(data / "right_balls/000000.jsonl", 0);
+  const std::string truth = expected.at("groundtruth.csv");
+  std::filesystem::resize_file(data / "groundtruth.csv", truth.rfind('\n', truth.size() - 2) + 1);
+  const Outcome slam = run_stereobench({"slam", data.string(), "--out", (scratch.path() / "slam").string()});
+  EXPECT_EQ(slam.exit_code, 2);
+  EXPECT_THAT(slam.err, testing::HasSubstr("groundtruth.csv: is not as it was rendered; run the same"));
+  const Outcome again = run_stereobench(render_to(data));
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, testing::HasSubstr("3 files were missing or not as they had been written"));
+  EXPECT_EQ(files_of(data), expected);
+  EXPECT_EQ(run_stereobench(render_to(data)).err, "");
+}
+
 }  // namespace
 }  // namespace stereobench::harness

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "harness/dataset/calibration_file.h"
+#include "harness/dataset/file_list.h"
 #include "slam/random.h"
 #include "tests/harness/dataset/log_folder.h"
 #include "vision/palette.h"
@@ -69,6 +70,7 @@ TEST(BallsCsv, NamesEachBallByItsPlaceInTheWorld) {
   EXPECT_THAT(balls_csv(world), testing::EndsWith(",0.1,0.2,0.25,0.125\n"));
 }
 
+const nlohmann::ordered_json kOne = {{"seed", 1}};
 const MeasurementLog kOneStep{.start = {}, .steps = {{.truth = slam::Pose{}}}, .landmarks = {}};
 
 /// A look at a picture of one grey level.
@@ -81,26 +83,72 @@ void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
 // Mutation: writing frames over again.
 TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   const TestFolder folder;
-  write_look(RenderedDataset(folder.path(), "one"), 0, 10);
+  write_look(RenderedDataset(folder.path(), kOne), 0, 10);
   const std::string left = folder.read("left/000000.png");
   const std::string depth = folder.read("right_depth/000000.pfm");
   ASSERT_FALSE(left.empty());
   std::filesystem::remove(folder.path() / "right_depth/000000.pfm");
-  const RenderedDataset again(folder.path(), "one");
+  const RenderedDataset again(folder.path(), kOne);
   write_look(again, 0, 20);  // another picture, to see which one is kept
   EXPECT_EQ(folder.read("left/000000.png"), left);
   EXPECT_NE(folder.read("right_depth/000000.pfm"), depth);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
   again.finish({}, kRig, kRig, kOneStep);
-  EXPECT_EQ(folder.read("dataset.json"), "one");
+  EXPECT_EQ(nlohmann::json::parse(folder.read("dataset.json"))["seed"], 1);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
+}
+
+// Law: whatever file loses a part, all of it, or a bit, it is found, made again, and all others stay.
+// Mutations: sizes alone compared; files that are missing not looked for; frames alone listed.
+TEST(RenderedDataset, FindsWhatIsNotAsItWasWritten) {
+  const TestFolder folder;
+  const auto finish = [&](const RenderedDataset& dataset) {
+    for (const std::size_t step : {0U, 1U}) write_look(dataset, step, 10 + static_cast<int>(step));
+    dataset.finish({}, kRig, kRig, kOneStep);
+  };
+  finish(RenderedDataset(folder.path(), kOne));
+  const std::string marker = folder.read("dataset.json");
+  const auto names = product_names(folder.path());
+  EXPECT_GE(names.size(), 17U);
+  EXPECT_TRUE(RenderedDataset(folder.path(), kOne).spoilt().empty());
+  for (const std::string& name : names) {
+    const std::string bytes = folder.read(name);
+    std::string flipped = bytes;
+    flipped.back() = static_cast<char>(flipped.back() ^ 1);
+    for (const std::string& spoilt : {bytes.substr(0, bytes.size() / 2), flipped, std::string()}) {
+      folder.write(name, spoilt);
+      if (spoilt.empty()) std::filesystem::remove(folder.path() / name);
+      const RenderedDataset again(folder.path(), kOne);
+      EXPECT_EQ(again.spoilt(), std::vector<std::string>{name});
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
+      finish(again);
+      EXPECT_EQ(folder.read(name), bytes) << name;
+      EXPECT_EQ(folder.read("dataset.json"), marker) << name;
+    }
+  }
+}
+
+// Whoever lists a file of somebody else's removes it. Mutation: names not looked at.
+TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
+  const TestFolder folder;
+  const RenderedDataset dataset(folder.path(), kOne);
+  write_look(dataset, 0, 10);
+  folder.write("notes.csv", "mine");
+  folder.write("left/notes.txt", "mine");
+  dataset.finish({}, kRig, kRig, kOneStep);
+  EXPECT_THAT(folder.read("dataset.json"), testing::Not(HasSubstr("notes")));
+  auto marker = nlohmann::json::parse(folder.read("dataset.json"));
+  marker["files"]["../victim"] = {{"bytes", 1}, {"sha256", ""}};
+  folder.write("dataset.json", marker.dump());
+  EXPECT_THAT([&] { RenderedDataset(folder.path(), kOne); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("files.../victim: expected the name of a file")));
 }
 
 // Mutations: no check of the identity; none while the data set is unfinished.
 TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   const TestFolder folder;
-  const RenderedDataset dataset(folder.path(), "one");
-  const auto take_up = [&] { RenderedDataset(folder.path(), "another"); };
+  const RenderedDataset dataset(folder.path(), kOne);
+  const auto take_up = [&] { RenderedDataset(folder.path(), {{"seed", 2}}); };
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
   dataset.finish({}, kRig, kRig, kOneStep);
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -78,7 +79,7 @@ TEST(SupervisedProcess, NeitherWritingToTheDeadNorAFullPipeOfErrorsStopsIt) {
                          place.scratch);
   EXPECT_EQ(loud.hear(line, 100, in_ms(5000)), Heard::kLine);
   EXPECT_EQ(line, "here");
-  EXPECT_EQ(loud.last_words(), " the end");
+  EXPECT_EQ(loud.last_errors(1), std::vector<std::string>{" the end"});
   EXPECT_FALSE(SupervisedProcess("sleep 60", place.scratch).say(std::string(1 << 20, 'x'), in_ms(20)));
 }
 
@@ -117,6 +118,36 @@ TEST(SupervisedProcess, WhatItStartedEndsWithIt) {
   ASSERT_EQ(process.hear(child, 100, in_ms(5000)), Heard::kLine);
   EXPECT_EQ(process.hear(nothing, 100, in_ms(5000)), Heard::kEnd);
   EXPECT_TRUE(comes_true([&] { return !exists(child); }));
+}
+
+// Mutation: only the command's process group is ended.
+TEST(SupervisedProcess, WhatItStartedInSessionsOfTheirOwnEndsWithIt) {
+  for (const bool is_killed : {false, true}) {
+    const Place place;
+    std::string daemon, its_child;
+    auto process = std::make_unique<SupervisedProcess>(
+        "setsid sh -c 'setsid sleep 64 >/dev/null & echo $$; echo $!; exec >&-; sleep 64' & " +
+            std::string(is_killed ? "wait" : "sleep 0.2"),
+        place.scratch);
+    ASSERT_EQ(process->hear(daemon, 100, in_ms(5000)), Heard::kLine);
+    ASSERT_EQ(process->hear(its_child, 100, in_ms(5000)), Heard::kLine);
+    EXPECT_TRUE(exists(daemon) && exists(its_child));
+    if (is_killed) process.reset();
+    EXPECT_TRUE(comes_true([&] { return !exists(daemon) && !exists(its_child); })) << is_killed;
+  }
+}
+
+// Mutations: the last line alone; blank lines kept.
+TEST(SupervisedProcess, KeepsTheLastErrors) {
+  const Place place;
+  SupervisedProcess process(
+      "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo line $i >&2; echo >&2; done; echo done", place.scratch);
+  std::string line;
+  ASSERT_EQ(process.hear(line, 100, in_ms(5000)), Heard::kLine);
+  const std::vector<std::string> errors = process.last_errors(10);
+  ASSERT_EQ(errors.size(), 10U);
+  EXPECT_EQ(errors.front(), "line 3");
+  EXPECT_EQ(errors.back(), "line 12");
 }
 
 // A run that is killed cannot clean up; its supervisor does. Mutation: it does not end

@@ -201,7 +201,7 @@ TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
 TEST(RunResult, TimingIsSummedOverTheSeeds) {
   std::vector<SeedDrive> drives = {drive_of(3, 1, 0.4), drive_of(8, 1, 0.8)};
   for (SeedDrive& drive : drives) drive.recording.timing = {{"render", 1.5}};
-  EXPECT_EQ(timing_json(drives)["seconds"]["render"], 3.0);
+  EXPECT_EQ(timing_json(timing_of(drives), drives.size())["seconds"]["render"], 3.0);
 }
 
 TEST(RunResult, RefusesDrivesThatCannotBePutTogether) {

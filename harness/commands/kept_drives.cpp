@@ -1,0 +1,99 @@
+#include "harness/commands/kept_drives.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/standard_streams.h"
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/sha256.h"
+#include "harness/run/interruption.h"
+#include "harness/run/process_pool.h"
+#include "renderer/backend.h"
+#include "worlds/write_scenario.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr const char* kFile = "unfinished.drives";
+
+/// All that the command line says of a scenario, as lines of it.
+std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
+                                       const std::vector<std::string>& more_overrides,
+                                       const worlds::Scenario& scenario) {
+  std::vector<std::string> overrides = arguments.overrides;
+  overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
+  overrides.push_back(fmt::format("filters=[{}]", fmt::join(scenario.filters, ", ")));
+  overrides.push_back(fmt::format("particles={}", scenario.particles));
+  overrides.push_back(fmt::format("seeds={}", fmt::join(scenario.seeds, ",")));
+  if (scenario.detector.command.empty()) return overrides;
+  overrides.push_back("detector=" + nlohmann::json(scenario.detector.command).dump());
+  overrides.push_back(fmt::format("detector_timeout_s={}", scenario.detector.timeout_s));
+  return overrides;
+}
+
+std::map<std::string, std::string> hashes_of(const std::set<std::string>& names,
+                                             const std::filesystem::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& name : names) hashes[name] = sha256_of_file(folder / name);
+  return hashes;
+}
+
+}  // namespace
+
+std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend) {
+  if (scenario.sensor != worlds::SensorKind::kStereo) return {};
+  const Task look = [&](std::size_t, const auto&) {
+    const renderer::TestFrame frame = renderer::render_test_frame(backend);
+    return renderer::fingerprint(renderer::backend_info(backend), frame);
+  };
+  return run_in_processes(1, 1, look, [](double) {}).front();
+}
+
+Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
+                         const worlds::Scenario& scenario, const std::string& pixels) {
+  const std::filesystem::path& file = arguments.scenario;
+  const auto overrides = all_overrides(arguments, more_overrides, scenario);
+  Provenance provenance{.scenario = worlds::with_overrides(file, overrides), .set = arguments.overrides};
+  provenance.set.insert(provenance.set.end(), more_overrides.begin(), more_overrides.end());
+  provenance.files = hashes_of(worlds::files_named_in(file, overrides), file.parent_path());
+  if (scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;
+  return provenance;
+}
+
+std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
+                                   const std::vector<std::string>& more_overrides,
+                                   const worlds::Scenario& scenario, const std::string& pixels,
+                                   std::size_t snapshots) {
+  worlds::Scenario any_seed = scenario;
+  any_seed.seeds = {0};
+  std::vector<std::string> overrides = more_overrides;
+  overrides.push_back("gates=[]");
+  const std::string basis = basis_of(provenance_of(arguments, overrides, any_seed, pixels),
+                                     renderer::name_of(arguments.backend), scenario.detector.command);
+  std::vector<DriveTask> tasks;
+  for (const std::uint64_t seed : scenario.seeds) {
+    const std::size_t drawn = seed == scenario.seeds.front() ? snapshots : 0;
+    tasks.push_back({&scenario, seed, drawn, arguments.backend});
+    tasks.back().key = sha256_of(fmt::format("{} seed {} snapshots {}", basis, seed, drawn));
+  }
+  return tasks;
+}
+
+KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kFile) {
+  remove_leftovers_in(out);
+}
+
+void KeptDrives::complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
+  const auto kept =
+      std::ranges::count_if(tasks, [&](const DriveTask& task) { return store_.holds(task.key); });
+  if (kept > 0)
+    note(fmt::format("{}: {} of {} drives are taken over from a run that was interrupted", what, kept,
+                     tasks.size()));
+  say_that_work_is_kept();
+  drive_into(store_, tasks, jobs, what);
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,49 @@
+/// Drives that are kept while a run or sweep is under way, so that one that is killed goes on where it was.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/commands/scenario_arguments.h"
+#include "harness/dataset/answer_store.h"
+#include "harness/run/provenance.h"
+#include "harness/run/seed_drive.h"
+
+namespace stereobench::harness {
+
+/// The fingerprint of the pixels that a scenario's cameras get here; empty for a sensor without pixels. It is
+/// found in a process of its own: this one shall have no GL context when it forks.
+std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend);
+
+/// What a scenario was read from.
+/// @param scenario as read_scenario gives it for the same arguments
+/// @param pixels as of pixels_of
+Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
+                         const worlds::Scenario& scenario, const std::string& pixels);
+
+/// One task a seed of a scenario, with its key. The outcome of a drive depends neither on the other seeds nor
+/// on gates, and so does the key.
+/// @param snapshots of the first seed
+std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
+                                   const std::vector<std::string>& more_overrides,
+                                   const worlds::Scenario& scenario, const std::string& pixels,
+                                   std::size_t snapshots);
+
+/// The store of an output folder. What a killed program left half-written there is removed.
+/// @throws std::runtime_error when another process is writing there
+class KeptDrives {
+ public:
+  explicit KeptDrives(const std::filesystem::path& out);
+  /// Drives what is missing, and says how much is not.
+  void complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
+  std::vector<SeedDrive> of(std::span<const DriveTask> tasks) const { return drives_in(store_, tasks); }
+  /// The results are written: the drives are no longer needed.
+  void discard() { store_.remove(); }
+
+ private:
+  AnswerStore store_;
+};
+
+}  // namespace stereobench::harness

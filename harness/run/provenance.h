@@ -1,0 +1,28 @@
+/// What a result was made from: as much as can be told, so that it can be made again.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace stereobench::harness {
+
+struct Provenance {
+  std::string scenario;                      ///< its lines, with what the command line changed put in place
+  std::vector<std::string> set;              ///< what --set and --vary changed: "key=value"
+  std::map<std::string, std::string> files;  ///< SHA-256 of each file that the scenario names, by that name
+  std::string pixels;                        ///< the renderer's fingerprint; empty without pictures
+};
+
+/// The block `made_from` of run.json: version, hashes, what was changed. No path, host or time that the user
+/// did not write.
+nlohmann::ordered_json provenance_json(const Provenance& provenance);
+
+/// What a drive's outcome depends on besides its seed, in one text: the provenance, the program itself, and
+/// files that a detector's command names.
+/// @param detector the command of a detector's program; empty for ours
+std::string basis_of(const Provenance& provenance, const std::string& backend, const std::string& detector);
+
+}  // namespace stereobench::harness

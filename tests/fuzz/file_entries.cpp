@@ -1,0 +1,204 @@
+/// The ways in of files that describe worlds, drives and marks.
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/dataset/colour_marks.h"
+#include "harness/dataset/measurement_log_reader.h"
+#include "renderer/mesh_file.h"
+#include "tests/fuzz/promises.h"
+#include "worlds/scenario.h"
+#include "worlds/smooth_path.h"
+
+namespace stereobench::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// A file of this process's own, for as long as it is read.
+class OwnFile {
+ public:
+  OwnFile(const std::string& name, const std::string& text) : path_(own_file(name)) { write(path_, text); }
+  ~OwnFile() { fs::remove(path_); }
+  OwnFile(const OwnFile&) = delete;
+  OwnFile& operator=(const OwnFile&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+const std::set<std::string> kLogFiles = {
+    "odometry.csv",           "observations.csv",      "groundtruth.csv",          "landmarks.csv",
+    "instants.csv",           "Barcodes.dat",          "Landmark_Groundtruth.dat", "Robot3_Odometry.dat",
+    "Robot3_Measurement.dat", "Robot3_Groundtruth.dat"};
+
+/// Writes the files that a text holds into a folder.
+void write_log(const fs::path& folder, const std::string& text) {
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  constexpr std::string_view kBegin = "=== ";
+  std::istringstream lines(text);
+  std::ofstream file;
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins = line.starts_with(kBegin) && kLogFiles.contains(line.substr(kBegin.size()));
+    if (begins) {
+      file.close();
+      file.open(folder / line.substr(kBegin.size()), std::ios::binary);
+    } else if (file.is_open()) {
+      file << line << '\n';
+    }
+  }
+}
+
+constexpr std::array<const char*, 6> kMeshFormats = {"obj", "dae", "gltf", "glb", "stl", "fbx"};
+
+}  // namespace
+
+void check_scenario(Bytes bytes) {
+  const OwnFile file("scenario.yaml", text_of(bytes));
+  try {
+    read_or_complain([&] {
+      const worlds::Scenario scenario = worlds::read_scenario(file.path());
+      expect(!scenario.path.empty() && !scenario.world.balls.empty(), "a scenario has a drive and balls");
+      for (const worlds::Ball& ball : scenario.world.balls)
+        expect(ball.centre_m.allFinite() && ball.radius_m > 0.0, "a ball is somewhere, and has a size");
+    });
+  } catch (const std::invalid_argument&) {  // it needs a reader of meshes, which is a caller's to give
+  }
+}
+
+std::vector<std::string> scenario_seeds() {
+  return {R"(name: tiny
+seeds: 0..1
+particles: 5
+sensor: oracle
+identity: known
+oracle: {range_sd_m: 0.1, bearing_sd_deg: 1, max_range_m: 10, field_of_view_deg: 180}
+odometry_noise: {v_per_v: 0.1, w_per_w: 0.1}
+path: {kind: circle, radius_m: 1, speed_mps: 0.5, laps: 0.1, step_s: 0.1}
+world:
+  balls:
+    - {colour: 0, at_m: [2, 0, 0.1]}
+    - {colour: 1, at_m: [0, 2, 0.1]}
+)",
+          R"(name: rooms
+sensor: stereo
+identity: colour_class
+rig: {width_px: 64, height_px: 48, focal_px: 50, baseline_m: 0.1, height_m: 0.3, pitch_down_deg: 5}
+camera: {noise_sd_levels: 2}
+odometry_noise: {v_per_v: 0.1, w_per_w: 0.1}
+path: {kind: polyline, points_m: [[0, 0], [2, 0], [2, 2]], corner_radius_m: 0.3, speed_mps: 0.5, step_s: 0.5}
+gates: [{metric: vision.recall, at_least: 0.5}]
+randomise: {light: {}, walls: {}}
+world:
+  ball_radius_m: 0.06
+  walls:
+    - &wall {corners_m: [[0, 1], [4, 1]], height_m: 1, material: bricks}
+    - {corners_m: [[0, -1], [4, -1]], height_m: 1, material: wood}
+  balls:
+    - {colour: 0, at_m: [2, 0.5, 0.06]}
+)"};
+}
+
+void check_log(Bytes bytes) {
+  const fs::path folder = own_file("log");
+  write_log(folder, text_of(bytes));
+  read_or_complain([&] {
+    const harness::RecordedLog recorded = harness::read_log(folder, {});
+    expect(!recorded.log.steps.empty(), "a log has a step");
+    for (std::size_t k = 1; k < recorded.log.steps.size(); ++k)
+      expect(recorded.log.steps[k].stamp_ns > recorded.log.steps[k - 1].stamp_ns,
+             "steps are in order of time");
+    expect(std::isfinite(recorded.facts.odometry_delay_s), "a delay is finite");
+  });
+  fs::remove_all(folder);
+}
+
+std::vector<std::string> log_seeds() {
+  return {
+      "=== odometry.csv\nt_s,v_mps,w_radps\n0,1,0\n1,1,0.5\n2,0,0\n"
+      "=== observations.csv\nt_s,landmark_id,range_m,bearing_rad\n0.5,7,2,0.1\n1.5,7,1.5,0.2\n"
+      "=== groundtruth.csv\nt_s,x_m,y_m,theta_rad\n0,0,0,0\n1,1,0,0\n2,2,0,0.5\n"
+      "=== landmarks.csv\nlandmark_id,x_m,y_m\n7,3,0\n",
+      "=== Barcodes.dat\n# Subject Barcode\n 1 5\n 7 63\n"
+      "=== Landmark_Groundtruth.dat\n# x y sx sy\n 7 3.0 0.0 0.001 0.001\n"
+      "=== Robot3_Odometry.dat\n# t v w\n100.0 \t 1.0 \t 0.0 \n101.0 1.0 0.5\n102.0 0 0\n"
+      "=== Robot3_Measurement.dat\n# t barcode r b\n100.5 63 2.0 0.1\n100.6 5 1.0 0.0\n101.5 63 1.5 0.2\n"
+      "=== Robot3_Groundtruth.dat\n100 0 0 0\n101 1 0 0\n102 2 0 0.5\n"};
+}
+
+void check_trajectory(Bytes bytes) {
+  const OwnFile file("trajectory.txt", text_of(bytes));
+  read_or_complain([&] {
+    const auto poses = worlds::read_trajectory(file.path());
+    expect(poses.size() >= 2, "a trajectory has two poses");
+    for (const auto& step : worlds::drive_recorded(poses, 0.5, 0.0))
+      expect(std::isfinite(step.pose.x_m) && std::isfinite(step.pose.heading_rad), "a drive is finite");
+  });
+}
+
+std::vector<std::string> trajectory_seeds() {
+  return {
+      "# timestamp tx ty tz qx qy qz qw\n0 0 0 0 0 0 0 1\n1 0.5 0 0 0 0 0.0998334 0.9950042\n2 1 0.2 0 0 0 "
+      "0.1986693 0.9800666\n",
+      "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,0.5,0,0.1\n2,1,0.2,0.2\n"};
+}
+
+void check_marks(Bytes bytes) {
+  static const fs::path folder = own_file("marks");
+  if (!fs::exists(folder / "a.png")) {
+    fs::create_directories(folder);
+    cv::imwrite((folder / "a.png").string(), cv::Mat(32, 48, CV_8UC3, cv::Scalar(20, 90, 200)));
+  }
+  write(folder / "marks.json", text_of(bytes));
+  read_or_complain([&] {
+    const auto marked = harness::read_marked_pixels(folder / "marks.json", worlds::Encoding::kLinear);
+    expect(!marked.colours.empty(), "marks have a colour");
+    for (const auto& [name, pixels] : marked.pixels) expect(!pixels.empty(), "a mark holds a pixel");
+  });
+}
+
+std::vector<std::string> mark_seeds() {
+  return {R"({"marks": [{"picture": "a.png", "colour": "red", "circle_px": [14, 12, 5]},
+ {"picture": "a.png", "colour": "green", "box_px": [5, 10, 30, 15]}]})"};
+}
+
+void check_mesh(Bytes bytes) {
+  if (bytes.empty()) return;
+  const OwnFile file(std::string("mesh.") + kMeshFormats[bytes[0] % kMeshFormats.size()],
+                     text_of(bytes.subspan(1)));
+  read_or_complain([&] {
+    const auto triangles =
+        renderer::read_mesh(file.path(), {.triangles = 10'000, .seconds = 2.0, .memory_mib = 256});
+    expect(!triangles.empty(), "a mesh has a triangle");
+    for (const auto& triangle : triangles)
+      for (const auto& corner : triangle.corners)
+        expect(corner.allFinite() && corner.cwiseAbs().maxCoeff() <= 1e6, "a corner is somewhere near");
+  });
+}
+
+std::vector<std::string> mesh_seeds() {
+  const auto of = [](char format, const std::string& text) { return format + text; };
+  return {
+      of(0, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n"),
+      of(4,
+         "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+         "endfacet\nendsolid s\n"),
+      of(2, R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36,
+ "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})")};
+}
+
+}  // namespace stereobench::fuzz

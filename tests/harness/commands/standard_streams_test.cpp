@@ -1,0 +1,75 @@
+/// Standard input, output and error that are full or closed.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/commands/processes.h"
+#include "tests/harness/commands/program.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Runs the program in a shell. @param how its arguments and redirections, standard error aside
+Outcome run_in_shell(const std::string& how) {
+  const ScratchFolder scratch;
+  const std::string errors = (scratch.path() / "err").string();
+  Outcome outcome;
+  outcome.exit_code = exit_code_of(start_stereobench(how + " 2>'" + errors + "'"));
+  outcome.err = bytes_of(errors);
+  return outcome;
+}
+
+class OutputThatIsNotTaken : public testing::TestWithParam<std::string> {};
+
+// Mutations: no check of what is buffered at the end; std::cout, which --help uses, not checked; a closed
+// output opened for writing.
+TEST_P(OutputThatIsNotTaken, IsAnError) {
+  const ScratchFolder scratch;
+  const std::string picture = scratch.write("dark.pnm", "P3 2 2 255 7 7 7 7 7 7 7 7 7 7 7 7\n");
+  const std::string scenario = "'" + scenario_path("ball_circle") + "'";
+  const std::string run =
+      fmt::format("run '{}' --set gates=[] --seeds 0 --particles 5 --filters ekf --out '{}'",
+                  scenario_path("open_field"), (scratch.path() / "out").string());
+  for (const std::string& command : {std::string("doctor"), "detect " + scratch.path().string(),
+                                     "detect " + picture, std::string("--help"), std::string("--version"),
+                                     std::string("run --help"), "world " + scenario, run}) {
+    const Outcome outcome = run_in_shell(command + " " + GetParam());
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_THAT(outcome.err, StartsWith("stereobench: standard output: cannot")) << command;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OutputThatIsNotTaken, testing::Values(">/dev/full", ">&-"),
+                         [](const auto& test) { return test.index == 0 ? "Full" : "Closed"; });
+
+// Mutation: an error that is thrown where errors are told.
+TEST(StandardStreams, ErrorsThatNobodyTakesKeepTheirExitCode) {
+  for (const char* stream : {">/dev/full", ">&-"})
+    EXPECT_EQ(exit_code_of(start_stereobench(fmt::format("run no_such.yaml 2{}", stream))), 2) << stream;
+}
+
+// Descriptor 0 was given to a pipe, and closed when the detector started. Mutation: open_standard_streams.
+TEST(StandardStreams, ThatAreClosedAreNoDetectorsPipes) {
+  for (const char* closed : {"<&-", "<&- >&-"}) {
+    const ScratchFolder scratch;
+    const Outcome outcome = run_in_shell(
+        fmt::format("run '{}' --set path.laps=0.06 --set gates=[] --seeds 0 --filters dead_reckoning "
+                    "--detector '{}' --out "
+                    "'{}' {}",
+                    scenario_path("ball_circle"), std::string(STEREOBENCH_PROGRAM) + " detect --serve",
+                    (scratch.path() / "out").string(), closed));
+    EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/run.json")) << outcome.err;
+    if (std::string(closed) == "<&-") {
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stereobench::harness
