@@ -23,15 +23,6 @@ std::vector<std::size_t> far_to_near(const EyeView& view, const std::vector<worl
   return order;
 }
 
-std::vector<BallOutline> visible_outlines(const EyeView& view, const std::vector<worlds::Ball>& balls) {
-  std::vector<BallOutline> outlines;
-  for (const std::size_t index : far_to_near(view, balls)) {
-    const auto outline = ball_outline(view, balls[index], static_cast<int>(index) + 1);
-    if (outline) outlines.push_back(*outline);
-  }
-  return outlines;
-}
-
 bool overlap(const BallOutline& a, const BallOutline& b) {
   return a.bounds[0] < b.bounds[2] && b.bounds[0] < a.bounds[2] && a.bounds[1] < b.bounds[3] &&
          b.bounds[1] < a.bounds[3];
@@ -60,7 +51,7 @@ BallPainter::BallPainter(const Gl& gl, const worlds::World& world)
     : gl_(&gl),
       balls_(world.balls),
       light_(world.light),
-      outlines_(gl, kOutlineWidths, 1),
+      stream_(gl, kOutlineWidths, 1),
       core_(make_part(gl, BallPart::kCore)),
       rim_(make_part(gl, BallPart::kRim)) {}
 
@@ -82,19 +73,27 @@ void BallPainter::prepare(const Part& part, const EyeView& view) const {
 }
 
 void BallPainter::upload(const std::vector<BallOutline>& outlines) {
-  outlines_.upload({outlines.front().centre.data(), outlines.size() * 24});
+  stream_.upload({outlines.front().centre.data(), outlines.size() * 24});
 }
 
 void BallPainter::draw_boxes(std::size_t count) const {
   gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), 0);
 }
 
-void BallPainter::draw(const EyeView& view) {
-  const std::vector<BallOutline> outlines = visible_outlines(view, balls_);
+std::vector<BallOutline> BallPainter::outlines(const EyeView& view) const {
+  std::vector<BallOutline> seen;
+  for (const std::size_t index : far_to_near(view, balls_)) {
+    const auto outline = ball_outline(view, balls_[index], static_cast<int>(index) + 1);
+    if (outline) seen.push_back(*outline);
+  }
+  return seen;
+}
+
+void BallPainter::draw(const EyeView& view, const std::vector<BallOutline>& outlines) {
   if (outlines.empty()) return;
   prepare(core_, view);
   prepare(rim_, view);
-  outlines_.bind();
+  stream_.bind();
   gl_->Enable(GL_BLEND);
   for (const std::vector<BallOutline>& layer : layers_of(outlines)) {
     upload(layer);
@@ -112,11 +111,11 @@ void BallPainter::draw(const EyeView& view) {
 }
 
 void BallPainter::draw_facets(const EyeView& view) {
-  const std::vector<BallOutline> outlines = visible_outlines(view, balls_);
+  const std::vector<BallOutline> outlines = this->outlines(view);
   if (outlines.empty()) return;
   if (!facet_) facet_.emplace(make_part(*gl_, BallPart::kFacet));
   facet_->program.use();
-  outlines_.bind();
+  stream_.bind();
   upload(outlines);
   draw_boxes(outlines.size());
 }

@@ -15,11 +15,14 @@ class BallPainter {
  public:
   BallPainter(const Gl& gl, const worlds::World& world);
 
-  /// Draws every ball that the eye can see, what is behind another first, over a picture whose surfaces are
-  /// already there.
-  void draw(const EyeView& view);
+  /// The balls that the eye can see, what is behind another first.
+  std::vector<BallOutline> outlines(const EyeView& view) const;
 
-  /// The same with the numbers of facets (facets.h) in place of colours.
+  /// Draws balls over a picture whose surfaces are already there.
+  /// @param outlines as above
+  void draw(const EyeView& view, const std::vector<BallOutline>& outlines);
+
+  /// Draws those that the eye can see with the numbers of facets (facets.h) in place of colours.
   void draw_facets(const EyeView& view);
 
  private:
@@ -35,7 +38,7 @@ class BallPainter {
   const Gl* gl_;
   std::vector<worlds::Ball> balls_;
   worlds::Light light_;
-  VertexArray outlines_;
+  VertexArray stream_;
   Part core_;
   Part rim_;
   std::optional<Part> facet_;  // once somebody asked

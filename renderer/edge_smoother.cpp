@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -10,7 +12,7 @@ namespace {
 
 constexpr double kSameDepth = 1e-4;  ///< relative; the rasteriser's depths are good to 4e-6
 constexpr double kSnap_px = 0.01;    ///< the rasteriser snaps corners: so near a centre may be on either side
-constexpr std::size_t kUsualChanges = 16384;
+constexpr std::size_t kUsualMixes = 16384;
 
 /// The integral of clamp(t, 0, 1) from 0 to t.
 double clamp_integral(double t) {
@@ -45,6 +47,7 @@ struct Line {
   std::array<Face, 2> faces;          // where there is one, nobody sees the other
 
   double minor_at(int k) const { return at_zero + slope * k; }
+  cv::Point pixel(int k, int j) const { return major == 0 ? cv::Point(k, j) : cv::Point(j, k); }
 };
 
 /// Cuts off what is behind the near plane. @return whether something is left
@@ -95,12 +98,12 @@ Line line_of(const SurfaceEdge& edge, const EyeView& view) {
   return goes_on ? Line{} : line;
 }
 
-/// What happens to a picture, collected before it is changed: colours are mixed from what was painted.
-class Mixer {
+/// The pairs of pixels that edges divide, of a picture of surfaces alone.
+class Pairing {
  public:
-  explicit Mixer(EyeFrame& frame)
+  explicit Pairing(const EyeFrame& frame)
       : frame_(frame), picture_({0, 0}, frame.colour.size()), done_(2 * frame.colour.total()) {
-    changes_.reserve(kUsualChanges);
+    mixes_.reserve(kUsualMixes);
   }
 
   void follow(const Line& line) {
@@ -108,56 +111,59 @@ class Mixer {
       const double at = line.minor_at(k);
       if (!(at > -1.0 && at < std::max(picture_.width, picture_.height))) continue;
       const int low = static_cast<int>(std::floor(at));
-      mix(line, k, low);
-      if (at - low < kSnap_px) mix(line, k, low - 1);
-      if (low + 1 - at < kSnap_px) mix(line, k, low + 1);
+      add(line, k, low);
+      if (at - low < kSnap_px) add(line, k, low - 1);
+      if (low + 1 - at < kSnap_px) add(line, k, low + 1);
     }
   }
 
-  void apply() const {
-    for (const Change& change : changes_) {
-      auto& colour = frame_.colour.at<cv::Vec3b>(change.pixel);
-      for (int i = 0; i < 3; ++i)
-        colour[i] = cv::saturate_cast<std::uint8_t>(static_cast<float>(colour[i]) + change.by[i]);
-    }
-  }
+  std::vector<EdgeMix> take() { return std::move(mixes_); }
 
  private:
-  struct Change {
-    cv::Point pixel;
-    cv::Vec3f by;
-  };
-
-  /// Mixes the pixels `low` and `low` + 1 of the minor axis, if the edge is what divides them.
-  void mix(const Line& line, int k, int low) {
-    const auto pixel = [&](int j) { return line.major == 0 ? cv::Point(k, j) : cv::Point(j, k); };
-    const cv::Point lower = pixel(low), higher = pixel(low + 1);
-    if (!picture_.contains(lower) || !picture_.contains(higher) || !divides(line, lower, higher)) return;
-    const auto done = done_.begin() + 2 * (std::ptrdiff_t{picture_.width} * lower.y + lower.x) + line.major;
+  /// Adds the pixels `low` and `low` + 1 of the minor axis, if the edge is what divides them.
+  void add(const Line& line, int k, int low) {
+    const Pair pair = {line.pixel(k, low), line.pixel(k, low + 1)};
+    if (!picture_.contains(pair.lower) || !picture_.contains(pair.higher)) return;
+    const double at = line.minor_at(k);
+    const auto inverse_depth = divided_at(line, pair, at - low);
+    if (!inverse_depth) return;
+    const auto done =
+        done_.begin() + 2 * (std::ptrdiff_t{picture_.width} * pair.lower.y + pair.lower.x) + line.major;
     if (*done) return;  // edges that lie on each other are one
     *done = true;
-    const cv::Vec3f step =
-        cv::Vec3f(frame_.colour.at<cv::Vec3b>(higher)) - cv::Vec3f(frame_.colour.at<cv::Vec3b>(lower));
-    const double at = line.minor_at(k);
-    changes_.push_back({lower, step * static_cast<float>(1.0 - share_low(at, line.slope, low))});
-    changes_.push_back({higher, step * static_cast<float>(-share_low(at, line.slope, low + 1))});
+    mixes_.push_back({.lower = pair.lower,
+                      .higher = pair.higher,
+                      .higher_in_lower = static_cast<float>(1.0 - share_low(at, line.slope, low)),
+                      .lower_in_higher = static_cast<float>(share_low(at, line.slope, low + 1)),
+                      .inverse_depth = *inverse_depth,
+                      .step = level(pair.higher) - level(pair.lower)});
   }
 
-  bool sees(const cv::Point& pixel, const Face& face) const {
-    return std::abs(double{frame_.depth_m.at<float>(pixel)} * face.inverse_depth(pixel) - 1.0) <= kSameDepth;
+  struct Pair {
+    cv::Point lower, higher;
+  };
+
+  cv::Vec3f level(const cv::Point& pixel) const { return frame_.colour.at<cv::Vec3b>(pixel); }
+
+  /// The edge divides the pixels if one sees a face that ends here. What the other one sees may be as near as
+  /// it likes: the floor at a wall's foot comes nearer by any amount within a pixel.
+  /// @param way from the lower pixel's centre to the edge, px
+  /// @return the inverse of the edge's depth
+  std::optional<double> divided_at(const Line& line, const Pair& pair, double way) const {
+    for (const Face& face : line.faces) {
+      const cv::Point& own = face.is_low ? pair.lower : pair.higher;
+      const double seen_m = double{frame_.depth_m.at<float>(own)};
+      if (!(std::abs(seen_m * face.inverse_depth(own) - 1.0) <= kSameDepth)) continue;
+      const double at_lower = face.inverse_depth(pair.lower);
+      return at_lower + way * (face.inverse_depth(pair.higher) - at_lower);
+    }
+    return std::nullopt;
   }
 
-  /// Whether one of the pixels sees a face that ends here. What the other one sees may be as near as it
-  /// likes: the floor at a wall's foot comes nearer by any amount within a pixel.
-  bool divides(const Line& line, const cv::Point& lower, const cv::Point& higher) const {
-    return std::any_of(line.faces.begin(), line.faces.end(),
-                       [&](const Face& face) { return sees(face.is_low ? lower : higher, face); });
-  }
-
-  EyeFrame& frame_;
+  const EyeFrame& frame_;
   cv::Rect picture_;
   std::vector<bool> done_;  // pairs that are mixed already, by their lower pixel and their axis
-  std::vector<Change> changes_;
+  std::vector<EdgeMix> mixes_;
 };
 
 }  // namespace
@@ -169,15 +175,15 @@ double share_low(double at, double slope, int j) {
   return (clamp_integral(end) - clamp_integral(begin)) / (end - begin);
 }
 
-void EdgeSmoother::smooth(const EyeView& view, EyeFrame& frame) const {
-  Mixer mixer(frame);
-  const auto follow = [&](const SurfaceEdge& edge) { mixer.follow(line_of(edge, view)); };
+std::vector<EdgeMix> EdgeSmoother::mixes(const EyeView& view, const EyeFrame& surfaces) const {
+  Pairing pairing(surfaces);
+  const auto follow = [&](const SurfaceEdge& edge) { pairing.follow(line_of(edge, view)); };
   for (const EdgeGroup& group : groups_) {
     if (group.run && !can_see(view, *group.run)) continue;
     std::for_each(group.edges.begin(), group.edges.end(), follow);
   }
   for (const SurfaceEdge& edge : floor_edges(view.centre_in_world())) follow(edge);
-  mixer.apply();
+  return pairing.take();
 }
 
 }  // namespace stereobench::renderer

@@ -1,4 +1,4 @@
-/// Anti-aliases walls, meshes and the floor: mixes the pixels that their edges run through.
+/// Anti-aliases walls, meshes and the floor: finds the pixels that their edges run through.
 ///
 /// A rasteriser paints a pixel by what its centre sees. Which edge runs between the centres of two
 /// neighbours, and which of them it belongs to, is known from geometry and depth; so is the share of each
@@ -9,23 +9,38 @@
 
 #include <vector>
 
+#include "renderer/ball_veil.h"
 #include "renderer/surface_edges.h"
 #include "renderer/types.h"
 
 namespace stereobench::renderer {
+
+/// Two neighbouring pixels with an edge between their centres.
+struct EdgeMix {
+  cv::Point lower, higher;       ///< by their coordinate across the edge
+  float higher_in_lower = 0.0F;  ///< share of the lower pixel that lies beyond the edge, in [0, 1]
+  float lower_in_higher = 0.0F;  ///< and of the higher one
+  double inverse_depth = 0.0;    ///< of the edge, 1/m
+  cv::Vec3f step;                ///< of the surfaces' colours from the lower pixel to the higher one
+};
 
 class EdgeSmoother {
  public:
   EdgeSmoother(const worlds::World& world, const MeshSurfaces& meshes)
       : groups_(surface_edges(world, meshes)) {}
 
-  /// Changes colours along the edges that the eye sees; identities and depths stay what pixels' centres see.
-  /// What is thinner than a pixel, and seen by no centre, stays unseen.
-  void smooth(const EyeView& view, EyeFrame& frame) const;
+  /// The pairs of pixels that edges in view divide.
+  /// @param surfaces what the eye sees where there are no balls
+  std::vector<EdgeMix> mixes(const EyeView& view, const EyeFrame& surfaces) const;
 
  private:
   std::vector<EdgeGroup> groups_;
 };
+
+/// Mixes the colours of pairs of pixels. Behind a ball it mixes what the ball leaves of them; identities and
+/// depths stay what pixels' centres see. What is thinner than a pixel, and seen by no centre, stays unseen.
+/// @param frame what the eye sees, balls included
+void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, EyeFrame& frame);
 
 /// The share of a pixel, [-1/2, 1/2] x [j - 1/2, j + 1/2], where y is lower than at + slope x.
 /// @param slope in [-1, 1]

@@ -56,23 +56,26 @@ cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& row
   return facets;
 }
 
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& asked_rows, PicturePool& pool) {
-  const cv::Size size_px(columns.size(), asked_rows.size());
-  EyeFrame frame{pool.take(size_px, CV_8UC3), pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
-  cv::Mat pixels(std::min(kBandRows, size_px.height), size_px.width, CV_8UC4);
-  for (int row = 0; row < size_px.height; row += kBandRows) {
-    const cv::Range rows(row, std::min(row + kBandRows, size_px.height));
-    EyeFrame band{frame.colour.rowRange(rows), frame.ball_id.rowRange(rows), frame.depth_m.rowRange(rows)};
-    const cv::Mat read = pixels.rowRange(0, rows.size());
-    const int first_row_px = asked_rows.start + row;
-    gl.ReadPixels(columns.start, first_row_px, size_px.width, rows.size(), GL_RGBA, GL_UNSIGNED_BYTE,
-                  read.data);
+void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeFrame& frame) {
+  if (part.empty()) return;
+  cv::Mat pixels(std::min(kBandRows, part.height), part.width, CV_8UC4);
+  for (int row = part.y; row < part.br().y; row += kBandRows) {
+    const cv::Rect band_px(part.x, row, part.width, std::min(kBandRows, part.br().y - row));
+    const cv::Point first = origin + band_px.tl();
+    EyeFrame band{frame.colour(band_px), frame.ball_id(band_px), frame.depth_m(band_px)};
+    const cv::Mat read = pixels.rowRange(0, band_px.height);
+    gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_RGBA, GL_UNSIGNED_BYTE, read.data);
     split_colour_and_id(read, band);
-    gl.ReadPixels(columns.start, first_row_px, size_px.width, rows.size(), GL_DEPTH_COMPONENT, GL_FLOAT,
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, frame.depth_m.cols);
+    gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_DEPTH_COMPONENT, GL_FLOAT,
                   band.depth_m.data);
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, 0);
     depth_to_metres(band.depth_m, static_cast<float>(kNear_m));
   }
-  return frame;
+}
+
+EyeFrame blank_frame(const cv::Size& size_px, PicturePool& pool) {
+  return {pool.take(size_px, CV_8UC3), pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
 }
 
 }  // namespace stereobench::renderer

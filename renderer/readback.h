@@ -20,10 +20,12 @@ void depth_to_metres(cv::Mat& depth, float near_m);
 /// @return CV_32SC1, numbers of facets.h
 cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
 
-/// Reads some rows of one eye's part of the framebuffer that is bound.
-/// @param columns of the eye's part
+/// Reads a part of one eye's picture out of the framebuffer that is bound, over what the frame has there.
+/// @param origin of the frame in the framebuffer
+void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeFrame& frame);
+
+/// A picture with anything in it.
 /// @param pool that the pictures' memory is of
-/// @return a picture of these rows alone
-EyeFrame read_eye(const Gl& gl, const cv::Range& columns, const cv::Range& rows, PicturePool& pool);
+EyeFrame blank_frame(const cv::Size& size_px, PicturePool& pool);
 
 }  // namespace stereobench::renderer

@@ -76,6 +76,14 @@ cv::Range columns_of(const EyeView& view) {
   return {view.first_column_px, view.first_column_px + view.camera.width_px};
 }
 
+/// One eye's picture while it is made.
+struct EyePicture {
+  EyeView view;
+  EyeFrame frame;
+  std::vector<EdgeMix> mixes;
+  std::vector<BallOutline> balls;
+};
+
 /// The same eye with a picture of some rows alone.
 EyeView part_of(EyeView view, const cv::Range& rows) {
   view.camera.cy_px -= rows.start;
@@ -162,6 +170,30 @@ struct Renderer::Parts {
   cv::Range with_neighbours(const cv::Range& rows) const {
     return {std::max(rows.start - 1, 0), std::min(rows.end + 1, rig.camera.height_px)};
   }
+
+  /// Reads what has been drawn: surfaces, before any ball hides their edges.
+  EyePicture read_surfaces(const EyeView& view, const cv::Range& rows) {
+    EyePicture picture = {
+        .view = view,
+        .frame = blank_frame({view.camera.width_px, rows.size()}, lens ? straight_pictures : pictures)};
+    read_part(gl, {view.first_column_px, rows.start}, {{0, 0}, picture.frame.colour.size()}, picture.frame);
+    picture.mixes = edges.mixes(part_of(view, rows), picture.frame);
+    picture.balls = balls.outlines(view);
+    return picture;
+  }
+
+  void draw_balls(const EyePicture& picture) {
+    look_through(picture.view);
+    balls.draw(picture.view, picture.balls);
+  }
+
+  /// Reads the balls that have been drawn, and smooths what is behind and before them.
+  void finish(EyePicture& picture, const cv::Range& rows) const {
+    const BallVeil veil(picture.view, picture.balls, rows);
+    for (const cv::Rect& box : veil.boxes())
+      read_part(gl, {picture.view.first_column_px, rows.start}, box, picture.frame);
+    mix_edges(picture.mixes, veil, picture.frame);
+  }
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
@@ -178,21 +210,22 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
                              const cv::Range& asked) {
   const cv::Range rows = parts_->checked_rows(asked);
   const cv::Range drawn = parts_->with_neighbours(parts_->lens ? parts_->lens->rows_seen(rows) : rows);
-  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb, drawn);
-  for (const EyeView& view : {left, right}) {
+  const auto views = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb, drawn);
+  for (const EyeView& view : views) {
     parts_->look_through(view);
     parts_->surfaces.draw(view);
-    parts_->balls.draw(view);
   }
+  std::array<EyePicture, 2> eyes = {parts_->read_surfaces(views[0], drawn),
+                                    parts_->read_surfaces(views[1], drawn)};
+  for (const EyePicture& eye : eyes) parts_->draw_balls(eye);
   parts_->release_compiler();
-  const auto picture = [&](const EyeView& view) {
+  const auto finished = [&](EyePicture& eye) {
+    parts_->finish(eye, drawn);
     const std::optional<Lens>& lens = parts_->lens;
-    EyeFrame frame =
-        read_eye(parts_->gl, columns_of(view), drawn, lens ? parts_->straight_pictures : parts_->pictures);
-    parts_->edges.smooth(part_of(view, drawn), frame);
-    return lens ? lens->bend(frame, drawn.start, rows, parts_->pictures) : part_of(frame, drawn.start, rows);
+    return lens ? lens->bend(eye.frame, drawn.start, rows, parts_->pictures)
+                : part_of(eye.frame, drawn.start, rows);
   };
-  return {picture(left), picture(right)};
+  return {finished(eyes[0]), finished(eyes[1])};
 }
 
 StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose,

@@ -156,7 +156,7 @@ class Limit {
     cast_rays(scene.surfaces, scene.balls, scene.light,
               {frame.colour.cols, frame.colour.rows, frame.colour.data, frame.ball_id.data,
                frame.depth_m.ptr<float>()});
-    smoother_.smooth(view, frame);
+    renderer::mix_edges(smoother_.mixes(view, frame), {}, frame);
   }
 
   Scene scene_;

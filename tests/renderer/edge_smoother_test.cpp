@@ -13,29 +13,12 @@
 #include <gtest/gtest.h>
 
 #include "renderer/renderer.h"
+#include "tests/renderer/finer.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/wedge.h"
 
 namespace stereobench::renderer {
 namespace {
-
-constexpr int kFiner = 5;
-
-vision::StereoRig finer(vision::StereoRig rig) {
-  vision::Intrinsics& camera = rig.camera;
-  camera.width_px *= kFiner;
-  camera.height_px *= kFiner;
-  camera.focal_px *= kFiner;
-  camera.cx_px = kFiner * (camera.cx_px + 0.5) - 0.5;
-  camera.cy_px = kFiner * (camera.cy_px + 0.5) - 0.5;
-  return rig;
-}
-
-/// The mean of the finer pixels that make up a pixel.
-cv::Vec3d mean_of(const cv::Mat& fine, int u, int v) {
-  const cv::Scalar mean = cv::mean(fine(cv::Rect(kFiner * u, kFiner * v, kFiner, kFiner)));
-  return {mean[0], mean[1], mean[2]};
-}
 
 /// Whether other facets are seen around a pixel.
 bool is_at_edge(const cv::Mat& facet, int u, int v) {
@@ -80,11 +63,11 @@ worlds::World plain_room(std::uint64_t seed) {
 }
 
 /// Adds up what one eye's picture is off.
-void add_up(const cv::Mat& colour, const cv::Mat& facet, const cv::Mat& fine, Errors& errors) {
+void add_up(const cv::Mat& colour, const cv::Mat& facet, const test::FinerEye& fine, Errors& errors) {
   for (int v = 1; v < colour.rows - 1; ++v) {
     for (int u = 1; u < colour.cols - 1; ++u) {
-      const cv::Vec3d truth = mean_of(fine, u, v);
-      const double jagged = off(fine.at<cv::Vec3b>(kFiner * v + kFiner / 2, kFiner * u + kFiner / 2), truth);
+      const cv::Vec3d truth = fine.mean_colour(u, v);
+      const double jagged = off(fine.centre_colour(u, v), truth);
       const double smooth = off(colour.at<cv::Vec3b>(v, u), truth);
       if (!is_at_edge(facet, u, v)) {
         errors.elsewhere += smooth;
@@ -108,10 +91,10 @@ Errors compare(const worlds::World& world, const slam::Pose& pose,
   Renderer renderer(world, rig);
   const StereoFrame frame = renderer.render(pose);
   const StereoSight sight = renderer.sight(pose, pose);
-  const StereoFrame fine = Renderer(world, finer(rig)).render(pose);
+  const auto [left, right] = test::finer_pair(world, rig, pose);
   Errors errors;
-  add_up(frame.left.colour, sight.left.facet, fine.left.colour, errors);
-  add_up(frame.right.colour, sight.right.facet, fine.right.colour, errors);
+  add_up(frame.left.colour, sight.left.facet, left, errors);
+  add_up(frame.right.colour, sight.right.facet, right, errors);
   errors.jagged /= static_cast<double>(errors.edges);
   errors.smooth /= static_cast<double>(errors.edges);
   errors.at_balls /= static_cast<double>(errors.ball_edges);
@@ -202,7 +185,7 @@ TEST_P(SmoothEdges, TouchNothingButEdges) {
   const EyeSight sight = renderer.sight(pose, pose).left;
   EyeFrame twice = once;
   twice.colour = once.colour.clone();
-  EdgeSmoother(world, place_meshes(world)).smooth(sight.view, twice);
+  mix_edges(EdgeSmoother(world, place_meshes(world)).mixes(sight.view, twice), {}, twice);
   int touched = 0, edges = 0;
   for (int v = 1; v < once.colour.rows - 1; ++v) {
     for (int u = 1; u < once.colour.cols - 1; ++u) {
