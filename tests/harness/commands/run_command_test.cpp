@@ -179,7 +179,8 @@ TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
 
 class ShippedScenario : public testing::TestWithParam<const char*> {};
 
-// The figures that the scenarios promise; see their gates.
+// The figures that the scenarios promise; see their gates. Mutation: edges mixed into balls before them (the
+// corridor's normalised error is 1.5).
 TEST_P(ShippedScenario, KeepsItsGates) {
   const ScratchFolder scratch;
   const Outcome outcome =
@@ -189,7 +190,7 @@ TEST_P(ShippedScenario, KeepsItsGates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
-                         testing::Values("ball_circle", "corridor", "open_field", "room"));
+                         testing::Values("ball_circle", "corridor", "office", "open_field", "room"));
 
 // Their stands hide slivers of them. Mutation: shades are looked at once, from where such an edge pulled the
 // outline (0.26 mm for 0.20).
