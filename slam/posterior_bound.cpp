@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
 
 #include "slam/linearised.h"
 #include "slam/measurement.h"
@@ -48,10 +49,13 @@ PosteriorBound::PosteriorBound(const OdometryNoise& noise, const Pose& start,
 
 void PosteriorBound::move(const Control& control) {
   long repairs = 0;  // a first-order motion mends nothing
-  const PoseBelief moved = Linearised().move(pose_, control, standard_deviations(control, noise_), repairs);
+  const Eigen::Vector2d control_sd = standard_deviations(control, noise_);
+  const PoseBelief moved = Linearised().move(pose_, control, control_sd, repairs);
+  const PoseBelief from_known =
+      Linearised().move({pose_.mean, Eigen::Matrix3d::Zero()}, control, control_sd, repairs);
   const Eigen::Index rest = size_ - 3;
   const Eigen::Matrix3d slope = lever(pose_.mean, moved.mean);
-  smoother_.move(slope);
+  smoother_.move(slope, from_known.covariance);
   joint_.block(3, 0, rest, 3) *= slope.transpose();
   joint_.block(0, 3, 3, rest) = joint_.block(3, 0, rest, 3).transpose();
   joint_.topLeftCorner<3, 3>() = moved.covariance;
@@ -70,7 +74,18 @@ void PosteriorBound::look(std::span<const TrueSighting> frame) {
     }
   }
   if (!known.empty()) inform(known);
-  smoother_.keep(joint_.topLeftCorner(3, size_));
+  tell_smoother(frame);
+}
+
+/// First sightings too: to a smoother they are sightings like others.
+void PosteriorBound::tell_smoother(std::span<const TrueSighting> frame) {
+  std::vector<WhitenedSighting> seen;
+  for (const TrueSighting& sighting : frame) {
+    const auto index = static_cast<std::size_t>(sighting.landmark);
+    const LinearSighting linear = linearise_sighting(pose_.mean, landmarks_[index]);
+    seen.push_back(whitened(row_[index], linear.by_pose(), linear.by_landmark, sighting.noise));
+  }
+  smoother_.look(seen);
 }
 
 std::optional<Eigen::Matrix2d> PosteriorBound::landmark(int index) const {
@@ -94,7 +109,6 @@ void PosteriorBound::add(const TrueSighting& sighting) {
   joint_.block<2, 2>(row, row) = joint_.block<2, 3>(row, 0) * slope.transpose() + own;
   row_[index] = row;
   size_ += 2;
-  smoother_.append(slope);
 }
 
 /// Sightings of landmarks that have been seen before, all at once.
@@ -118,7 +132,6 @@ void PosteriorBound::inform(std::span<const TrueSighting> frame) {
   const Eigen::MatrixXd white = whitener(surprise);
   const Eigen::MatrixXd white_cross = white * cross;
   joint.selfadjointView<Eigen::Lower>().rankUpdate(white_cross.transpose(), -1.0);
-  smoother_.correct(std::move(slope), white, white_cross);
   joint.triangularView<Eigen::StrictlyUpper>() = joint.transpose();
   pose_.covariance = joint.topLeftCorner<3, 3>();
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slam/belief.h"
-#include "slam/covariance_smoother.h"
+#include "slam/smoothing_bound.h"
 
 namespace stereobench::slam {
 
@@ -56,6 +56,7 @@ class PosteriorBound {
  private:
   void add(const TrueSighting& sighting);
   void inform(std::span<const TrueSighting> frame);
+  void tell_smoother(std::span<const TrueSighting> frame);
 
   OdometryNoise noise_;
   std::vector<Eigen::Vector2d> landmarks_;
@@ -63,7 +64,7 @@ class PosteriorBound {
   std::vector<Eigen::Index> row_;  ///< by landmark: where its block begins, or 0 before it is seen
   Eigen::Index size_ = 3;          ///< of the part of the joint covariance that is in use
   Eigen::MatrixXd joint_;          ///< of the pose and the landmarks in order of discovery; symmetric
-  CovarianceSmoother smoother_;
+  SmoothingBound smoother_;
 };
 
 }  // namespace stereobench::slam

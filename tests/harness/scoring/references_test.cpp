@@ -132,7 +132,7 @@ TEST(ReplayBound, WhatNobodyKnowsTellsNothing) {
   EXPECT_TRUE(run.landmarks.empty());
   for (std::size_t k = 0; k < run.poses.size(); ++k) {
     EXPECT_LE((run.poses[k] - reckoned_covariance(drive, k)).norm(), 1e-9) << "step " << k;
-    EXPECT_LE((run.smoothed_poses[k] - run.poses[k]).norm(), 1e-15) << "later odometry tells nothing either";
+    EXPECT_LE((run.smoothed_poses[k] - run.poses[k]).norm(), 1e-12) << "later odometry tells nothing either";
   }
   EXPECT_TRUE(std::isnan(score(run).filtering.landmark_rms_m));
 }
