@@ -34,14 +34,15 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
   return overrides;
 }
 
-std::map<std::string, std::string> hashes_of(const std::set<std::string>& names,
-                                             const std::filesystem::path& folder) {
+}  // namespace
+
+std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& scenario,
+                                                         const std::vector<std::string>& overrides) {
   std::map<std::string, std::string> hashes;
-  for (const std::string& name : names) hashes[name] = sha256_of_file(folder / name);
+  for (const std::string& name : worlds::files_named_in(scenario, overrides))
+    hashes[name] = sha256_of_file(scenario.parent_path() / name);
   return hashes;
 }
-
-}  // namespace
 
 std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend) {
   if (scenario.sensor != worlds::SensorKind::kStereo) return {};
@@ -58,7 +59,7 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
   const auto overrides = all_overrides(arguments, more_overrides, scenario);
   Provenance provenance{.scenario = worlds::with_overrides(file, overrides), .set = arguments.overrides};
   provenance.set.insert(provenance.set.end(), more_overrides.begin(), more_overrides.end());
-  provenance.files = hashes_of(worlds::files_named_in(file, overrides), file.parent_path());
+  provenance.files = hashes_of_named_files(file, overrides);
   if (scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;
   return provenance;
 }

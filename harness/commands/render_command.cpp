@@ -1,7 +1,4 @@
-#include <array>
-#include <cstdint>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -9,90 +6,117 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/standard_streams.h"
-#include "harness/commands/talk.h"
-#include "harness/dataset/atomic_file.h"
-#include "harness/dataset/draws_file.h"
 #include "harness/dataset/rendered_dataset.h"
-#include "harness/dataset/rendered_truth.h"
+#include "harness/dataset/seed_render.h"
 #include "harness/dataset/truth_limits.h"
 #include "harness/run/interruption.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
-#include "harness/run/recording.h"
+#include "harness/run/provenance.h"
 #include "renderer/backend.h"
-#include "renderer/mesh_shelf.h"
 #include "worlds/scenario.h"
 
 namespace stereobench::harness {
 namespace {
 
 struct RenderArguments {
-  std::filesystem::path scenario;
-  std::vector<std::string> overrides;
-  std::uint64_t seed = 0;
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  ScenarioArguments scenario;
+  FrameChoice frames;
   TruthRequest truth;
-  std::filesystem::path out;
 };
 
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
-/// own text, what was changed of it, the seed, what renders, what truth was asked for, and the program's
-/// version.
-nlohmann::ordered_json identity_of(const RenderArguments& arguments) {
+/// own text, what was changed of it, the files that it names, what renders, who looks, what was asked for,
+/// and the program's version.
+nlohmann::ordered_json identity_of(const RenderArguments& arguments, const worlds::Scenario& scenario,
+                                   const FrameChoice& frames) {
+  const ScenarioArguments& asked = arguments.scenario;
   std::ostringstream text;
-  text << std::ifstream(arguments.scenario, std::ios::binary).rdbuf();
-  nlohmann::ordered_json identity = {{"schema", 1},
-                                     {"stereobench", STEREOBENCH_VERSION},
-                                     {"seed", arguments.seed},
-                                     {"set", arguments.overrides},
-                                     {"backend", renderer::name_of(arguments.backend)},
-                                     {"scenario", text.str()}};
+  text << std::ifstream(asked.scenario, std::ios::binary).rdbuf();
+  const std::string& detector = scenario.detector.command;
+  nlohmann::ordered_json identity = {
+      {"schema", 2},
+      {"stereobench", STEREOBENCH_VERSION},
+      {"seed", nullptr},
+      {"asked_frames", text_of(frames)},
+      {"set", asked.overrides},
+      {"backend", renderer::name_of(asked.backend)},
+      {"detector", detector.empty() ? "stereobench" : detector},
+      {"detector_files_sha256", files_of_command(detector)},
+      {"scenario", text.str()},
+      {"files_sha256", hashes_of_named_files(asked.scenario, asked.overrides)}};
   for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
   if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
   return identity;
 }
 
-int render(const RenderArguments& arguments) {
-  renderer::MeshShelf meshes;
-  const worlds::Scenario scenario =
-      worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.solids());
-  if (scenario.sensor != worlds::SensorKind::kStereo)
+/// One task a seed; of several, each has a folder of its own.
+std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const worlds::Scenario& scenario,
+                                     const std::filesystem::path& out) {
+  const FrameChoice frames = frames_of_drive(arguments.frames, scenario.path.size());
+  std::vector<std::uint64_t> seeds = arguments.scenario.run.seeds;
+  if (seeds.empty()) seeds = {scenario.seeds.front()};
+  const RenderTask any_seed = {.scenario = &scenario,
+                               .frames = frames,
+                               .truth = arguments.truth,
+                               .backend = arguments.scenario.backend,
+                               .folder = out,
+                               .identity = identity_of(arguments, scenario, frames)};
+  std::vector<RenderTask> tasks;
+  for (const std::uint64_t seed : seeds) {
+    tasks.push_back(any_seed);
+    tasks.back().seed = seed;
+    tasks.back().identity["seed"] = seed;
+    if (seeds.size() > 1) tasks.back().folder = out / fmt::format("seed_{}", seed);
+  }
+  return tasks;
+}
+
+/// Folders that hold something else are refused before anything is rendered.
+void check_folders(const std::vector<RenderTask>& tasks, const std::filesystem::path& out) {
+  if (tasks.size() > 1 && holds_rendering(out))
     throw std::runtime_error(fmt::format(
-        "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
-        arguments.scenario.string()));
-  require_truth(arguments.truth, scenario);
-  const std::filesystem::path out =
-      arguments.out.empty() ? std::filesystem::path("out") / (scenario.name + "_dataset") : arguments.out;
-  warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
-  const worlds::World world = worlds::world_for_seed(scenario, arguments.seed);
-  const RenderedDataset dataset(out, identity_of(arguments));
-  if (!dataset.spoilt().empty())
+        "{}: holds a data set itself, and cannot hold one for each seed; choose another folder or remove it",
+        out.string()));
+  for (const RenderTask& task : tasks) require_same_rendering(task.folder, task.identity);
+}
+
+void say_what_was_done(const RenderTask& task, const RenderedSeed& rendered) {
+  const std::string folder = (task.folder / "").string();
+  if (!rendered.spoilt.empty())
     note(
         fmt::format("{}: {} files were missing or not as they had been written (the first: {}); they are "
                     "rendered again",
-                    out.string(), dataset.spoilt().size(), dataset.spoilt().front()));
+                    folder, rendered.spoilt.size(), rendered.spoilt.front()));
+  if (rendered.was_complete)
+    fmt::print("{} is complete and is left as it is\n", folder);
+  else
+    fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", task.scenario->name,
+               rendered.pairs, folder);
+}
+
+int render(const RenderArguments& arguments) {
+  const worlds::Scenario scenario = read_scenario(arguments.scenario);
+  const RunArguments& run = arguments.scenario.run;
+  if (scenario.sensor != worlds::SensorKind::kStereo)
+    throw std::runtime_error(fmt::format(
+        "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
+        arguments.scenario.scenario.string()));
+  require_truth(arguments.truth, scenario);
+  const std::filesystem::path out = output_folder(run, scenario.name + "_dataset");
+  const std::vector<RenderTask> tasks = render_tasks(arguments, scenario, out);
+  check_folders(tasks, out);
+  warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
+  if (run.dry_run) {
+    for (const RenderTask& task : tasks)
+      fmt::print("{}: would render frames {} of seed {} to {}\n", scenario.name, text_of(task.frames),
+                 task.seed, (task.folder / "").string());
+    return kPassed;
+  }
   say_that_work_is_kept();
-  std::optional<RenderedTruth> truth;
-  if (!arguments.truth.kinds.empty()) truth.emplace(out, arguments.truth, scenario, world, arguments.backend);
-  Progress progress("render " + scenario.name, 1.0);
-  long pairs = 0;
-  const Recording recording = record(scenario, arguments.seed,
-                                     {.on_look =
-                                          [&](const Look& look) {
-                                            dataset.write(look);
-                                            if (truth) truth->write(look);
-                                            ++pairs;
-                                          },
-                                      .on_progress = [&](double done) { progress.show(done); }},
-                                     arguments.backend);
-  if (truth) truth->finish();
-  const std::string draws = draws_jsonl(scenario, std::array{arguments.seed});
-  if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
-  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
-  fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", scenario.name, pairs,
-             (out / "").string());
+  const std::vector<RenderedSeed> rendered = render_seeds(tasks, run.jobs, "render " + scenario.name);
+  for (std::size_t i = 0; i < tasks.size(); ++i) say_what_was_done(tasks[i], rendered[i]);
   return kPassed;
 }
 
@@ -102,12 +126,14 @@ void add_render_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("render", "write a scenario's stereo pairs with their truth as a folder");
   auto arguments = std::make_shared<RenderArguments>();
-  command->add_option("scenario", arguments->scenario, "scenario file (YAML)")->required();
-  add_set_option(*command, arguments->overrides);
-  command->add_option("--seed", arguments->seed, "of the world and the noise")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  add_backend_option(*command, arguments->backend);
+  add_eyes_options(*command, arguments->scenario);
+  add_seed_options(*command, arguments->scenario.run);
+  command
+      ->add_option_function<std::string>(
+          "--frames", [arguments](const std::string& text) { arguments->frames = parse_frames(text); },
+          "which steps of the drive get pictures: 7, 0..90 or 0..90:10, every tenth of them (default: all); "
+          "their files are the same as those of the whole drive")
+      ->type_name("A..B:STEP");
   CLI::Option* const truth = command->add_option_function<std::string>(
       "--truth", [arguments](const std::string& text) { arguments->truth.kinds = parse_truth(text); },
       "further truth, comma-separated, of: balls, surface, range, normal, disparity, match, flow; or all");
@@ -119,14 +145,13 @@ void add_render_command(CLI::App& program, Action& action) {
       ->type_name("NAME")
       ->default_str("exact")
       ->needs(truth);
-  command->add_option("--out,-o", arguments->out, "folder for the data set (default: out/<name>_dataset)");
-  add_quiet_option(*command);
   command->footer(
       "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "
       "metres),\n"
       "calibration.yaml (as believed), true_calibration.yaml, balls.csv and the log that `stereobench slam` "
-      "reads. Interrupted, it goes on where "
-      "it was.\n"
+      "reads. Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a "
+      "folder of its own\n"
+      "there (seed_0/). Interrupted, it goes on where it was; what is complete is left as it is.\n"
       "--truth adds folders of the same names for each eye (left_flow/...), those of disparity, match and "
       "flow "
       "with\n"

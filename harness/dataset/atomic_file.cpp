@@ -40,12 +40,10 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& final_path) : final_path_(final_path) {
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
       name_ = fmt::format("{}.{}-{}.tmp", final_path.string(), getpid(), attempt);
+      announce();  // before it is there: a signal may come right after
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ < 0 && errno != EEXIST) fail(final_path_, "cannot be written", errno);
     }
-    if (name_.size() >= unfinished_name.size()) return;
-    std::copy_n(name_.c_str(), name_.size() + 1, unfinished_name.begin());
-    is_unfinished = true;
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -73,6 +71,14 @@ class TemporaryFile {
   }
 
  private:
+  /// Tells a signal's handler what to remove.
+  void announce() const {
+    is_unfinished = false;
+    if (name_.size() >= unfinished_name.size()) return;
+    std::copy_n(name_.c_str(), name_.size() + 1, unfinished_name.begin());
+    is_unfinished = true;
+  }
+
   fs::path final_path_;
   std::string name_;
   int descriptor_ = -1;

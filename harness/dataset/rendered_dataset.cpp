@@ -1,9 +1,12 @@
 #include "harness/dataset/rendered_dataset.h"
 
 #include <array>
+#include <charconv>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <opencv2/core.hpp>
 
 #include "harness/dataset/atomic_file.h"
@@ -21,51 +24,107 @@ namespace {
 /// The folder's marker while frames are still being written.
 constexpr const char* kUnfinished = "dataset.unfinished.json";
 
-/// What a marker says; nothing where it is not JSON.
+/// The finished data set's key that lists the frames it has pictures of.
+constexpr const char* kFrames = "frames";
+
+/// The markers that there are.
+std::vector<std::filesystem::path> markers_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> markers;
+  for (const char* marker : {kFinishedDataset, kUnfinished})
+    if (std::filesystem::exists(folder / marker)) markers.push_back(folder / marker);
+  return markers;
+}
+
+/// What a marker says.
 nlohmann::json read_marker(const std::filesystem::path& path) {
   try {
-    return parse_line(read_text(path));
+    nlohmann::json told = parse_line(read_text(path));
+    if (told.is_object()) return told;
   } catch (const BadLine&) {
-    return {};
   }
+  throw std::runtime_error(
+      fmt::format("{}: is not what `render` writes; choose another folder or remove it", path.string()));
+}
+
+/// Whether something of a data set lies in a folder.
+bool holds_files(const std::filesystem::path& folder) {
+  return std::filesystem::is_directory(folder) && !product_names(folder).empty();
+}
+
+/// The keys that one of two objects has not, or with another value.
+std::vector<std::string> differing_keys(const nlohmann::json& one, const nlohmann::json& other) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : one.items())
+    if (!other.contains(key) || other[key] != value) keys.push_back(key);
+  for (const auto& [key, value] : other.items())
+    if (!one.contains(key)) keys.push_back(key);
+  return keys;
+}
+
+/// The frames whose left picture is among the files.
+std::vector<std::size_t> frames_among(const std::vector<std::string>& names) {
+  std::vector<std::size_t> frames;
+  for (const std::string& name : names) {
+    std::size_t frame = 0;
+    if (name.starts_with("left/") &&
+        std::from_chars(name.data() + 5, name.data() + name.size(), frame).ec == std::errc())
+      frames.push_back(frame);
+  }
+  return frames;
 }
 
 }  // namespace
 
+bool holds_rendering(const std::filesystem::path& folder) {
+  return !markers_in(folder).empty() && holds_files(folder);
+}
+
+void require_same_rendering(const std::filesystem::path& folder, const nlohmann::ordered_json& identity) {
+  if (!std::filesystem::exists(folder / kFinishedDataset) && !holds_files(folder)) return;
+  for (const std::filesystem::path& marker : markers_in(folder)) {
+    nlohmann::json told = read_marker(marker);
+    for (const char* outcome : {kFiles, kFrames}) told.erase(outcome);
+    const auto differing = differing_keys(told, parse_line(identity.dump()));
+    if (!differing.empty())
+      throw std::runtime_error(
+          fmt::format("{}: holds a data set of another {}; choose another folder or remove it",
+                      marker.string(), fmt::join(differing, ", ")));
+  }
+}
+
 RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered_json identity)
     : folder_(std::move(folder)), identity_(std::move(identity)) {
-  prepare_output_folder(folder_);
-  for (const char* marker : {kFinishedDataset, kUnfinished})
-    if (std::filesystem::exists(folder_ / marker)) take_up(folder_ / marker);
-  remove_leftovers(folder_);
-  for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
-    prepare_output_folder(folder_ / part);
-  if (!std::filesystem::exists(folder_ / kFinishedDataset) || !spoilt_.empty())
-    write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
-  if (!spoilt_.empty()) std::filesystem::remove(folder_ / kFinishedDataset);
+  if (std::filesystem::exists(folder_)) prepare_output_folder(folder_);
+  require_same_rendering(folder_, identity_);
+  is_finished_ = std::filesystem::exists(folder_ / kFinishedDataset);
+  if (is_finished_) find_spoilt(folder_ / kFinishedDataset);
+  if (std::filesystem::exists(folder_)) remove_leftovers(folder_);
+  if (is_complete() || !holds_files(folder_)) std::filesystem::remove(folder_ / kUnfinished);
+  if (spoilt_.empty()) return;
+  begin();
+  std::filesystem::remove(folder_ / kFinishedDataset);
   for (const std::string& name : spoilt_) std::filesystem::remove(folder_ / name);
 }
 
-void RenderedDataset::take_up(const std::filesystem::path& marker) {
-  nlohmann::json told = read_marker(marker);
-  nlohmann::json files = nlohmann::json::object();
-  if (told.is_object() && told.contains(kFiles)) {
-    files = told[kFiles];
-    told.erase(kFiles);
-  }
-  if (told != parse_line(identity_.dump()))
-    throw std::runtime_error(
-        fmt::format("{}: holds a data set of another scenario, seed, back end or version; choose another "
-                    "folder or remove it",
-                    marker.string()));
+void RenderedDataset::begin() const {
+  for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
+    prepare_output_folder(folder_ / part);
+  write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
+}
+
+void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
+  const nlohmann::json told = read_marker(marker);
   try {
-    for (const std::string& name : changed_files(folder_, files)) spoilt_.push_back(name);
+    for (const std::string& name :
+         changed_files(folder_, told.value(kFiles, nlohmann::json(nlohmann::json::object()))))
+      spoilt_.push_back(name);
   } catch (const BadLine& error) {
     throw std::runtime_error(fmt::format("{}: {}", marker.string(), error.what()));
   }
 }
 
 void RenderedDataset::write(const Look& look) const {
+  if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
   const std::string name = fmt::format("{:06}", look.step);
   const std::array<std::pair<const char*, const renderer::EyeFrame*>, 2> eyes = {
       {{"left", &look.frame.left}, {"right", &look.frame.right}}};
@@ -79,13 +138,16 @@ void RenderedDataset::write(const Look& look) const {
 
 void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig& rig,
                              const vision::StereoRig& believed_rig, const MeasurementLog& log) const {
+  if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
   write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(believed_rig));
   write_file_atomically(folder_ / "true_calibration.yaml", calibration_yaml(rig));
   write_file_atomically(folder_ / "balls.csv", balls_csv(world));
   write_log(folder_, log);
   remove_leftovers(folder_);  // of one that was just dying when this one began
   nlohmann::ordered_json marker = identity_;
-  marker[kFiles] = file_list(folder_, product_names(folder_));
+  const std::vector<std::string> names = product_names(folder_);
+  marker[kFrames] = frames_among(names);
+  marker[kFiles] = file_list(folder_, names);
   write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
   std::filesystem::remove(folder_ / kUnfinished);
 }

@@ -12,8 +12,9 @@ void end_on_signals();
 /// What the line says besides: that the same command goes on from what is finished.
 void say_that_work_is_kept();
 
-/// In a forked worker: ends it as soon as its parent ends, and leaves SIGINT and SIGTERM, which a terminal
-/// sends to all processes at once, to the parent.
+/// In a forked worker: ends it as soon as its parent ends, with the file that it is just writing removed, and
+/// leaves SIGINT and SIGTERM, which terminals and service managers send to all processes at once, to the
+/// parent.
 /// @param parent the process that forked it
 void follow_parent(pid_t parent);
 

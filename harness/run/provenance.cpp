@@ -10,7 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The hashes of the files among a command's words, e.g. of my_detector.py in "python3 my_detector.py".
+}  // namespace
+
 std::map<std::string, std::string> files_of_command(std::string command) {
   for (char& letter : command)
     if (letter == '\'' || letter == '"') letter = ' ';
@@ -21,8 +22,6 @@ std::map<std::string, std::string> files_of_command(std::string command) {
     if (std::filesystem::is_regular_file(word, error)) files[word] = sha256_of_file(word);
   return files;
 }
-
-}  // namespace
 
 Json provenance_json(const Provenance& provenance) {
   Json json = {{"stereobench", STEREOBENCH_VERSION},

@@ -20,6 +20,9 @@ struct Provenance {
 /// did not write.
 nlohmann::ordered_json provenance_json(const Provenance& provenance);
 
+/// SHA-256 of the files among a command's words, e.g. of my_detector.py in "python3 my_detector.py".
+std::map<std::string, std::string> files_of_command(std::string command);
+
 /// What a drive's outcome depends on besides its seed, in one text: the provenance, the program itself, and
 /// files that a detector's command names.
 /// @param detector the command of a detector's program; empty for ours

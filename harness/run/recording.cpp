@@ -129,7 +129,7 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
                      : detector ? detector
                                 : our_detector(setup));
   const auto look = [&](std::size_t index, const slam::Pose& pose) {
-    return stereo.look(index, pose, listeners.on_look);
+    return listeners.is_wanted(index) ? stereo.look(index, pose, listeners.on_look) : Sightings();
   };
   drive(scenario, seed, look, recording.log, listeners.on_progress);
   if (program) program->finish();

@@ -28,8 +28,11 @@ struct Look {
   double late_s = 0.0;  ///< by how much the eyes looked later than the step's time says
 };
 
-/// Who wants to be told while a drive goes on.
+/// Who wants to be told while a drive goes on, and of which steps.
 struct Listeners {
+  /// Whether the eyes open at a step (sensors with pixels only). At others nothing is rendered or seen; what
+  /// is seen at this one does not depend on it, unless a detector has a memory.
+  std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
   std::function<void(const Look&)> on_look = [](const Look&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
 };

@@ -143,7 +143,7 @@ TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
   EXPECT_EQ(std::filesystem::last_write_time(kept), kept_time);
   const Outcome other = run_stereobench(with(render, {"--seed", "7"}));
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("holds a data set of another scenario, seed, back end or version"));
+  EXPECT_THAT(other.err, HasSubstr("holds a data set of another seed; choose another folder"));
 }
 
 // Mutations: an identity without the truth; truth that is asked for and not written.

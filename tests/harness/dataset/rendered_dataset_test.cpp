@@ -148,10 +148,27 @@ TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
 TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   const TestFolder folder;
   const RenderedDataset dataset(folder.path(), kOne);
+  write_look(dataset, 0, 10);
   const auto take_up = [&] { RenderedDataset(folder.path(), {{"seed", 2}}); };
-  EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
+  EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("a data set of another seed; choose")));
   dataset.finish({}, kRig, kRig, kOneStep);
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
+}
+
+// What failed before its first frame is in nobody's way. Mutations: the marker written at once, or looked at
+// where nothing else is.
+TEST(RenderedDataset, LeavesNothingBeforeItsFirstFrame) {
+  const TestFolder folder;
+  const auto place = folder.path() / "data";
+  { const RenderedDataset begun(place, kOne); }
+  EXPECT_FALSE(std::filesystem::exists(place));
+  write_look(RenderedDataset(place, kOne), 0, 10);
+  const auto take_up = [&] { RenderedDataset(place, {{"seed", 2}}); };
+  EXPECT_THAT(take_up, testing::Throws<std::runtime_error>());
+  for (const std::string& name : product_names(place)) std::filesystem::remove(place / name);
+  take_up();
+  write_look(RenderedDataset(place, {{"seed", 2}}), 0, 10);
+  EXPECT_THAT([&] { RenderedDataset(place, kOne); }, testing::Throws<std::runtime_error>());
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+#include "harness/dataset/seed_render.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "harness/dataset/atomic_file.h"
+#include "harness/dataset/draws_file.h"
+#include "harness/dataset/rendered_dataset.h"
+#include "harness/dataset/rendered_truth.h"
+#include "harness/run/process_pool.h"
+#include "harness/run/progress.h"
+#include "harness/run/recording.h"
+#include "worlds/scenario.h"
+
+namespace stereobench::harness {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt)
+
+namespace {
+
+RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
+  const worlds::Scenario& scenario = *task.scenario;
+  const worlds::World world = worlds::world_for_seed(scenario, task.seed);
+  const RenderedDataset dataset(task.folder, task.identity);
+  if (dataset.is_complete()) return {.was_complete = true};
+  RenderedSeed rendered = {.spoilt = dataset.spoilt()};
+  std::optional<RenderedTruth> truth;
+  if (!task.truth.kinds.empty()) truth.emplace(task.folder, task.truth, scenario, world, task.backend);
+  Listeners listeners;
+  listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
+  listeners.on_progress = on_progress;
+  listeners.on_look = [&](const Look& look) {
+    dataset.write(look);
+    if (truth) truth->write(look);
+    ++rendered.pairs;
+  };
+  const Recording recording = record(scenario, task.seed, listeners, task.backend);
+  prepare_output_folder(task.folder);  // where the shutter dropped every frame it is not there yet
+  if (truth) truth->finish();
+  const std::string draws = draws_jsonl(scenario, std::array{task.seed});
+  if (!draws.empty()) write_file_atomically(task.folder / "draws.jsonl", draws);
+  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
+  return rendered;
+}
+
+std::vector<RenderedSeed> render_in_processes(const std::vector<RenderTask>& tasks, int jobs,
+                                              const OnProgress& on_progress) {
+  std::vector<RenderedSeed> rendered(tasks.size());
+  const auto render = [&](std::size_t index, const std::function<void(double)>& report) {
+    return nlohmann::json(render_seed(tasks[index], report)).dump();
+  };
+  const auto keep = [&](std::size_t index, const std::string& answer) {
+    rendered[index] = nlohmann::json::parse(answer).get<RenderedSeed>();
+  };
+  try {
+    run_in_processes(tasks.size(), jobs, render, keep, on_progress);
+  } catch (...) {  // the other processes were killed, maybe in the middle of a file
+    for (const RenderTask& task : tasks)
+      if (std::filesystem::exists(task.folder)) remove_leftovers(task.folder);
+    throw;
+  }
+  return rendered;
+}
+
+}  // namespace
+
+std::vector<RenderedSeed> render_seeds(const std::vector<RenderTask>& tasks, int jobs,
+                                       const std::string& what) {
+  Progress progress(what, static_cast<double>(tasks.size()));
+  const auto show = [&](double done) { progress.show(done); };
+  // One alone needs no process of its own: SIGTERM then ends whoever writes, file and all.
+  if (tasks.size() == 1) return {render_seed(tasks.front(), show)};
+  return render_in_processes(tasks, jobs, show);
+}
+
+}  // namespace stereobench::harness
