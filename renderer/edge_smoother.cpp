@@ -182,7 +182,8 @@ std::vector<EdgeMix> EdgeSmoother::mixes(const EyeView& view, const EyeFrame& su
     if (group.run && !can_see(view, *group.run)) continue;
     std::for_each(group.edges.begin(), group.edges.end(), follow);
   }
-  for (const SurfaceEdge& edge : floor_edges(view.centre_in_world())) follow(edge);
+  if (has_floor_)
+    for (const SurfaceEdge& edge : floor_edges(view.centre_in_world())) follow(edge);
   return pairing.take();
 }
 

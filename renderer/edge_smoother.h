@@ -27,7 +27,7 @@ struct EdgeMix {
 class EdgeSmoother {
  public:
   EdgeSmoother(const worlds::World& world, const MeshSurfaces& meshes)
-      : groups_(surface_edges(world, meshes)) {}
+      : groups_(surface_edges(world, meshes)), has_floor_(world.has_floor) {}
 
   /// The pairs of pixels that edges in view divide.
   /// @param surfaces what the eye sees where there are no balls
@@ -35,6 +35,7 @@ class EdgeSmoother {
 
  private:
   std::vector<EdgeGroup> groups_;
+  bool has_floor_;
 };
 
 /// Mixes the colours of pairs of pixels. Behind a ball it mixes what the ball leaves of them; identities and

@@ -50,14 +50,14 @@ SceneGeometry::Flat::Flat(Shape of_shape, int of_surface, const Eigen::Vector3d&
 }
 
 bool SceneGeometry::Flat::contains(double s, double t) const {
-  if (shape == Shape::kPlane) return true;
+  if (shape == Shape::kPlane || shape == Shape::kNothing) return shape == Shape::kPlane;
   if (!(s >= 0.0 && t >= 0.0)) return false;
   return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
 }
 
 SceneGeometry::SceneGeometry(const worlds::World& world) : balls_(world.balls) {
-  flats_.emplace_back(Shape::kPlane, kFloorFacet, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(),
-                      Eigen::Vector3d::UnitY());
+  flats_.emplace_back(world.has_floor ? Shape::kPlane : Shape::kNothing, kFloorFacet, Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
   int surface = kFirstWallFacet;
   for (const worlds::Wall& wall : world.walls) {
     const Eigen::Vector2d run = wall.to_m - wall.from_m;

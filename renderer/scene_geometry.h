@@ -17,7 +17,7 @@ class SceneGeometry {
   explicit SceneGeometry(const worlds::World& world);
 
   /// The parameter at which a sightline enters a facet.
-  /// @return +inf where it passes by, or meets it behind its origin
+  /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
   double enter(int facet, const Sightline& sight) const;
 
   /// The point of a facet that a pixel's centre sees. The rasteriser snaps corners to 1/256 px and computes
@@ -32,7 +32,7 @@ class SceneGeometry {
   int surface(int facet) const;
 
  private:
-  enum class Shape { kPlane, kParallelogram, kTriangle };
+  enum class Shape { kNothing, kPlane, kParallelogram, kTriangle };
   /// Points are corner + s along + t up; s and t are found with the dual vectors.
   struct Flat {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,

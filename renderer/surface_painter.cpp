@@ -39,7 +39,7 @@ SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const S
       meshes_(gl, kVertexWidths, 0),
       polygons_(gl, kVertexWidths, 0) {
   const MeshSurfaces& meshes = surfaces.meshes;
-  compile(paint_of(world.floor));
+  if (world.has_floor) compile(paint_of(world.floor));
   for (const worlds::Wall& wall : world.walls) compile(paint_of(wall.material));
   for (const MeshRun& run : meshes.runs) compile(paint_of(run));
   meshes_.upload(floats(meshes.vertices));

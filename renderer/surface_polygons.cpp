@@ -92,6 +92,7 @@ std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::
   std::stable_sort(polygons.begin(), polygons.end(), [](const SurfacePolygon& a, const SurfacePolygon& b) {
     return a.nearest_m < b.nearest_m;
   });
+  if (!world.has_floor) return polygons;
   SurfacePolygon floor = floor_polygon(view, world);
   floor.facet = kFloorFacet;
   floor.tint_rgb = world.floor_tint_rgb.cast<float>();

@@ -16,6 +16,7 @@ constexpr Interval kShare = {0.0, 1.0};
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
 constexpr std::size_t kOurMaterials = 6;  // all but a file's
+constexpr std::string_view kNoFloor = "none";
 
 Key material(std::string_view name, std::string_view says) {
   return choice(name, {kMaterialNames.begin(), kMaterialNames.begin() + kOurMaterials}, says);
@@ -37,6 +38,24 @@ void read_surface(const YamlMap& map, const TextureKeys& keys, const std::filesy
   if (map.find(keys.material)) value->refuse(fmt::format("expected no {} beside it", keys.material));
   material = Material::kFile;
   texture = read_surface_texture(*value, folder);
+}
+
+/// The materials, and that there is none.
+std::vector<std::string_view> floor_names() {
+  std::vector<std::string_view> names(kMaterialNames.begin(), kMaterialNames.begin() + kOurMaterials);
+  names.push_back(kNoFloor);
+  return names;
+}
+
+/// A floor of some material, one that shows a picture, or none.
+void read_floor(const YamlMap& map, const std::filesystem::path& folder, World& world) {
+  const auto floor = map.find("floor");
+  world.has_floor = !floor || floor->scalar() != kNoFloor;
+  if (const auto tint = map.find("floor_tint_rgb"); tint && !world.has_floor)
+    tint->refuse("expected none where `floor: none` leaves nothing to tint");
+  if (world.has_floor || map.find("floor_texture"))
+    read_surface(map, {"floor_texture", "floor"}, folder, world.floor, world.floor_texture);
+  world.floor_tint_rgb = read_vector<3>(map, "floor_tint_rgb", world.floor_tint_rgb);
 }
 
 Ball read_ball(const YamlValue& value, double usual_radius_m) {
@@ -153,7 +172,8 @@ const KeyGroup& world_keys() {
           group("meshes", mesh_keys(), "Things from mesh files, boxes and balls that are no landmarks.")
               .list(0, kMostWalls),
           group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost."),
-          material("floor", "What the floor is made of.").otherwise("tiles"),
+          choice("floor", floor_names(), "What the floor is made of; none: nothing is seen in its place.")
+              .otherwise("tiles"),
           number("floor_tint_rgb", kTint, "Factors on the floor's red, green and blue.")
               .vector(3)
               .otherwise("[1, 1, 1]"),
@@ -182,8 +202,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   for (const YamlValue& mesh : map.list("meshes"))
     world.meshes.push_back(read_mesh(mesh, folder, world.balls));
   if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
-  read_surface(map, {"floor_texture", "floor"}, folder, world.floor, world.floor_texture);
-  world.floor_tint_rgb = read_vector<3>(map, "floor_tint_rgb", world.floor_tint_rgb);
+  read_floor(map, folder, world);
   if (const auto light = map.find("light")) world.light = read_light(*light);
   world.sky_rgb = read_vector<3>(map, "sky_rgb", world.sky_rgb);
   return world;

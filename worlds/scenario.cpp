@@ -126,6 +126,8 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   }
   scenario.path = read_path(map.at("path"), generator ? &generator->layout : nullptr, folder);
   scenario.world = read_world(world, folder);
+  if (scenario.randomise.floor && !scenario.world.has_floor)
+    world.at("floor").refuse("expected a floor, of which randomise.floor draws the material");
   if (generator || scenario.randomise.clutter || scenario.randomise.distractors)
     give_solids(scenario.world, solids);
   if (generator)

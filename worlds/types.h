@@ -89,6 +89,7 @@ struct World {
   std::vector<Wall> walls;
   std::vector<MeshInstance> meshes;
   MeshLimits mesh_limits;
+  bool has_floor = true;  ///< false: nothing is seen where the floor would be
   Material floor = Material::kTiles;
   SurfaceTexture floor_texture;                              ///< of kFile
   Eigen::Vector3d floor_tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours

@@ -49,7 +49,7 @@ std::string surfaces_csv(const worlds::World& world) {
       csv += fmt::format("{},{},{}\n", first + static_cast<int>(i), kind, i);
   };
   add(1, "ball", world.balls.size());
-  add(renderer::kFloorFacet, "floor", 1);
+  add(renderer::kFloorFacet, "floor", world.has_floor ? 1 : 0);
   add(renderer::kFirstWallFacet, "wall", world.walls.size());
   add(renderer::first_mesh_facet(world), "mesh", world.meshes.size());
   return csv;

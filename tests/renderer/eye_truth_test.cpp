@@ -26,11 +26,13 @@ namespace {
 
 using vision::Eye;
 
-/// A room with a mesh, seen by a rig whose right eye is out of place, before and after a move.
+/// A room with a mesh, and some without a floor, seen by a rig whose right eye is out of place, before and
+/// after a move.
 struct Room {
   explicit Room(std::uint64_t seed) : world(test::random_room(seed)), pose(test::random_pose(seed)) {
     if (seed % 2 == 0) pose = {0.0, 0.0, 0.2};  // the mesh is in view
     triangles = test::add_wedge(world);
+    world.has_floor = seed % 4 != 1;
     rig.right_turn_rad = {0.004, -0.007, 0.011};
     moved = {pose.x_m + 0.05, pose.y_m - 0.03, pose.heading_rad + 0.06};
   }

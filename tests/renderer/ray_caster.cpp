@@ -94,7 +94,7 @@ Sight RayCaster::look(double u, double v) const {
   }
   for (const worlds::Wall& wall : world_.walls) meet(meet_wall(wall, origin_, ray), 0);
   for (const Triangle& triangle : triangles_) meet(meet_triangle(triangle, origin_, ray), 0);
-  meet(ray.z() < 0.0 ? -origin_.z() / ray.z() : kNever, 0);
+  meet(world_.has_floor && ray.z() < 0.0 ? -origin_.z() / ray.z() : kNever, 0);
   if (sight.surface == 0) return sight;
   sight.point_m = origin_ + sight.depth_m * ray;
   const Eigen::Vector3d normal = normal_of(sight.surface, sight.point_m);

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "renderer/renderer.h"
 #include "tests/renderer/folder.h"
@@ -105,6 +106,29 @@ TEST_P(Truth, EveryPixelOfARoomIsWhatARayMeetsFirst) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Truth, testing::Range(std::uint64_t{0}, std::uint64_t{8}));
+
+// Law: without a floor a pixel sees what a ray meets of the rest, and nothing in the floor's place: no
+// identity, infinitely far, the sky's colour. Mutations: the floor drawn all the same; it is black.
+TEST_P(Truth, WithoutAFloorNothingIsSeenInItsPlace) {
+  worlds::World world = test::random_room(GetParam());
+  world.has_floor = false;
+  world.walls.pop_back();
+  world.walls.resize(2);
+  world.sky_rgb = {0.2, 0.4, 0.6};
+  const slam::Pose pose = test::random_pose(GetParam());
+  const StereoFrame frame = Renderer(world, test::small_rig()).render(pose);
+  const Tally tally = compare(frame, test::RayCaster(world, test::small_rig()), pose);
+  EXPECT_EQ(tally.wrong_ids_inside, 0);
+  EXPECT_EQ(tally.wrong_depths, 0);
+  const cv::Mat nothing = frame.left.depth_m == std::numeric_limits<float>::infinity();
+  EXPECT_GT(cv::countNonZero(nothing.rowRange(250, 300)), 5000) << "where the floor was";
+  cv::Mat inner;
+  cv::erode(nothing, inner, cv::Mat::ones(3, 3, CV_8U));
+  cv::Mat other;
+  cv::inRange(frame.left.colour, cv::Scalar(153, 102, 51), cv::Scalar(153, 102, 51), other);
+  EXPECT_LE(cv::countNonZero(~other & inner), 1) << "of 120,000: a sliver of a ball that no centre sees";
+  EXPECT_EQ(cv::countNonZero(frame.left.ball_id & nothing), 0);
+}
 
 TEST(Truth, BallsFarFromTheWorldsOriginKeepTheirDepth) {
   worlds::World world = test::random_room(3);

@@ -112,6 +112,12 @@ constexpr Fault kValueFaults[] = {
     {"noise_sd_levels: 1", "white_balance_rgb: [1, 1]", "9: camera.white_balance_rgb: expected"},
     {"camera: {noise_sd_levels: 1}", "shutter: {samples: 0}",
      "9: shutter.samples: expected a whole number from 1"},
+    {"floor: bricks", "floor: none\n  floor_tint_rgb: [1, 1, 1]",
+     "21: world.floor_tint_rgb: expected none where `floor: none`"},
+    {"floor: bricks", "floor_texture: {file: thing.obj}\n  floor: none",
+     "20: world.floor_texture: expected no floor beside it"},
+    {"world:\n  floor: bricks", "randomise: {floor: {}}\nworld:\n  floor: none",
+     "21: world.floor: expected a floor, of which randomise.floor draws the material"},
     {"focal_px: 500", "focal_px: 500, right_turn_deg: [0, 90, 0]", "8: rig.right_turn_deg"},
     {"focal_px: 500", "focal_px: 500, distortion: [-3, 0, 0, 0, 0]", "8: rig.distortion"},
     {"{noise_sd_levels: 1}", "2", "9: camera: expected a group of keys (got 2)"},
@@ -140,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Values, BadScenario, testing::ValuesIn(kValueFaults));
 
 constexpr Fault kWorldFaults[] = {
     {"floor: bricks", "floor: lava",
-     "20: world.floor: expected one of plain, tiles, plaster, bricks, wood, paint (got lava)"},
+     "20: world.floor: expected one of plain, tiles, plaster, bricks, wood, paint, none (got lava)"},
     {"[0, 0, 1]", "[0, 0, 0]", "21: world.light.towards_light: expected a direction"},
     {"[0, 0.5, 1]", "[0, 0.5, 2]", "22: world.sky_rgb[2]: expected a number from 0 to 1 (got 2)"},
     {"[0, 0.5, 1]", "[0, 0.5]", "22: world.sky_rgb: expected a list of 3 (got a list of 2)"},

@@ -1,6 +1,7 @@
 /// Data sets of several seeds, of some frames, and as another detector sees them.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <signal.h>
 
 #include "tests/harness/commands/processes.h"
@@ -109,6 +111,26 @@ TEST(RenderCommand, WritesWhatAnotherDetectorSees) {
             bytes_of(scratch.path() / "observations.csv").size());
   EXPECT_EQ(marker_of(scratch.path())["detector"], blind);
   EXPECT_EQ(render_to(scratch.path() / "none", {"--frames", "0", "--detector", "exit 3"}).exit_code, 4);
+}
+
+// Nothing is a surface of no number, infinitely far. Mutation: a floor in the list of surfaces.
+TEST(RenderCommand, HasNoFloorInTheTruthWhereThereIsNone) {
+  const ScratchFolder scratch;
+  const Outcome outcome = render_to(
+      scratch.path(), {"--frames", "0", "--set", "world.floor=none", "--truth", "surface,range,disparity"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(bytes_of(scratch.path() / "surfaces.csv"), testing::Not(HasSubstr("floor")));
+  const cv::Mat surface =
+      cv::imread((scratch.path() / "left_surface/000000.png").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(cv::countNonZero(surface == 255), 0);
+  const cv::Mat nothing = surface == 0;
+  EXPECT_GT(cv::countNonZero(nothing.rowRange(700, 768)), 10000);
+  for (const char* truth : {"range", "depth", "disparity"}) {
+    const cv::Mat values = cv::imread((scratch.path() / fmt::format("left_{}/000000.pfm", truth)).string(),
+                                      cv::IMREAD_UNCHANGED);
+    cv::Mat mixed = (values == std::numeric_limits<float>::infinity()) != nothing;
+    EXPECT_EQ(cv::countNonZero(mixed), 0) << truth;
+  }
 }
 
 struct OtherOption {
