@@ -72,6 +72,7 @@ void read_eyes(const YamlMap& map, Scenario& scenario) {
     scenario.detector.command = detector->text();
   }
   scenario.detector.timeout_s = map.number("detector_timeout_s", scenario.detector.timeout_s);
+  scenario.detector.start_s = map.number("detector_start_s", scenario.detector.start_s);
 }
 
 void read_oracles(const YamlMap& map, Scenario& scenario) {
@@ -173,6 +174,9 @@ const KeyGroup& scenario_keys() {
               .otherwise_says("our own detector"),
           number("detector_timeout_s", {1e-3, 1e6}, "How long it may think about a frame, in seconds.")
               .otherwise("30"),
+          number("detector_start_s", {0.0, 1e6},
+                 "How much longer it may take for its first answer, in seconds, since it has to start.")
+              .otherwise("90"),
           group("oracle", oracle_keys(), "The sensor without pixels.").needed_for({"oracle"}),
           group("believed_oracle", believed_oracle_keys(),
                 "What filters are told of that sensor's sector and rates."),

@@ -138,7 +138,8 @@ struct Gate {
 /// Somebody's program that finds the balls in the pictures.
 struct DetectorProgram {
   std::string command;      ///< of the shell; empty: the vision stage looks itself
-  double timeout_s = 30.0;  ///< for the answer to a frame; the first may take four times as long
+  double timeout_s = 30.0;  ///< for the answer to a frame
+  double start_s = 90.0;    ///< so much longer the first answer may take: libraries and models load
 };
 
 /// Everything that a run is made from.

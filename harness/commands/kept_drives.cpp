@@ -31,6 +31,7 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
   if (scenario.detector.command.empty()) return overrides;
   overrides.push_back("detector=" + nlohmann::json(scenario.detector.command).dump());
   overrides.push_back(fmt::format("detector_timeout_s={}", scenario.detector.timeout_s));
+  overrides.push_back(fmt::format("detector_start_s={}", scenario.detector.start_s));
   return overrides;
 }
 

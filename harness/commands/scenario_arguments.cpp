@@ -25,11 +25,15 @@ void add_eyes_options(CLI::App& command, ScenarioArguments& arguments) {
                   "answers in lines of JSON (README)")
       ->type_name("COMMAND");
   command
-      .add_option(
-          "--detector-timeout-s", arguments.detector_timeout_s,
-          "how long it may think about a frame, and four times that about the first (default: 30, or as the "
-          "scenario says)")
+      .add_option("--detector-timeout-s", arguments.detector_timeout_s,
+                  "how long it may think about a frame (default: 30, or as the scenario says)")
       ->check(CLI::Range(1e-3, 1e6));
+  command
+      .add_option(
+          "--detector-start-s", arguments.detector_start_s,
+          "how much longer it may take for its first answer, since it has to start (default: 90, or as "
+          "the scenario says)")
+      ->check(CLI::Range(0.0, 1e6));
 }
 
 worlds::Scenario read_scenario(const ScenarioArguments& arguments,
@@ -49,6 +53,7 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   if (!run.seeds.empty()) scenario.seeds = run.seeds;
   scenario.gates.insert(scenario.gates.end(), run.gates.begin(), run.gates.end());
   if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;
+  if (arguments.detector_start_s) scenario.detector.start_s = *arguments.detector_start_s;
   if (arguments.detector.empty()) return scenario;
   if (scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format("--detector: the sensor of {} is the oracle, which has no pictures",

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,13 +20,14 @@ struct ScenarioArguments {
   std::vector<std::string> overrides;  ///< "key.path=value"
   RunArguments run;
   renderer::Backend backend = renderer::Backend::kOsmesa;
-  std::string detector;             ///< command of a program; empty: as the scenario says
-  double detector_timeout_s = 0.0;  ///< 0: as the scenario says
+  std::string detector;                    ///< command of a program; empty: as the scenario says
+  double detector_timeout_s = 0.0;         ///< 0: as the scenario says
+  std::optional<double> detector_start_s;  ///< none: as the scenario says
   /// What was read of mesh files, by whoever asked.
   std::shared_ptr<renderer::MeshShelf> meshes = std::make_shared<renderer::MeshShelf>();
 };
 
-/// Adds SCENARIO, --set, --backend, --detector and its timeout.
+/// Adds SCENARIO, --set, --backend, --detector and its times.
 void add_eyes_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Adds those and the options of a run.

@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostBytes = 1 << 20;  // of a line
-constexpr double kStartPatience = 4.0;       // times as long for the first answer: libraries and models load
 constexpr std::chrono::seconds kDying(2);    // from the end of a program's output to its own
 constexpr std::size_t kMostErrorLines = 10;  // of its errors, what is shown: the end of a traceback
 
@@ -87,7 +86,13 @@ DetectorProcess::DetectorProcess(const worlds::DetectorProgram& program, const D
 }
 
 double DetectorProcess::patience_s() const {
-  return (has_answered_ ? 1.0 : kStartPatience) * program_.timeout_s;
+  return program_.timeout_s + (has_answered_ ? 0.0 : program_.start_s);
+}
+
+std::string DetectorProcess::patience() const {
+  if (has_answered_) return fmt::format("{:g} s", patience_s());
+  return fmt::format("{:g} s, {:g} to start and {:g} for a frame", patience_s(), program_.start_s,
+                     program_.timeout_s);
 }
 
 SupervisedProcess::Time DetectorProcess::deadline() const {
@@ -101,7 +106,7 @@ std::vector<vision::BallObservation> DetectorProcess::operator()(const DetectorI
   const SupervisedProcess::Time until = deadline();
   const FrameRequest request = {input.frame, input.stamp_ns, pictures.left(), pictures.right()};
   if (!process_->say(request_line(request) + "\n", until))
-    fault(when, fmt::format("expected it to read its input within {:g} s", patience_s()));
+    fault(when, fmt::format("expected it to read its input within {}", patience()));
   std::string line;
   const Heard heard = process_->hear(line, kMostBytes, until);
   if (heard != Heard::kLine) fail(when, heard, line);
@@ -123,13 +128,13 @@ void DetectorProcess::finish() {
   if (heard == Heard::kLine || heard == Heard::kTooMuch || !line.empty())
     fault(when, fmt::format("expected one line a frame and no more (got '{}')", excerpt(line)));
   const auto status = heard == Heard::kEnd ? process_->wait_status(until) : std::nullopt;
-  if (!status) fault(when, fmt::format("expected it to end within {:g} s of its input", patience_s()));
+  if (!status) fault(when, fmt::format("expected it to end within {} of its input", patience()));
   if (*status != 0) fault(when, fmt::format("expected exit status 0 (it ended with {})", describe(*status)));
 }
 
 void DetectorProcess::fail(const std::string& when, Heard heard, const std::string& line) {
   if (heard == Heard::kSilence)
-    fault(when, fmt::format("expected a line of detections within {:g} s (none came)", patience_s()));
+    fault(when, fmt::format("expected a line of detections within {} (none came)", patience()));
   if (heard == Heard::kTooMuch)
     fault(when, fmt::format("expected a line of at most {} bytes (got more)", kMostBytes));
   const auto status = process_->wait_status(Clock::now() + kDying);

@@ -42,6 +42,8 @@ class DetectorProcess {
  private:
   /// How long it may take now, its start included until its first answer. [s]
   double patience_s() const;
+  /// The same in words.
+  std::string patience() const;
   SupervisedProcess::Time deadline() const;
   /// Explains why there is no answer.
   [[noreturn]] void fail(const std::string& when, Heard heard, const std::string& line);

@@ -97,9 +97,10 @@ long left_in(const std::filesystem::path& folder) {
 TEST_P(MisbehavingDetector, EndsTheRunWithFourAndOneLineAndNothingLeft) {
   const ScratchFolder scratch;
   const auto began = std::chrono::steady_clock::now();
-  const Outcome outcome =
-      run_stereobench(small_drive(scratch, {"--detector", GetParam().command, "--detector-timeout-s", "1"}),
-                      {"TMPDIR=" + scratch.path().string()});
+  const Outcome outcome = run_stereobench(
+      small_drive(scratch,
+                  {"--detector", GetParam().command, "--detector-timeout-s", "1", "--detector-start-s", "3"}),
+      {"TMPDIR=" + scratch.path().string()});
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(15));
   EXPECT_EQ(outcome.exit_code, 4) << outcome.out;
   EXPECT_THAT(outcome.err, StartsWith("stereobench: detector '"));
@@ -122,13 +123,24 @@ std::string in_the_end(const std::string& last) {
          last;
 }
 
-// Libraries and models take their time to load. Mutation: the first frame is as any other.
-TEST(DetectorProgram, MayBeSlowToStart) {
+// Libraries and models take their time to load, which is told apart from the time for a frame. Mutations: the
+// first frame as any other; a start of four timeouts, whatever is asked for; the scenario's line not read.
+TEST(DetectorProgram, HasATimeOfItsOwnToStart) {
   const ScratchFolder scratch;
-  const std::string slow = "sleep 4; " + in_the_end("exit 0");
-  const Outcome outcome =
-      run_stereobench(small_drive(scratch, {"--detector", slow, "--detector-timeout-s", "3"}));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto run = [&](const std::string& seconds, const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"--detector", "sleep " + seconds + "; " + in_the_end("exit 0"),
+                                      "--detector-timeout-s", "1"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_stereobench(small_drive(scratch, words));
+  };
+  EXPECT_EQ(run("5", {}).exit_code, 0) << "90 s by default";
+  EXPECT_EQ(run("5", {"--detector-start-s", "20"}).exit_code, 0);
+  EXPECT_EQ(run("5", {"--set", "detector_start_s=1", "--detector-start-s", "20"}).exit_code, 0);
+  const Outcome late = run("3", {"--set", "detector_start_s=0.5"});
+  EXPECT_EQ(late.exit_code, 4);
+  EXPECT_THAT(late.err, HasSubstr("within 1.5 s, 0.5 to start and 1 for a frame (none came)"));
+  EXPECT_EQ(run("3", {"--detector-start-s", "0"}).exit_code, 4);
+  EXPECT_EQ(run("3", {"--detector-start-s", "-1"}).exit_code, 2);
 }
 
 // The line of a traceback that tells is seldom the last one. Mutation: the last line alone.
@@ -145,7 +157,9 @@ TEST(DetectorProgram, ThatFailsShowsTheLastTenLinesOfItsErrors) {
 INSTANTIATE_TEST_SUITE_P(
     All, MisbehavingDetector,
     testing::Values(
-        Misbehaviour{"Hangs", "exec sleep 60", "seed 0, frame 0: expected a line of detections within 4 s"},
+        Misbehaviour{"Hangs", "exec sleep 60",
+                     "seed 0, frame 0: expected a line of detections within 4 s, 3 to start and 1 for a "
+                     "frame (none came)"},
         Misbehaviour{"HangsLater", then("exec sleep 60"),
                      "frame 1: expected a line of detections within 1 s"},
         Misbehaviour{"HangsAndIgnoresSignals", "trap '' TERM INT HUP PIPE; while :; do sleep 1; done",
@@ -178,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misbehaviour{"MegabytesInALine", then("head -c 3000000 /dev/zero; exec sleep 60"),
                      "frame 1: expected a line of at most 1048576 bytes"},
         Misbehaviour{"EndlessOutput", "yes", "expected a line of JSON (got 'y')"},
-        Misbehaviour{"EndlessErrors", "yes oh dear >&2", "within 4 s (none came); its last error: "},
+        Misbehaviour{"EndlessErrors", "yes oh dear >&2", "1 for a frame (none came); its last error: "},
         Misbehaviour{"SpeaksInTheEnd", in_the_end("echo done"),
                      "after the last frame: expected one line a frame and no more (got 'done'"},
         Misbehaviour{
