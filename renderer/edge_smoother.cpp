@@ -10,7 +10,8 @@
 namespace stereobench::renderer {
 namespace {
 
-constexpr double kSameDepth = 1e-4;  ///< relative; the rasteriser's depths are good to 4e-6
+constexpr double kSameDepth = 1e-4;  ///< relative; the rasteriser's depths are good to 4e-6 in a room
+constexpr double kRounding = 1e-6;   ///< of inverse depths, relative to the largest one of the face
 constexpr double kSnap_px = 0.01;    ///< the rasteriser snaps corners: so near a centre may be on either side
 constexpr std::size_t kUsualMixes = 16384;
 
@@ -22,7 +23,9 @@ double clamp_integral(double t) {
 /// A face as the picture has it: the inverse of planar depth is linear in the pixel's place.
 struct Face {
   double at_zero = 0.0, per_column = 0.0, per_row = 0.0;  // 1/m, 1/(m px)
-  bool is_low = false;  // lies towards smaller coordinates of the edge's minor axis
+  double rounding = 0.0;  // of the inverse depths that are read, 1/m: a street's far end is as coarse as its
+                          // near one
+  bool is_low = false;    // lies towards smaller coordinates of the edge's minor axis
 
   double inverse_depth(const cv::Point& pixel) const {
     return at_zero + per_column * pixel.x + per_row * pixel.y;
@@ -36,6 +39,11 @@ Face face_of(const vision::Intrinsics& camera, const Eigen::Vector3d& normal, co
   face.per_column = scaled.x() / camera.focal_px;
   face.per_row = scaled.y() / camera.focal_px;
   face.at_zero = scaled.z() - face.per_column * camera.cx_px - face.per_row * camera.cy_px;
+  double largest = 0.0;
+  for (const int column : {0, camera.width_px})
+    for (const int row : {0, camera.height_px})
+      largest = std::max(largest, face.inverse_depth({column, row}));
+  face.rounding = kRounding * std::min(largest, 1.0 / kNear_m);
   return face;
 }
 
@@ -153,7 +161,9 @@ class Pairing {
     for (const Face& face : line.faces) {
       const cv::Point& own = face.is_low ? pair.lower : pair.higher;
       const double seen_m = double{frame_.depth_m.at<float>(own)};
-      if (!(std::abs(seen_m * face.inverse_depth(own) - 1.0) <= kSameDepth)) continue;
+      const double expected = face.inverse_depth(own);
+      const double off = std::abs(1.0 / seen_m - expected);
+      if (!(std::isfinite(seen_m) && off <= kSameDepth * expected + face.rounding)) continue;
       const double at_lower = face.inverse_depth(pair.lower);
       return at_lower + way * (face.inverse_depth(pair.higher) - at_lower);
     }

@@ -14,32 +14,28 @@ constexpr double kFlat_cos = 1.0 - 1e-6;  ///< and of that up to which they are 
 
 /// One side of a face, by the places of its ends in the order of their coordinates.
 struct Side {
-  std::array<float, 6> ends;
+  std::array<float, 6> ends;  ///< in single precision, by which ends are the same
+  Eigen::Vector3d first_m, last_m;
   Eigen::Vector3d inner_m;
-
-  Eigen::Vector3d end(int which) const {
-    return Eigen::Vector3f(&ends[3 * static_cast<std::size_t>(which)]).cast<double>();
-  }
 };
 
 Side side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& inner_m) {
   const Eigen::Vector3f p = a.cast<float>(), q = b.cast<float>();
-  const bool in_order = std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-  const Eigen::Vector3f& first = in_order ? p : q;
-  const Eigen::Vector3f& last = in_order ? q : p;
-  return {{first.x(), first.y(), first.z(), last.x(), last.y(), last.z()}, inner_m};
+  if (!std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end()))
+    return {{q.x(), q.y(), q.z(), p.x(), p.y(), p.z()}, b, a, inner_m};
+  return {{p.x(), p.y(), p.z(), q.x(), q.y(), q.z()}, a, b, inner_m};
 }
 
 /// Cosine of the angle by which a surface bends where two faces meet; 1 when they go on straight.
 double bend_cos(const Side& a, const Side& b) {
-  const Eigen::Vector3d along = a.end(1) - a.end(0);
-  const Eigen::Vector3d normal_a = along.cross(a.inner_m - a.end(0));
-  const Eigen::Vector3d normal_b = (b.inner_m - b.end(0)).cross(along);
+  const Eigen::Vector3d along = a.last_m - a.first_m;
+  const Eigen::Vector3d normal_a = along.cross(a.inner_m - a.first_m);
+  const Eigen::Vector3d normal_b = (b.inner_m - b.first_m).cross(along);
   return normal_a.dot(normal_b) / std::sqrt(normal_a.squaredNorm() * normal_b.squaredNorm());
 }
 
 SurfaceEdge edge(const Side& only) {
-  return {only.end(0), only.end(1), {only.inner_m, only.inner_m}};
+  return {only.first_m, only.last_m, {only.inner_m, only.inner_m}};
 }
 
 /// Joins sides that lie on each other two by two.

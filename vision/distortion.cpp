@@ -66,7 +66,6 @@ std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Ve
 
 std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const Intrinsics& camera) {
   constexpr int kCells = 64;
-  constexpr double kWidest = 5.67;  // tan 80 deg
   Eigen::AlignedBox2d seen;
   for (int i = 0; i <= kCells; ++i) {
     const double x = camera.width_px * i / double{kCells} - 0.5;
@@ -75,7 +74,7 @@ std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const
          {Eigen::Vector2d(x, -0.5), Eigen::Vector2d(x, camera.height_px - 0.5), Eigen::Vector2d(-0.5, y),
           Eigen::Vector2d(camera.width_px - 0.5, y)}) {
       const auto direction = undistort(lens, pixel_ray(camera, pixel).head<2>());
-      if (!direction || !(direction->cwiseAbs().maxCoeff() <= kWidest)) return std::nullopt;
+      if (!direction || !(direction->cwiseAbs().maxCoeff() <= kWidestTangent)) return std::nullopt;
       seen.extend(*direction);
     }
   }

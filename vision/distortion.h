@@ -28,6 +28,9 @@ std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Ve
 /// The same from the picture's centre outwards, for places far from any direction that is known.
 std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Vector2d& place);
 
+/// How far to the side, or up and down, of its axis a camera may look: the tangent of 80 degrees.
+inline constexpr double kWidestTangent = 5.67;
+
 /// What a camera sees: bounds of the directions along its picture's border.
 /// @return empty where some pixel has no direction of its own, or lies more than 80 degrees off the axis
 std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const Intrinsics& camera);

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include "vision/distortion.h"
 #include "worlds/oracle.h"
@@ -17,6 +21,20 @@ constexpr Interval kHeight_m = {1e-3, 100.0};
 constexpr Interval kPitch_deg = {-80.0, 80.0};
 constexpr Interval kTurn_deg = {-45.0, 45.0};
 constexpr Interval kLens = {-100.0, 100.0};
+
+/// Refuses a camera without a lens that looks further aside than any may, by what is written of its shape.
+void check_field(const YamlMap& map, const vision::StereoRig& rig) {
+  const vision::Intrinsics& camera = rig.camera;
+  if (!(rig.distortion == vision::Distortion{}) || vision::directions_seen({}, camera)) return;
+  const double furthest_px = std::max({camera.cx_px + 0.5, camera.width_px - 0.5 - camera.cx_px,
+                                       camera.cy_px + 0.5, camera.height_px - 0.5 - camera.cy_px});
+  const auto focal = map.find("focal_px");
+  const auto blamed = focal ? focal : map.find("cx_px") ? map.find("cx_px") : map.at("cy_px");
+  blamed->fail(
+      fmt::format("expected a focal length of at least {:.2f} px, or a pixel looks more than 80 degrees "
+                  "aside",
+                  std::ceil(100.0 * furthest_px / vision::kWidestTangent) / 100.0));
+}
 
 void read_distortion(const YamlMap& map, vision::StereoRig& rig) {
   const auto value = map.find("distortion");
@@ -42,6 +60,7 @@ void read_rig_parts(const YamlMap& map, vision::StereoRig& rig) {
   rig.pitch_down_rad = map.number("pitch_down_deg", rig.pitch_down_rad / kDegree) * kDegree;
   if (map.find("right_turn_deg")) rig.right_turn_rad = read_vector<3>(map, "right_turn_deg") * kDegree;
   read_distortion(map, rig);
+  check_field(map, rig);
 }
 
 }  // namespace

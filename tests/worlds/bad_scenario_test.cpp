@@ -119,6 +119,13 @@ constexpr Fault kValueFaults[] = {
     {"world:\n  floor: bricks", "randomise: {floor: {}}\nworld:\n  floor: none",
      "21: world.floor: expected a floor, of which randomise.floor draws the material"},
     {"focal_px: 500", "focal_px: 500, right_turn_deg: [0, 90, 0]", "8: rig.right_turn_deg"},
+    {"focal_px: 500", "focal_px: 56",
+     "8: rig.focal_px: expected a focal length of at least 56.44 px, or a pixel looks more than 80 degrees "
+     "aside (got 56)"},
+    {"focal_px: 500", "focal_px: 60, cx_px: 10",
+     "8: rig.focal_px: expected a focal length of at least 111.03"},
+    {"camera: {noise_sd_levels: 1}", "believed_rig: {focal_px: 30}",
+     "9: believed_rig.focal_px: expected a focal length of at least 56.44 px"},
     {"focal_px: 500", "focal_px: 500, distortion: [-3, 0, 0, 0, 0]", "8: rig.distortion"},
     {"{noise_sd_levels: 1}", "2", "9: camera: expected a group of keys (got 2)"},
     {"bearing_sd_deg: 1", "bearing_sd_deg: inf",

@@ -77,5 +77,23 @@ INSTANTIATE_TEST_SUITE_P(
                     BadMesh{"slow.obj", triangles(100000), "seconds: 0.01", "takes longer than 0.01 s"}),
     [](const auto& test) { return test.param.name.substr(0, test.param.name.find('.')); });
 
+// The scenario's other text is another data set, but there is no frame of the first one. Mutation: a folder
+// that is taken before anything can be drawn.
+TEST(RenderCommand, TakesTheMendedScenarioWhereAMeshCouldNotBeRead) {
+  const ScratchFolder scratch;
+  const std::filesystem::path out = scratch.path() / "out";
+  const auto render = [&](const std::string& mesh, const std::string& seeds) {
+    const std::string file = scratch.write(
+        "meshed.yaml", scenario_with(scratch.write(mesh + ".obj", triangles(mesh == "bad" ? 0 : 2)), ""));
+    return run_stereobench({"render", file, "--seeds", seeds, "--jobs", "2", "--out", out.string()});
+  };
+  EXPECT_EQ(render("bad", "0").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(out)) << "empty folders";
+  EXPECT_EQ(render("bad", "0..1").exit_code, 2);
+  const Outcome mended = render("good", "0");
+  EXPECT_EQ(mended.exit_code, 0) << mended.err;
+  EXPECT_EQ(render("bad", "0").exit_code, 2) << "now there are frames";
+}
+
 }  // namespace
 }  // namespace stereobench::harness
