@@ -100,6 +100,7 @@ EyeFrame part_of(const EyeFrame& frame, int first_row, const cv::Range& rows) {
 }  // namespace
 
 struct Renderer::Parts {
+  vision::StereoRig asked_rig;
   std::optional<Lens> lens;
   vision::StereoRig rig;  ///< without distortion
   Eigen::Vector3f sky_rgb;
@@ -115,7 +116,8 @@ struct Renderer::Parts {
 
   /// @param placed read before there is a context, as reading meshes forks
   Parts(const worlds::World& world, const Surfaces& placed, const vision::StereoRig& asked, Backend backend)
-      : lens(lens_of(checked(asked))),
+      : asked_rig(checked(asked)),
+        lens(lens_of(asked)),
         rig(lens ? lens->pinhole_rig() : asked),
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
@@ -204,6 +206,10 @@ Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
 int Renderer::height_px() const {
   return parts_->height_px();
+}
+
+const vision::StereoRig& Renderer::rig() const {
+  return parts_->asked_rig;
 }
 
 StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& right_pose,

@@ -42,6 +42,9 @@ class Renderer {
   /// Of the pictures that it renders.
   int height_px() const;
 
+  /// That it renders for.
+  const vision::StereoRig& rig() const;
+
   /// The same for cameras whose rows look one after another.
   /// @param rows of the picture, those that look now
   /// @return pictures of these rows alone

@@ -15,7 +15,8 @@ enum class Encoding {
 /// When the cameras look. The defaults are an instant, the same for both and for all rows, and every time.
 struct Shutter {
   double open_s = 0.0;            ///< how long, centred on the frame's time: what moves is blurred
-  int samples = 8;                ///< instants that the blur is the average of
+  int samples = 8;                ///< instants that the blur is the average of, at least
+  int most_samples = 128;         ///< and at most, where points move by more than a pixel between them
   double right_delay_s = 0.0;     ///< of the right eye's shutter behind the left one's
   double readout_s = 0.0;         ///< from the first row's look to the last one's, around the frame's time
   double drop_probability = 0.0;  ///< that a frame is lost

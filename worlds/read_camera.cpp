@@ -65,7 +65,11 @@ const KeyGroup& shutter_keys() {
           number("open_s", {0.0, 10.0},
                  "How long the shutter is open around a frame's time, in seconds: what moves is blurred.")
               .otherwise("0"),
-          whole("samples", 1, 1000, "Renderings that the blur is the average of.").otherwise("8"),
+          whole("samples", 1, 1000, "Renderings that the blur is the average of, at least.").otherwise("8"),
+          whole("most_samples", 1, 10000,
+                "Renderings that it is the average of, at most: as many as keep points from moving by more "
+                "than a pixel from one to the next.")
+              .otherwise("128"),
           number("right_delay_s", {-10.0, 10.0}, "How much later the right eye looks, in seconds.")
               .otherwise("0"),
           number("readout_s", {-1.0, 1.0},
@@ -84,6 +88,7 @@ Shutter read_shutter(const YamlValue& value) {
   Shutter shutter;
   shutter.open_s = map.number("open_s", shutter.open_s);
   shutter.samples = map.whole("samples", shutter.samples);
+  shutter.most_samples = map.whole("most_samples", shutter.most_samples);
   shutter.right_delay_s = map.number("right_delay_s", shutter.right_delay_s);
   shutter.readout_s = map.number("readout_s", shutter.readout_s);
   shutter.drop_probability = map.number("drop_probability", shutter.drop_probability);

@@ -116,7 +116,12 @@ int render(const RenderArguments& arguments) {
   }
   say_that_work_is_kept();
   const std::vector<RenderedSeed> rendered = render_seeds(tasks, run.jobs, "render " + scenario.name);
-  for (std::size_t i = 0; i < tasks.size(); ++i) say_what_was_done(tasks[i], rendered[i]);
+  CoarseBlur blur;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    say_what_was_done(tasks[i], rendered[i]);
+    blur += rendered[i].blur;
+  }
+  warn_of_blur(scenario.shutter, blur);
   return kPassed;
 }
 

@@ -36,6 +36,7 @@ int run(const ScenarioArguments& arguments) {
   const auto tasks = drive_tasks(arguments, {}, scenario, pixels, kSnapshots);
   kept.complete(tasks, arguments.run.jobs, "run " + scenario.name);
   const std::vector<SeedDrive> drives = kept.of(tasks);
+  warn_of_blur(scenario.shutter, blur_of(drives));
   RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
   result.made_from = provenance_of(arguments, {}, scenario, pixels);
   write_run(out, result, drives, scenario.world.walls);

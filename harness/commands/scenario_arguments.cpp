@@ -1,6 +1,7 @@
 #include "harness/commands/scenario_arguments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -77,6 +78,17 @@ void warn_of_crossings(std::span<const worlds::Crossing> crossings) {
       "stereobench: warning: the drive goes through a wall or a mesh at step {}, at ({:.2f}, {:.2f}) m{}\n",
       first.step, first.at_m.x(), first.at_m.y(),
       crossings.size() == 1 ? "" : fmt::format(", and {} times more", crossings.size() - 1));
+}
+
+void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur) {
+  if (blur.pictures == 0) return;
+  const int most = std::max(shutter.samples, shutter.most_samples);
+  fmt::print(
+      stderr,
+      "stereobench: warning: the blur of {} pair{} is drawn in steps of more than a pixel, up to {:.1f} "
+      "px: shutter.most_samples is {}, and {:.0f} would do\n",
+      blur.pictures, blur.pictures == 1 ? "" : "s", blur.most_step_px, most,
+      std::ceil(blur.most_step_px * most));
 }
 
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "harness/commands/arguments.h"
+#include "harness/run/recording.h"
 #include "renderer/mesh_shelf.h"
 #include "worlds/types.h"
 #include "worlds/wall_crossings.h"
@@ -43,6 +44,10 @@ std::string work_of(const worlds::Scenario& scenario);
 
 /// Says on standard error where the drive goes through a wall, or through a mesh; nothing where it does not.
 void warn_of_crossings(std::span<const worlds::Crossing> crossings);
+
+/// Says on standard error how coarse motion blur is, where points move by more than a pixel between two of
+/// the instants that it is made of.
+void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur);
 
 /// What run.json says of who rendered: the back end's name, or "none" for a sensor without pixels.
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend);

@@ -93,6 +93,7 @@ Timing assemble_cells(const KeptDrives& kept, const std::vector<CellPlan>& plans
   Timing timing;
   for (const CellPlan& plan : plans) {
     const std::vector<SeedDrive> drives = kept.of(plan.tasks);
+    warn_of_blur(plan.scenario.shutter, blur_of(drives));
     sweep.cells.push_back(
         assemble_cell(sweep.name, rendered_by(plan.scenario, backend), plan.values, drives));
     sweep.cells.back().result.made_from = plan.made_from;

@@ -15,7 +15,8 @@
 
 namespace stereobench::harness {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pictures, most_step_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt, blur)
 
 namespace {
 
@@ -40,6 +41,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   if (truth) truth->finish();
   const std::string draws = draws_jsonl(scenario, std::array{task.seed});
   if (!draws.empty()) write_file_atomically(task.folder / "draws.jsonl", draws);
+  rendered.blur = recording.blur;
   dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
   return rendered;
 }

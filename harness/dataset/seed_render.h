@@ -10,6 +10,7 @@
 
 #include "harness/dataset/truth_request.h"
 #include "harness/run/frame_choice.h"
+#include "harness/run/recording.h"
 #include "renderer/types.h"
 #include "worlds/types.h"
 
@@ -31,6 +32,7 @@ struct RenderedSeed {
   long pairs = 0;                   ///< stereo pairs of the data set; 0 where it was complete
   bool was_complete = false;        ///< there was nothing to do
   std::vector<std::string> spoilt;  ///< files that were not as they had been written, and are again
+  CoarseBlur blur;
 };
 
 /// Renders data sets in `jobs` processes at a time, with a progress line for people. One that is complete is

@@ -51,8 +51,9 @@ class StereoSense {
     slam::RandomStream chance(seed_, slam::Stream::kFrameLoss, index);
     if (chance.uniform() < shutter.drop_probability) return {};
     const double late_s = chance.uniform() < shutter.late_probability ? shutter.late_s : 0.0;
-    const renderer::StereoFrame frame =
+    const auto [frame, blur_step_px] =
         watch.time("render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, late_s); });
+    blur_.add(blur_step_px);
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
     const std::int64_t stamp_ns = scenario_.path[index].stamp_ns;
@@ -66,6 +67,7 @@ class StereoSense {
   }
 
   const VisionScore& score() const { return score_; }
+  const CoarseBlur& blur() const { return blur_; }
   const Timing& timing() const { return timing_; }
 
  private:
@@ -75,6 +77,7 @@ class StereoSense {
   renderer::Renderer renderer_;
   Detector detector_;
   VisionScore score_;
+  CoarseBlur blur_;
   Timing timing_;
 };
 
@@ -110,6 +113,18 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
 
 }  // namespace
 
+void CoarseBlur::add(double step_px) {
+  constexpr double kSmooth_px = 1.0;
+  if (step_px > kSmooth_px) ++pictures;
+  most_step_px = std::max(most_step_px, step_px);
+}
+
+CoarseBlur& CoarseBlur::operator+=(const CoarseBlur& other) {
+  pictures += other.pictures;
+  most_step_px = std::max(most_step_px, other.most_step_px);
+  return *this;
+}
+
 Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector) {
   Recording recording;
@@ -135,6 +150,7 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
   if (program) program->finish();
   recording.detector = program ? scenario.detector.command : detector ? kCallable : kOurs;
   recording.vision = stereo.score();
+  recording.blur = stereo.blur();
   recording.timing = stereo.timing();
   return recording;
 }

@@ -37,11 +37,21 @@ struct Listeners {
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
 };
 
+/// Pictures whose motion blur is coarser than a pixel: shutter.most_samples is too few for them.
+struct CoarseBlur {
+  long pictures = 0;        ///< pairs
+  double most_step_px = 0;  ///< of all pairs that are blurred, see ExposedFrame
+
+  void add(double step_px);
+  CoarseBlur& operator+=(const CoarseBlur& other);
+};
+
 /// What one seed's drive gave.
 struct Recording {
   MeasurementLog log;
   std::string detector = "none";      ///< who looked: "stereobench", a program's command, "callable"
   std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  CoarseBlur blur;
   Timing timing;
 };
 

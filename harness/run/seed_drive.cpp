@@ -101,6 +101,12 @@ void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int job
   run_in_processes(missing.size(), jobs, drive_task, keep, [&](double done) { progress.show(done); });
 }
 
+CoarseBlur blur_of(std::span<const SeedDrive> drives) {
+  CoarseBlur blur;
+  for (const SeedDrive& drive : drives) blur += drive.recording.blur;
+  return blur;
+}
+
 std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks) {
   std::vector<SeedDrive> drives;
   for (const DriveTask& task : tasks) drives.push_back(seed_drive_from_bytes(store.read(task.key)));

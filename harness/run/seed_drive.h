@@ -64,6 +64,9 @@ std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs
 /// @param tasks each with its key
 void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
 
+/// Of all pictures of some drives.
+CoarseBlur blur_of(std::span<const SeedDrive> drives);
+
 /// The drives of some tasks, all of which a store holds, in their order.
 std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks);
 

@@ -55,7 +55,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, ri
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bound, disparity_error_px,
                                    radius_error_px, depth_m, whole)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, timing)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pictures, most_step_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, blur, timing)
 
 namespace {
 

@@ -1,7 +1,9 @@
 #include "harness/run/shutter.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "harness/run/picture_motion.h"
 #include "worlds/path.h"
 
 namespace stereobench::harness {
@@ -42,6 +44,13 @@ renderer::StereoFrame rolled(const Step& step, double offset_s) {
   return frame;
 }
 
+/// How many instants a blur is the average of.
+/// @param way_px the longest way of a point
+int blur_samples(const worlds::Shutter& shutter, double way_px) {
+  const int most = std::max(shutter.samples, shutter.most_samples);
+  return std::max(shutter.samples, static_cast<int>(std::min<double>(most, std::ceil(way_px))));
+}
+
 }  // namespace
 
 std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px) {
@@ -55,22 +64,25 @@ std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px) {
   return bands;
 }
 
-renderer::StereoFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path,
-                                   std::size_t index, const worlds::Shutter& shutter, double late_s) {
+ExposedFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path, std::size_t index,
+                          const worlds::Shutter& shutter, double late_s) {
   const Step step = {renderer, path, index, shutter, renderer.height_px()};
   renderer::StereoFrame frame = rolled(step, late_s);
-  if (shutter.open_s == 0.0) return frame;
+  if (shutter.open_s == 0.0) return {frame};
+  const double way_px =
+      longest_way_px(frame, renderer.rig(), {path, index, late_s, shutter.open_s, shutter.right_delay_s});
+  const int samples = blur_samples(shutter, way_px);
   cv::Mat left = cv::Mat::zeros(frame.left.colour.size(), CV_32SC3);
   cv::Mat right = left.clone();
-  for (int i = 0; i < shutter.samples; ++i) {
-    const double share = (i + 0.5) / shutter.samples - 0.5;
+  for (int i = 0; i < samples; ++i) {
+    const double share = (i + 0.5) / samples - 0.5;
     const renderer::StereoFrame instant = rolled(step, late_s + share * shutter.open_s);
     cv::add(left, instant.left.colour, left, cv::noArray(), CV_32S);
     cv::add(right, instant.right.colour, right, cv::noArray(), CV_32S);
   }
-  left.convertTo(frame.left.colour, CV_8U, 1.0 / shutter.samples);
-  right.convertTo(frame.right.colour, CV_8U, 1.0 / shutter.samples);
-  return frame;
+  left.convertTo(frame.left.colour, CV_8U, 1.0 / samples);
+  right.convertTo(frame.right.colour, CV_8U, 1.0 / samples);
+  return {frame, way_px / samples};
 }
 
 }  // namespace stereobench::harness

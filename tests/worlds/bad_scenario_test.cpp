@@ -112,6 +112,8 @@ constexpr Fault kValueFaults[] = {
     {"noise_sd_levels: 1", "white_balance_rgb: [1, 1]", "9: camera.white_balance_rgb: expected"},
     {"camera: {noise_sd_levels: 1}", "shutter: {samples: 0}",
      "9: shutter.samples: expected a whole number from 1"},
+    {"camera: {noise_sd_levels: 1}", "shutter: {most_samples: 0}",
+     "9: shutter.most_samples: expected a whole number from 1"},
     {"floor: bricks", "floor: none\n  floor_tint_rgb: [1, 1, 1]",
      "21: world.floor_tint_rgb: expected none where `floor: none`"},
     {"floor: bricks", "floor_texture: {file: thing.obj}\n  floor: none",

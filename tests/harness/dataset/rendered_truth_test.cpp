@@ -33,7 +33,7 @@ struct Drive {
   }
   renderer::StereoFrame frame(std::size_t step) const {
     renderer::Renderer renderer(scenario.world, scenario.rig);
-    return open_shutter(renderer, scenario.path, step, scenario.shutter);
+    return open_shutter(renderer, scenario.path, step, scenario.shutter).frame;
   }
   RenderedTruth truth(const TestFolder& folder, const std::string& kinds,
                       TruthFormat format = TruthFormat::kExact) const {

@@ -56,7 +56,8 @@ TEST(RollingTruth, IsThatOfEachRowsInstant) {
   scenario.shutter.readout_s = 0.1;  // 17 degrees, 40 px
   renderer::Renderer renderer(scenario.world, scenario.rig);
   for (const double late_s : {0.0, -0.02}) {
-    const renderer::StereoFrame frame = open_shutter(renderer, scenario.path, 1, scenario.shutter, late_s);
+    const renderer::StereoFrame frame =
+        open_shutter(renderer, scenario.path, 1, scenario.shutter, late_s).frame;
     EXPECT_GT(cv::countNonZero(frame.left.ball_id != still.left.ball_id), 100);
     EXPECT_EQ(other_balls(written_surface(scenario, frame, late_s), frame.left.ball_id), 0) << late_s;
   }
@@ -66,7 +67,7 @@ TEST(RollingTruth, IsThatOfEachRowsInstant) {
 TEST(LateTruth, IsThatOfWhenTheEyesLooked) {
   const worlds::Scenario scenario = turning();
   renderer::Renderer renderer(scenario.world, scenario.rig);
-  const renderer::StereoFrame frame = open_shutter(renderer, scenario.path, 1, scenario.shutter, -0.03);
+  const renderer::StereoFrame frame = open_shutter(renderer, scenario.path, 1, scenario.shutter, -0.03).frame;
   EXPECT_EQ(other_balls(written_surface(scenario, frame, -0.03), frame.left.ball_id), 0);
 }
 

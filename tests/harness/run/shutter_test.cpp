@@ -11,6 +11,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/run/recording.h"
+#include "renderer/correspondence.h"
+#include "renderer/scene_geometry.h"
+#include "slam/motion.h"
 #include "worlds/path.h"
 
 namespace stereobench::harness {
@@ -33,7 +36,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 TEST(Shutter, WithoutTimeOrDelayIsARendering) {
   const worlds::Scenario scenario = bend();
   renderer::Renderer renderer(scenario.world, scenario.rig);
-  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, scenario.shutter);
+  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, scenario.shutter).frame;
   const renderer::StereoFrame rendered = renderer.render(scenario.path[2].pose);
   EXPECT_TRUE(same(seen.left.colour, rendered.left.colour));
   EXPECT_TRUE(same(seen.right.colour, rendered.right.colour));
@@ -43,7 +46,7 @@ TEST(Shutter, WithoutTimeOrDelayIsARendering) {
 TEST(Shutter, ADelayMovesTheRightEyeAlone) {
   const worlds::Scenario scenario = bend();
   renderer::Renderer renderer(scenario.world, scenario.rig);
-  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, {.right_delay_s = 0.05});
+  const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, {.right_delay_s = 0.05}).frame;
   const renderer::StereoFrame now = renderer.render(scenario.path[2].pose);
   const renderer::StereoFrame later = renderer.render(worlds::pose_near(scenario.path, 2, 0.05));
   EXPECT_TRUE(same(seen.left.colour, now.left.colour));
@@ -73,12 +76,119 @@ TEST(Shutter, BlursWhatMovesByHowFarItMoves) {
   };
   const cv::Moments sharp = moments(renderer.render(scenario.path[2].pose).left.colour);
   const worlds::Shutter shutter{.open_s = 0.2, .samples = 40};
-  const cv::Moments blurred = moments(open_shutter(renderer, scenario.path, 2, shutter).left.colour);
+  const cv::Moments blurred = moments(open_shutter(renderer, scenario.path, 2, shutter).frame.left.colour);
   const double moved_px = column_at(0.1) - column_at(-0.1);
   EXPECT_GT(std::abs(moved_px), 5.0);
   EXPECT_NEAR(blurred.m00 / sharp.m00, 1.0, 0.01);
   EXPECT_NEAR(blurred.mu20 / blurred.m00 - sharp.mu20 / sharp.m00, moved_px * moved_px / 12.0,
               0.03 * moved_px * moved_px / 12.0);
+}
+
+/// How far apart, in pixels, the copies are that a wall's end is blurred to: the longest run of equal levels
+/// within the ramp of a row.
+int longest_stair_px(const cv::Mat& picture, int row) {
+  int longest = 0, run = 1;
+  double low = 0.0, high = 0.0;
+  cv::Mat channel;
+  cv::extractChannel(picture.row(row), channel, 1);
+  cv::minMaxLoc(channel, &low, &high);
+  for (int u = 1; u < channel.cols; ++u) {
+    const int level = channel.at<std::uint8_t>(0, u);
+    run = level == channel.at<std::uint8_t>(0, u - 1) ? run + 1 : 1;
+    if (level > low + 2.0 && level < high - 2.0) longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// A robot that turns on the spot before a bright wall that ends ahead of it, the sky black behind it.
+worlds::Scenario turning_before_an_end(double turn_radps) {
+  worlds::Scenario scenario{.name = "turning"};
+  scenario.world.walls = {{{3.0, 0.0}, {3.0, -20.0}, 9.0, worlds::Material::kPaint}};
+  scenario.world.has_floor = false;
+  scenario.world.sky_rgb = {0.0, 0.0, 0.0};
+  scenario.rig.camera = {320, 240, 280.0, 159.5, 119.5};
+  const std::vector<slam::Control> turn = {{0.0, turn_radps, 0.5}};
+  slam::Pose pose{0.0, 0.0, -0.5 * turn_radps};
+  for (int i = 0; i < 3; ++i) {
+    scenario.path.push_back({i * 500'000'000LL, pose, i == 0 ? std::vector<slam::Control>() : turn});
+    pose = slam::advance(pose, turn.front());
+  }
+  return scenario;
+}
+
+// A blur of 90 px of 8 instants is a staircase of 11 px steps; it should be a ramp. Mutations:
+// shutter.samples alone; a limit that is not kept.
+TEST(Shutter, DrawsAsManyInstantsAsPointsGoPixels) {
+  constexpr double kOpen_s = 0.2;
+  for (const double blur_px : {2.0, 30.0, 90.0}) {
+    const worlds::Scenario scenario = turning_before_an_end(blur_px / (280.0 * kOpen_s));
+    renderer::Renderer renderer(scenario.world, scenario.rig);
+    const ExposedFrame smooth = open_shutter(renderer, scenario.path, 1, {.open_s = kOpen_s});
+    EXPECT_LE(smooth.blur_step_px, 1.0);
+    EXPECT_GT(smooth.blur_step_px, blur_px < 8.0 ? 0.25 : 0.95) << "more instants than are needed";
+    EXPECT_LE(longest_stair_px(smooth.frame.left.colour, 120), 2) << blur_px;
+    const ExposedFrame coarse =
+        open_shutter(renderer, scenario.path, 1, {.open_s = kOpen_s, .most_samples = 8});
+    EXPECT_GE(coarse.blur_step_px, blur_px / 8.0);
+    EXPECT_LE(coarse.blur_step_px, 1.4 * blur_px / 8.0) << "of the picture's border";
+    EXPECT_GE(longest_stair_px(coarse.frame.left.colour, 120), blur_px > 80.0 ? 9 : 0);
+  }
+}
+
+// What stands still is as it was: as many instants as asked for, all of them the same. Mutation: a step that
+// is not a number.
+TEST(Shutter, OfARobotThatStandsIsAnInstant) {
+  const worlds::Scenario scenario = turning_before_an_end(0.0);
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  const ExposedFrame blurred = open_shutter(renderer, scenario.path, 1, {.open_s = 0.2});
+  EXPECT_EQ(blurred.blur_step_px, 0.0);
+  EXPECT_TRUE(same(blurred.frame.left.colour, renderer.render(scenario.path[1].pose).left.colour));
+}
+
+/// The longest way of a point that both of two looks see.
+double longest_shift_px(const worlds::Scenario& scenario, renderer::Renderer& renderer, double from_s,
+                        double to_s) {
+  const auto sight = [&](double offset_s) {
+    const slam::Pose pose = worlds::pose_near(scenario.path, 2, offset_s);
+    return renderer.sight(pose, pose);
+  };
+  const renderer::SceneGeometry scene(scenario.world);
+  const renderer::StereoSight from = sight(from_s), to = sight(to_s);
+  double longest_px = 0.0;
+  for (const auto& [a, b] : {std::pair(from.left, to.left), {from.right, to.right}}) {
+    const renderer::Correspondence found = renderer::correspond(scene, a, b);
+    for (int v = 0; v < found.fate.rows; ++v)
+      for (int u = 0; u < found.fate.cols; ++u)
+        if (static_cast<renderer::Fate>(found.fate.at<std::uint8_t>(v, u)) == renderer::Fate::kSeen)
+          longest_px = std::max(longest_px, cv::norm(found.shift_px.at<cv::Vec2f>(v, u)));
+  }
+  return longest_px;
+}
+
+// Law: the step that is reported is the longest way between two instants that the truth of flow knows, for
+// turning and driving, far and near. Mutations: the way of the picture's middle; no translation; the eyes'
+// middle in place of the eyes.
+TEST(Shutter, KnowsTheLongestWayOfAPoint) {
+  constexpr double kOpen_s = 0.2;
+  for (const auto& [speed_mps, turn_radps] : {std::pair(0.0, 0.5), {1.0, 0.0}, {0.6, -0.4}, {-0.5, 0.1}}) {
+    worlds::Scenario scenario = bend();
+    scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 1.0}};
+    const std::vector<slam::Control> control = {{speed_mps, turn_radps, 0.5}};
+    slam::Pose pose;
+    scenario.path.clear();
+    for (int i = 0; i < 5; ++i) {
+      scenario.path.push_back({i * 500'000'000LL, pose, i == 0 ? std::vector<slam::Control>() : control});
+      pose = slam::advance(pose, control.front());
+    }
+    renderer::Renderer renderer(scenario.world, scenario.rig);
+    const ExposedFrame blurred =
+        open_shutter(renderer, scenario.path, 2, {.open_s = kOpen_s, .samples = 10, .most_samples = 10});
+    double longest_px = 0.0;
+    for (int i = 0; i + 1 < 10; i += 4)
+      longest_px = std::max(longest_px, longest_shift_px(scenario, renderer, kOpen_s * (i / 10.0 - 0.45),
+                                                         kOpen_s * ((i + 1) / 10.0 - 0.45)));
+    EXPECT_NEAR(blurred.blur_step_px / longest_px, 1.0, 0.1) << speed_mps << ' ' << turn_radps;
+  }
 }
 
 // Each row is that of a whole picture at the row's own time. Mutations: the last row first, the first row at
@@ -87,7 +197,7 @@ TEST(Shutter, ReadsRowsOneAfterAnother) {
   const worlds::Scenario scenario = bend();
   renderer::Renderer renderer(scenario.world, scenario.rig);
   const worlds::Shutter shutter{.right_delay_s = 0.01, .readout_s = 0.12};
-  const renderer::StereoFrame rolled = open_shutter(renderer, scenario.path, 2, shutter);
+  const renderer::StereoFrame rolled = open_shutter(renderer, scenario.path, 2, shutter).frame;
   for (const int row : {1, 60, 118, 121, 200, 238}) {
     const int first = row / 4 * 4;
     const double offset_s = 0.12 * ((first + 2) / 240.0 - 0.5);
