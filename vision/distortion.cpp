@@ -27,8 +27,10 @@ Eigen::Matrix2d distortion_slope(const Distortion& lens, const Eigen::Vector2d& 
   const double both = 2.0 * (lens.p1 * x + lens.p2 * y);
   Eigen::Matrix2d decentred;
   decentred << 2.0 * lens.p1 * y + 6.0 * lens.p2 * x, both, both, 6.0 * lens.p1 * y + 2.0 * lens.p2 * x;
-  return radial.factor * Eigen::Matrix2d::Identity() +
-         2.0 * radial.by_r2 * direction * direction.transpose() + decentred;
+  Eigen::Matrix2d slope = radial.factor * Eigen::Matrix2d::Identity() +
+                          2.0 * radial.by_r2 * direction * direction.transpose() + decentred;
+  slope.row(1) *= lens.pixel_aspect;
+  return slope;
 }
 
 Eigen::Vector2d distort(const Distortion& lens, const Eigen::Vector2d& direction) {
@@ -37,7 +39,7 @@ Eigen::Vector2d distort(const Distortion& lens, const Eigen::Vector2d& direction
   const double r2 = direction.squaredNorm();
   const double radial = radial_at(lens, r2).factor;
   return {x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (r2 + 2.0 * x * x),
-          y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y};
+          lens.pixel_aspect * (y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y)};
 }
 
 std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Vector2d& place,

@@ -1,4 +1,5 @@
-/// What a lens does to a pinhole's picture: the model of Brown and Conrady, in OpenCV's form.
+/// What a lens and pixels that are not square do to a pinhole's picture: the model of Brown and Conrady, in
+/// OpenCV's form.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 namespace stereobench::vision {
 
 /// Where light of a direction arrives: (x, y) (1 + k1 r^2 + k2 r^4 + k3 r^6), and beside it
-/// (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y).
+/// (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y); y is then multiplied by the pixels' aspect.
 /// @param direction (X / Z, Y / Z) in the camera's frame
 /// @return the place at focal length 1
 Eigen::Vector2d distort(const Distortion& lens, const Eigen::Vector2d& direction);

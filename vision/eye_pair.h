@@ -10,7 +10,7 @@
 
 namespace stereobench::vision {
 
-/// One eye: a camera with square pixels, and how it is turned in the rig.
+/// One eye: a camera, and how it is turned in the rig.
 struct EyeCamera {
   Intrinsics camera;
   Distortion lens;

@@ -24,9 +24,10 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
   return result;
 }
 
-bool is_finite(const Distortion& lens) {
+bool is_usable(const Distortion& lens) {
   return std::isfinite(lens.k1) && std::isfinite(lens.k2) && std::isfinite(lens.p1) &&
-         std::isfinite(lens.p2) && std::isfinite(lens.k3);
+         std::isfinite(lens.p2) && std::isfinite(lens.k3) && std::isfinite(lens.pixel_aspect) &&
+         lens.pixel_aspect > 0.0;
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ bool is_usable(const StereoRig& rig) {
   return rig.camera.width_px > 0 && rig.camera.height_px > 0 && positive(rig.camera.focal_px) &&
          positive(rig.baseline_m) && std::isfinite(rig.camera.cx_px) && std::isfinite(rig.camera.cy_px) &&
          std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad) && rig.right_turn_rad.allFinite() &&
-         is_finite(rig.distortion);
+         is_usable(rig.distortion);
 }
 
 }  // namespace stereobench::vision

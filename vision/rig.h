@@ -57,7 +57,7 @@ std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
 /// @return the point of the ray with Z = 1 in the camera frame
 Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px);
 
-/// Whether a rig can be computed with: finite, positive focal length, baseline and image size.
+/// Whether a rig can be computed with: finite, positive focal length, pixels, baseline and image size.
 bool is_usable(const StereoRig& rig);
 
 }  // namespace stereobench::vision

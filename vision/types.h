@@ -22,18 +22,20 @@ struct Intrinsics {
   double cy_px = 383.5;
 };
 
-/// How a lens bends light, see distortion.h. Coefficients and their order are OpenCV's and ROS's plumb_bob.
+/// How a camera's picture differs from a pinhole's with square pixels, see distortion.h. Coefficients of the
+/// lens and their order are OpenCV's and ROS's plumb_bob.
 struct Distortion {
   double k1 = 0.0, k2 = 0.0;  ///< radial
   double p1 = 0.0, p2 = 0.0;  ///< of a lens that is not centred
   double k3 = 0.0;            ///< radial
+  double pixel_aspect = 1.0;  ///< fy / fx: a pixel's width over its height; > 0
 
   bool operator==(const Distortion&) const = default;
 };
 
 /// A stereo rig and how it sits on the robot: both optical centres at `height_m` above the floor, half a
 /// baseline left and right of the robot's origin, looking forward and `pitch_down_rad` down. It is rectified
-/// unless the right eye is turned or the lenses distort.
+/// unless the right eye is turned, the lenses distort, or pixels are not square.
 struct StereoRig {
   Intrinsics camera;
   double baseline_m = 0.12;     ///< > 0
@@ -41,7 +43,7 @@ struct StereoRig {
   double pitch_down_rad = 0.0;  ///< positive looks at the floor
   /// How the right eye is turned against the left one: first about its z axis, then y, then x.
   Eigen::Vector3d right_turn_rad = Eigen::Vector3d::Zero();
-  Distortion distortion;  ///< of both eyes' lenses
+  Distortion distortion;  ///< of both eyes' lenses, and their pixels' aspect
 };
 
 /// The two images of one instant, 8-bit BGR, linear light.

@@ -49,8 +49,9 @@ std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const
       depths.nearest_m * slam::exponential(share * slam::logarithm(depths.farthest_m / depths.nearest_m));
   const double u = draws.between(-0.5, rig.camera.width_px - 0.5);
   const double v = draws.between(-0.5, rig.camera.height_px - 0.5);
-  const Eigen::Vector3d in_camera = depth * vision::pixel_ray(rig.camera, {u, v});
+  Eigen::Vector3d in_camera = depth * vision::pixel_ray(rig.camera, {u, v});
   const Eigen::Vector3d in_right = vision::point_in_eye(rig, in_camera, vision::Eye::kRight);
+  in_camera.y() /= rig.distortion.pixel_aspect;
   const Eigen::Vector3d in_robot = vision::robot_from_camera(rig) * in_camera;
   if (!vision::project_if_visible(rig.camera, in_right) || in_robot.z() < radius_m) return std::nullopt;
   return in_robot;

@@ -21,6 +21,7 @@ constexpr Interval kHeight_m = {1e-3, 100.0};
 constexpr Interval kPitch_deg = {-80.0, 80.0};
 constexpr Interval kTurn_deg = {-45.0, 45.0};
 constexpr Interval kLens = {-100.0, 100.0};
+constexpr Interval kAspect = {0.5, 2.0};
 
 /// Refuses a camera without a lens that looks further aside than any may, by what is written of its shape.
 void check_field(const YamlMap& map, const vision::StereoRig& rig) {
@@ -38,12 +39,19 @@ void check_field(const YamlMap& map, const vision::StereoRig& rig) {
 
 void read_distortion(const YamlMap& map, vision::StereoRig& rig) {
   const auto value = map.find("distortion");
+  const auto aspect = map.find("pixel_aspect");
   const Eigen::Matrix<double, 5, 1> otherwise(rig.distortion.k1, rig.distortion.k2, rig.distortion.p1,
                                               rig.distortion.p2, rig.distortion.k3);
   const Eigen::Matrix<double, 5, 1> k = read_vector<5>(map, "distortion", otherwise);
-  rig.distortion = {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
-  if (value && !vision::directions_seen(rig.distortion, rig.camera))
-    value->refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
+  rig.distortion = {.k1 = k[0],
+                    .k2 = k[1],
+                    .p1 = k[2],
+                    .p2 = k[3],
+                    .k3 = k[4],
+                    .pixel_aspect = map.number("pixel_aspect", rig.distortion.pixel_aspect)};
+  if ((value || aspect) && !vision::directions_seen(rig.distortion, rig.camera))
+    (value ? value : aspect)
+        ->refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
 }
 
 /// A centre of the picture lies within it.
@@ -85,6 +93,8 @@ const KeyGroup& rig_keys() {
           number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
               .vector(5)
               .otherwise("[0, 0, 0, 0, 0]"),
+          number("pixel_aspect", kAspect, "A pixel's width over its height: fy / fx; focal_px is fx.")
+              .otherwise("1"),
       }};
   return keys;
 }
@@ -123,6 +133,8 @@ const KeyGroup& believed_rig_keys() {
           number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
               .vector(5)
               .otherwise_as("rig.distortion"),
+          number("pixel_aspect", kAspect, "A pixel's width over its height: fy / fx; focal_px is fx.")
+              .otherwise_as("rig.pixel_aspect"),
       }};
   return keys;
 }

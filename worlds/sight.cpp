@@ -28,8 +28,8 @@ bool fits_picture(const EyeAt& eye, const Eigen::Vector3d& in_camera, double rad
   const double edge_px = kBorder_px - 0.5;
   return fits_between(k.focal_px, in_camera.x(), in_camera.z(), radius_m, edge_px - k.cx_px,
                       k.width_px - 1.0 - edge_px - k.cx_px) &&
-         fits_between(k.focal_px, in_camera.y(), in_camera.z(), radius_m, edge_px - k.cy_px,
-                      k.height_px - 1.0 - edge_px - k.cy_px);
+         fits_between(k.focal_px * eye.pixel_aspect, in_camera.y(), in_camera.z(), radius_m,
+                      edge_px - k.cy_px, k.height_px - 1.0 - edge_px - k.cy_px);
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -12,7 +12,7 @@ EyeAt eye_at(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& wo
   robot.linear() << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
   robot.translation() << world_from_robot.x_m, world_from_robot.y_m, 0.0;
   const Eigen::Isometry3d placed = robot * vision::robot_from_camera(rig, eye);
-  return {rig.camera, placed.inverse(), placed.translation()};
+  return {rig.camera, rig.distortion.pixel_aspect, placed.inverse(), placed.translation()};
 }
 
 std::vector<Sphere> spheres_around_shapes(const World& world) {

@@ -14,6 +14,7 @@ namespace stereobench::worlds {
 /// An eye in the world.
 struct EyeAt {
   vision::Intrinsics camera;
+  double pixel_aspect = 1.0;
   Eigen::Isometry3d camera_from_world;
   Eigen::Vector3d centre_m;  ///< world frame
 };

@@ -1,11 +1,13 @@
 #include "harness/board/calibration_report.h"
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/board/calibration_warnings.h"
 #include "harness/report/text_table.h"
 #include "harness/run/json_numbers.h"
 
@@ -14,7 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 8> kNames = {"focal_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
+constexpr std::array<const char*, kEyeSize> kNames = {"focal_px", "cx_px", "cy_px", "k1",          "k2",
+                                                      "p1",       "p2",    "k3",    "pixel_aspect"};
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
@@ -27,7 +30,7 @@ struct Entry {
 
 std::vector<Entry> eye_entries(const RigFit& fit, std::size_t eye) {
   std::vector<Entry> entries;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < kEyeSize; ++i)
     entries.push_back({kNames[static_cast<std::size_t>(i)], fit.eyes[eye][i], fit.eyes_sd[eye][i]});
   return entries;
 }
@@ -65,6 +68,39 @@ AlignedTable views_table(const BoardCalibration& calibration) {
   return table;
 }
 
+std::string verdict_of(const ModelTrial& trial) {
+  if (!trial.refused.empty()) return "refused";
+  return trial.taken ? "taken" : trial.p < kRejected ? "rejected" : "";
+}
+
+/// The models that were compared: how far off each leaves the corners, and how it stands up to the fullest.
+AlignedTable models_table(const std::vector<ModelTrial>& trials) {
+  AlignedTable table{{"model", "rms px", "F", "p", ""}, {}};
+  for (const ModelTrial& trial : trials) {
+    const bool tested = trial.refused.empty() && std::isfinite(trial.p);
+    table.rows.push_back({trial.name, trial.refused.empty() ? fmt::format("{:.3f}", trial.rms_px) : "",
+                          tested ? fmt::format("{:.3g}", trial.f) : "",
+                          tested ? fmt::format("{:.2g}", trial.p) : "", verdict_of(trial)});
+  }
+  return table;
+}
+
+Json models_json(const std::vector<ModelTrial>& trials) {
+  Json list = Json::array();
+  for (const ModelTrial& trial : trials) {
+    Json entry = {{"model", trial.name}, {"taken", trial.taken}};
+    if (trial.refused.empty()) {
+      entry["rms_px"] = number(trial.rms_px);
+      entry["f"] = number(trial.f);
+      entry["p"] = number(trial.p);
+    } else {
+      entry["refused"] = trial.refused;
+    }
+    list.push_back(entry);
+  }
+  return list;
+}
+
 AlignedTable parameters_table(const RigFit& fit) {
   AlignedTable table{{"", "left", "right"}, {}};
   const auto left = eye_entries(fit, 0);
@@ -82,6 +118,9 @@ std::string calibration_text(const BoardCalibration& calibration, const BoardSet
   std::string text = plain_text(views_table(calibration)) + "\n";
   for (const ViewOutcome& view : calibration.outcomes)
     if (!view.dropped.empty()) text += fmt::format("dropped {}: {}\n", view.name, view.dropped);
+  if (calibration.models.size() > 1) text += plain_text(models_table(calibration.models)) + "\n";
+  for (const ModelTrial& trial : calibration.models)
+    if (!trial.refused.empty()) text += fmt::format("refused {}: {}\n", trial.name, trial.refused);
   text += plain_text(parameters_table(fit)) + "\n";
   text += fmt::format("{} of {} views, {} corners each: rms {:.3f} px, a corner's coordinate {:.3f} px\n",
                       calibration.used.size(), calibration.outcomes.size(), settings.board.corners(),
@@ -100,8 +139,12 @@ std::string calibration_json(const BoardCalibration& calibration, const BoardSet
                    {"rows", settings.board.rows},
                    {"square_m", settings.board.square_m}};
   json["model"] = settings.model == RigModel::kTwoCameras ? "two" : "one";
+  json["models"] = models_json(calibration.models);
+  json["warnings"] = warnings_of(calibration, settings);
   json["rms_px"] = number(fit.rms_px);
   json["corner_sd_px"] = number(fit.corner_sd_px);
+  json["neighbour_sd_px"] = number(fit.neighbour_sd_px);
+  json["clustering"] = number(fit.clustering);
   json["row_rms_px"] = number(calibration.row_rms_px);
   json["row_mean_px"] = number(calibration.row_mean_px);
   json["square_mean_m"] = number(calibration.square_mean_m);

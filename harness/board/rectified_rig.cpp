@@ -21,13 +21,13 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
 vision::EyeCamera eye_of(const EyeParameters& p, int width_px, int height_px) {
   vision::EyeCamera eye;
   eye.camera = {width_px, height_px, p[0], p[1], p[2]};
-  eye.lens = {.k1 = p[3], .k2 = p[4], .p1 = p[5], .p2 = p[6], .k3 = p[7]};
+  eye.lens = {.k1 = p[3], .k2 = p[4], .p1 = p[5], .p2 = p[6], .k3 = p[kK3], .pixel_aspect = p[kAspect]};
   if (!vision::is_usable(eye))
     throw std::runtime_error(
         fmt::format("the lens that fits best (k1 {:.3g}, k2 {:.3g}, k3 {:.3g}) folds the picture's corners: "
                     "show the board "
                     "nearer to them, or estimate other coefficients",
-                    p[3], p[4], p[7]));
+                    p[3], p[4], p[kK3]));
   return eye;
 }
 

@@ -83,8 +83,8 @@ double error_of(const std::array<double, 2>& eyes) {
 }
 
 /// Takes out the views that do not suit the others.
-void drop_outliers(Sighted& sighted, const FitSettings& settings) {
-  FitSettings robust = settings;
+void drop_outliers(Sighted& sighted, const FitSettings& settings, const Compared& compared) {
+  FitSettings robust = fullest(settings, compared);
   robust.robust = true;
   const RigFit fit = fit_rig(sighted.views, robust);
   std::vector<double> errors;
@@ -174,10 +174,12 @@ BoardCalibration calibrate_rig(const std::vector<ViewFiles>& files, const BoardS
                         .width_px = sighted.size.width,
                         .height_px = sighted.size.height,
                         .model = settings.model,
-                        .lens = settings.lens};
-  drop_outliers(sighted, fit);
+                        .lens = settings.lens,
+                        .square_pixels = settings.compared.aspect || settings.square_pixels};
+  drop_outliers(sighted, fit, settings.compared);
   if (sighted.views.size() < settings.fewest_views) refuse_too_few(sighted, settings.fewest_views);
-  BoardCalibration calibration{.fit = fit_rig(sighted.views, fit)};
+  ModelChoice choice = choose_model(sighted.views, fit, settings.compared);
+  BoardCalibration calibration{.fit = choice.fit, .models = std::move(choice.trials)};
   calibration.rig = rectified_rig(calibration.fit, settings.model, fit.width_px, fit.height_px);
   calibration.used = std::move(sighted.views);
   calibration.outcomes = std::move(sighted.outcomes);

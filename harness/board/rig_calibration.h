@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/board/board_files.h"
-#include "harness/board/rig_fit.h"
+#include "harness/board/model_choice.h"
 #include "harness/dataset/calibration_file.h"
 
 namespace stereobench::harness {
@@ -24,6 +24,7 @@ struct ViewOutcome {
 struct BoardCalibration {
   RigCalibration rig;
   RigFit fit;
+  std::vector<ModelTrial> models;     ///< that were compared; the fit is of the one that was taken
   std::vector<BoardView> used;        ///< the views of the fit
   std::vector<ViewOutcome> outcomes;  ///< one a pair of pictures
   double row_rms_px = 0.0;            ///< over all corners, once rectified
@@ -37,12 +38,14 @@ struct BoardSettings {
   Board board;
   RigModel model = RigModel::kTwoCameras;
   FreeCoefficients lens = {true, true, true, true, false};
+  bool square_pixels = true;  ///< where the aspect is not compared
+  Compared compared;          ///< what is left to the views to decide
   std::size_t fewest_views = 3;
 };
 
-/// Finds the board in all pictures, fits the rig, and fits it again without the views that do not suit it:
-/// those whose error is more than three times the median of all, after a fit in which corners that are far
-/// off do not count.
+/// Finds the board in all pictures, drops the views that do not suit the others (those whose error is more
+/// than three times the median of all, after a fit of the fullest model in which corners that are far off do
+/// not count), and takes the simplest model that the rest does not reject (choose_model).
 /// @throws std::runtime_error, one line, for a picture that cannot be read, where too few views are left
 /// (which says what became of the others), and where they do not determine a rig
 BoardCalibration calibrate_rig(const std::vector<ViewFiles>& files, const BoardSettings& settings);

@@ -10,6 +10,7 @@
 #include <ceres/rotation.h>
 #include <fmt/format.h>
 
+#include "harness/board/residual_facts.h"
 #include "harness/board/rig_start.h"
 
 namespace stereobench::harness {
@@ -28,7 +29,8 @@ void project(const T* eye, const T* point, T* pixel) {
   const T r2 = x * x + y * y;
   const T radial = 1.0 + r2 * (eye[3] + r2 * (eye[4] + r2 * eye[7]));
   pixel[0] = eye[1] + eye[0] * (x * radial + 2.0 * eye[5] * x * y + eye[6] * (r2 + 2.0 * x * x));
-  pixel[1] = eye[2] + eye[0] * (y * radial + eye[5] * (r2 + 2.0 * y * y) + 2.0 * eye[6] * x * y);
+  pixel[1] =
+      eye[2] + eye[0] * eye[kAspect] * (y * radial + eye[5] * (r2 + 2.0 * y * y) + 2.0 * eye[6] * x * y);
 }
 
 /// left = R(pose) point + shift
@@ -80,10 +82,11 @@ struct RightCorner {
   }
 };
 
-std::vector<int> fixed_of_eye(const FreeCoefficients& lens) {
+std::vector<int> fixed_of_eye(const FitSettings& settings) {
   std::vector<int> fixed;
   for (int i = 0; i < 5; ++i)
-    if (!lens[static_cast<std::size_t>(i)]) fixed.push_back(3 + i);
+    if (!settings.lens[static_cast<std::size_t>(i)]) fixed.push_back(3 + i);
+  if (settings.square_pixels) fixed.push_back(kAspect);
   return fixed;
 }
 
@@ -102,8 +105,8 @@ class RigProblem {
   RigProblem(const std::vector<BoardView>& views, const FitSettings& settings, RigState& state)
       : one_camera_(settings.model == RigModel::kOneCamera),
         loss_(settings.robust ? std::make_unique<ceres::CauchyLoss>(kRobustScale_px) : nullptr) {
-    blocks_.push_back({state.eyes[0].data(), 8, fixed_of_eye(settings.lens)});
-    if (!one_camera_) blocks_.push_back({state.eyes[1].data(), 8, fixed_of_eye(settings.lens)});
+    blocks_.push_back({state.eyes[0].data(), kEyeSize, fixed_of_eye(settings)});
+    if (!one_camera_) blocks_.push_back({state.eyes[1].data(), kEyeSize, fixed_of_eye(settings)});
     double* right_eye = blocks_.back().values;
     blocks_.push_back(
         {state.left_from_right.data(), 6, one_camera_ ? std::vector<int>{4, 5} : std::vector<int>{}});
@@ -115,11 +118,11 @@ class RigProblem {
         const auto& [left, right] = views[view].corners_px;
         const auto at = static_cast<std::size_t>(i);
         problem_.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<LeftCorner, 2, 8, 6>(new LeftCorner{corner, left[at]}),
+            new ceres::AutoDiffCostFunction<LeftCorner, 2, kEyeSize, 6>(new LeftCorner{corner, left[at]}),
             loss_.get(), state.eyes[0].data(), pose);
-        problem_.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<RightCorner, 2, 8, 6, 6>(new RightCorner{corner, right[at]}),
-            loss_.get(), right_eye, state.left_from_right.data(), pose);
+        problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RightCorner, 2, kEyeSize, 6, 6>(
+                                      new RightCorner{corner, right[at]}),
+                                  loss_.get(), right_eye, state.left_from_right.data(), pose);
       }
     }
     for (const Block& block : blocks_)
@@ -194,6 +197,21 @@ Eigen::MatrixXd RigProblem::inverse_information() {
   return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
+/// The largest angle between the normals of two views' boards.
+double tilt_spread(const std::vector<BoardPose>& left_from_board) {
+  std::vector<Eigen::Vector3d> normals;
+  for (const BoardPose& pose : left_from_board) {
+    const double z[3] = {0.0, 0.0, 1.0};
+    Eigen::Vector3d normal;
+    ceres::AngleAxisRotatePoint(pose.data(), z, normal.data());
+    normals.push_back(normal);
+  }
+  double least_cosine = 1.0;
+  for (const Eigen::Vector3d& a : normals)
+    for (const Eigen::Vector3d& b : normals) least_cosine = std::min(least_cosine, a.dot(b));
+  return std::acos(std::max(least_cosine, -1.0));
+}
+
 void describe_residuals(const Eigen::VectorXd& residuals, std::size_t views, RigFit& fit) {
   const auto per_view = residuals.size() / static_cast<long>(views);
   for (std::size_t view = 0; view < views; ++view) {
@@ -229,11 +247,16 @@ RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings)
   const bool one_camera = settings.model == RigModel::kOneCamera;
   if (one_camera) state.eyes[1] = state.eyes[0];
   const Eigen::VectorXd residuals = problem.residuals();
-  const Eigen::MatrixXd inverse = problem.inverse_information();
   RigFit fit;
   describe_residuals(residuals, views.size(), fit);
-  fit.corner_sd_px =
-      std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size() - inverse.rows()));
+  fit.neighbour_sd_px = neighbour_sd(residuals, settings.board.columns);
+  fit.clustering = clustering(residuals, settings.board.columns, settings.board.rows);
+  fit.squares_px2 = residuals.squaredNorm();
+  fit.tilt_spread_rad = tilt_spread(state.left_from_board);
+  if (settings.robust) return fit;  // what outliers leave open is decided without them
+  const Eigen::MatrixXd inverse = problem.inverse_information();
+  fit.degrees_of_freedom = residuals.size() - inverse.rows();
+  fit.corner_sd_px = std::sqrt(fit.squares_px2 / static_cast<double>(fit.degrees_of_freedom));
   const Eigen::VectorXd variances = fit.corner_sd_px * fit.corner_sd_px * inverse.diagonal();
   const std::size_t right = one_camera ? 0 : 1;
   fit.eyes = state.eyes;
@@ -243,7 +266,7 @@ RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings)
   fit.turn_sd_rad = offset_sds.head<3>();
   fit.right_in_left_m = state.left_from_right.tail<3>();
   fit.right_in_left_sd_m = offset_sds.tail<3>();
-  if (!settings.robust) check_known(fit);  // what outliers leave open is decided without them
+  check_known(fit);
   return fit;
 }
 

@@ -14,7 +14,8 @@ struct FitSettings {
   int height_px = 0;
   RigModel model = RigModel::kTwoCameras;
   FreeCoefficients lens = {true, true, true, true, false};
-  bool robust = false;  ///< Cauchy's loss, so that corners that are far off do not count
+  bool square_pixels = true;  ///< or else each eye has a pixel aspect of its own
+  bool robust = false;  ///< Cauchy's loss, so that corners that are far off do not count; no sd is worked out
 };
 
 /// Least squares over all corners in both eyes at once: the eyes, how the right one sits to the left one, and

@@ -46,11 +46,13 @@ EyeStart start_eye(const std::vector<BoardView>& views, std::size_t eye, const F
                0.5 * (settings.height_px - 1), 0, 0, 1);
   cv::Mat d = cv::Mat::zeros(1, 5, CV_64F);
   std::vector<cv::Mat> turns, shifts;
-  int flags = cv::CALIB_FIX_ASPECT_RATIO | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  int flags = cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  if (settings.square_pixels) flags |= cv::CALIB_FIX_ASPECT_RATIO;
   if (!settings.lens[0]) flags |= cv::CALIB_FIX_K1;
   cv::calibrateCamera(board, seen, {settings.width_px, settings.height_px}, k, d, turns, shifts, flags);
   EyeStart start;
-  start.eye << k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2), d.at<double>(0), 0, 0, 0, 0;
+  start.eye << k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2), d.at<double>(0), 0, 0, 0, 0,
+      settings.square_pixels ? 1.0 : k.at<double>(1, 1) / k.at<double>(0, 0);
   for (std::size_t view = 0; view < turns.size(); ++view)
     start.eye_from_board.push_back(isometry_of(turns[view], shifts[view]));
   return start;

@@ -40,8 +40,12 @@ enum class RigModel {
 /// A lens's coefficients in the order k1, k2, p1, p2, k3: which of them are estimated; others are zero.
 using FreeCoefficients = std::array<bool, 5>;
 
-/// An eye as estimated: focal length, centre (x, y), k1, k2, p1, p2, k3; pixels where they have a unit.
-using EyeParameters = Eigen::Matrix<double, 8, 1>;
+/// An eye as estimated: focal length across, centre (x, y), k1, k2, p1, p2, k3, pixel aspect (focal length
+/// down over that across); pixels where they have a unit.
+constexpr int kEyeSize = 9;
+using EyeParameters = Eigen::Matrix<double, kEyeSize, 1>;
+constexpr int kK3 = 7;      ///< where k3 is
+constexpr int kAspect = 8;  ///< where the pixel aspect is
 
 /// The fit of a rig to views, and how well each parameter is known (standard deviations; zero where a
 /// parameter is not estimated).
@@ -54,6 +58,11 @@ struct RigFit {
   std::vector<std::array<double, 2>> view_rms_px;  ///< of distances, by view and eye
   double rms_px = 0.0;                             ///< of distances, over all corners in both eyes
   double corner_sd_px = 0.0;                       ///< of each coordinate of a corner, as the fit has it
+  double neighbour_sd_px = 0.0;  ///< the same from how much neighbours' errors differ: what is not smooth
+  double clustering = 1.0;       ///< how much errors of one view hang together (residual_facts.h), at least 1
+  double squares_px2 = 0.0;      ///< the sum of squared residuals
+  long degrees_of_freedom = 0;   ///< residuals less parameters
+  double tilt_spread_rad = 0.0;  ///< the largest angle between two views' boards
 };
 
 }  // namespace stereobench::harness

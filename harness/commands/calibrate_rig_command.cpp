@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/board/calibration_report.h"
+#include "harness/board/calibration_warnings.h"
 #include "harness/board/rig_calibration.h"
 #include "harness/board/rig_picture.h"
 #include "harness/commands/commands.h"
@@ -25,7 +26,8 @@ struct CalibrateRigArguments {
   BoardSettings settings;
   std::array<std::string, 2> patterns;
   std::string model = "two";
-  std::vector<std::string> lens = {"k1", "k2", "p1", "p2"};
+  std::vector<std::string> lens;
+  std::string pixels = "compare";
   fs::path out = "out/rig";
 };
 
@@ -82,7 +84,9 @@ std::string picture_of(const BoardCalibration& calibration, const std::vector<Vi
 int calibrate(CalibrateRigArguments arguments) {
   BoardSettings& settings = arguments.settings;
   settings.board = read_board(arguments);
-  settings.lens = read_lens(arguments.lens);
+  settings.compared = {.aspect = arguments.pixels == "compare", .k3 = arguments.lens.empty()};
+  settings.square_pixels = arguments.pixels != "free";
+  if (!arguments.lens.empty()) settings.lens = read_lens(arguments.lens);
   settings.model = arguments.model == "one" ? RigModel::kOneCamera : RigModel::kTwoCameras;
   if (arguments.patterns[0].empty() != arguments.patterns[1].empty())
     throw std::runtime_error("--left, --right: expected both patterns, or none");
@@ -95,6 +99,8 @@ int calibrate(CalibrateRigArguments arguments) {
   write_file_atomically(arguments.out / "rectified.png", picture_of(calibration, files));
   fmt::print("{}{}\n", calibration_text(calibration, settings),
              (arguments.out / "calibration.yaml").string());
+  for (const std::string& warning : warnings_of(calibration, settings))
+    fmt::print(stderr, "stereobench: warning: {}\n", warning);
   return kPassed;
 }
 
@@ -117,8 +123,16 @@ void add_calibrate_rig_command(CLI::App& program, Action& action) {
   command->add_option("--model", arguments->model, "two cameras, or one camera twice as a scenario's rig is")
       ->check(CLI::IsMember({"two", "one"}))
       ->capture_default_str();
-  command->add_option("--lens", arguments->lens, "lens coefficients to estimate: of k1,k2,p1,p2,k3, or none")
-      ->delimiter(',')
+  command
+      ->add_option("--lens", arguments->lens,
+                   "lens coefficients to estimate: of k1,k2,p1,p2,k3, or none (default: k1,k2,p1,p2, and k3 "
+                   "where the views ask for it)")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--pixels", arguments->pixels,
+          "square; free: two focal lengths an eye, across and down; or free where the views ask for it")
+      ->check(CLI::IsMember({"compare", "square", "free"}))
       ->capture_default_str();
   command->add_option("--fewest-views", arguments->settings.fewest_views, "that are enough")
       ->check(CLI::Range(3, 10000))

@@ -20,7 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRounding = 1e-12;  // of a rotation that went through a file
+constexpr double kRounding = 1e-12;   // of a rotation that went through a file
+constexpr double kSquare = 1e-9;      // pixels that are as square as this were meant to be
+constexpr double kLeastAspect = 0.5;  // of pixels; a picture put straight is up to twice as large
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
@@ -85,19 +87,31 @@ Eigen::Matrix3d rotation_of(const cv::Mat& transform) {
 vision::Intrinsics camera_in(const fs::path& file, const YAML::Node& storage) {
   const cv::Mat k = matrix(file, storage, "K", {3, 3});
   if (k.empty()) refuse(file, "K: this key is missing");
-  if (!(std::abs(k.at<double>(0, 0) - k.at<double>(1, 1)) <= 1e-9 * std::abs(k.at<double>(0, 0))))
-    refuse(file, "K: expected the same focal length across and down");
   return {0, 0, k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2)};
 }
 
+/// A K's focal length down over that across: 1 where they differ by rounding.
+double aspect_in(const fs::path& file, const YAML::Node& storage) {
+  const cv::Mat k = matrix(file, storage, "K", {3, 3});
+  const double aspect = k.at<double>(1, 1) / k.at<double>(0, 0);
+  if (!(aspect >= kLeastAspect && aspect <= 1.0 / kLeastAspect))
+    refuse(file,
+           fmt::format("K: expected focal lengths across and down that differ by a factor of {} at most",
+                       1.0 / kLeastAspect));
+  return std::abs(aspect - 1.0) <= kSquare ? 1.0 : aspect;
+}
+
+/// What a K and a D say of a lens and its pixels.
 vision::Distortion lens_in(const fs::path& file, const YAML::Node& storage) {
+  vision::Distortion lens{.pixel_aspect = aspect_in(file, storage)};
   const cv::Mat d = matrix(file, storage, "D", {5, 1});
-  if (d.empty()) return {};
-  return {.k1 = d.at<double>(0),
-          .k2 = d.at<double>(1),
-          .p1 = d.at<double>(2),
-          .p2 = d.at<double>(3),
-          .k3 = d.at<double>(4)};
+  if (d.empty()) return lens;
+  lens.k1 = d.at<double>(0);
+  lens.k2 = d.at<double>(1);
+  lens.p1 = d.at<double>(2);
+  lens.p2 = d.at<double>(3);
+  lens.k3 = d.at<double>(4);
+  return lens;
 }
 
 vision::EyeCamera eye_in(const fs::path& file, const YAML::Node& storage, const vision::Intrinsics& size) {
@@ -144,8 +158,9 @@ YAML::Node document_in(const std::string& text, const fs::path& name) {
   refuse(name, "expected a calibration as an OpenCV YAML file");
 }
 
-cv::Mat camera_matrix(const vision::Intrinsics& c) {
-  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, c.focal_px, c.cy_px, 0, 0, 1);
+cv::Mat camera_matrix(const vision::Intrinsics& c, const vision::Distortion& lens) {
+  const double down_px = c.focal_px * lens.pixel_aspect;
+  return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, down_px, c.cy_px, 0, 0, 1);
 }
 
 /// From the left camera's frame to an eye's pixels, K [R | t].
@@ -158,7 +173,7 @@ cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
                    : origin;
     for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
   }
-  return camera_matrix(rig.camera) * eye_from_left;
+  return camera_matrix(rig.camera, rig.distortion) * eye_from_left;
 }
 
 template <typename Matrix>
@@ -175,7 +190,7 @@ cv::Mat coefficients(const vision::Distortion& lens) {
 
 void write_eye(cv::FileStorage& file, const char* name, const vision::EyeCamera& eye) {
   file << name << "{";
-  file << "K" << camera_matrix(eye.camera) << "D" << coefficients(eye.lens);
+  file << "K" << camera_matrix(eye.camera, eye.lens) << "D" << coefficients(eye.lens);
   file << "rectified_from_eye" << matrix_of(eye.rectified_from_eye) << "}";
 }
 
@@ -185,7 +200,7 @@ std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<v
   cv::FileStorage file(".yaml",
                        cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
-  file << "K" << camera_matrix(rig.camera);
+  file << "K" << camera_matrix(rig.camera, rig.distortion);
   file << "D" << coefficients(rig.distortion);
   file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
   file << "baseline_m" << rig.baseline_m;

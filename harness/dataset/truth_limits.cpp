@@ -9,15 +9,18 @@ namespace {
 
 /// The line of the scenario with which there is no such truth; empty where there is.
 std::string obstacle(TruthKind kind, const worlds::Scenario& scenario) {
-  const bool has_lens = !(scenario.rig.distortion == vision::Distortion{});
+  const vision::Distortion& lens = scenario.rig.distortion;
+  const bool has_lens = !(lens == vision::Distortion{});
+  const std::string bent =
+      lens == vision::Distortion{.pixel_aspect = lens.pixel_aspect} ? "rig.pixel_aspect" : "rig.distortion";
   const bool rolls = scenario.shutter.readout_s != 0.0;
   switch (kind) {
     case TruthKind::kSurface:
     case TruthKind::kRange:
     case TruthKind::kNormal:
-      return has_lens && rolls ? "shutter.readout_s behind rig.distortion" : "";
+      return has_lens && rolls ? "shutter.readout_s behind " + bent : "";
     case TruthKind::kBalls:
-      return has_lens ? "rig.distortion" : rolls ? "shutter.readout_s" : "";
+      return has_lens ? bent : rolls ? "shutter.readout_s" : "";
     case TruthKind::kDisparity:
     case TruthKind::kMatch:
       return rolls ? "shutter.readout_s" : "";

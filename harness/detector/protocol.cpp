@@ -29,7 +29,8 @@ Json rig_json(const vision::StereoRig& rig) {
           {"height_m", rig.height_m},
           {"pitch_down_rad", rig.pitch_down_rad},
           {"right_turn_rad", {turn.x(), turn.y(), turn.z()}},
-          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}}};
+          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
+          {"pixel_aspect", lens.pixel_aspect}};
 }
 
 std::vector<double> numbers(const JsonValue& value, std::size_t count) {
@@ -40,7 +41,7 @@ std::vector<double> numbers(const JsonValue& value, std::size_t count) {
 
 vision::StereoRig read_rig(const JsonValue& value) {
   value.allow({"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
-               "pitch_down_rad", "right_turn_rad", "distortion"});
+               "pitch_down_rad", "right_turn_rad", "distortion", "pixel_aspect"});
   constexpr std::int64_t kMost_px = 1 << 16;
   vision::StereoRig rig;
   rig.camera.width_px = static_cast<int>(value.at("width_px").integer(1, kMost_px));
@@ -54,7 +55,12 @@ vision::StereoRig read_rig(const JsonValue& value) {
   const std::vector<double> turn = numbers(value.at("right_turn_rad"), 3);
   rig.right_turn_rad = {turn[0], turn[1], turn[2]};
   const std::vector<double> k = numbers(value.at("distortion"), 5);
-  rig.distortion = {.k1 = k[0], .k2 = k[1], .p1 = k[2], .p2 = k[3], .k3 = k[4]};
+  rig.distortion = {.k1 = k[0],
+                    .k2 = k[1],
+                    .p1 = k[2],
+                    .p2 = k[3],
+                    .k3 = k[4],
+                    .pixel_aspect = value.at("pixel_aspect").number(kLeast, kMost)};
   return rig;
 }
 

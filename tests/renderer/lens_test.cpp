@@ -121,7 +121,9 @@ TEST_P(LensTest, RendersRowsAloneAsInTheWholePicture) {
     EXPECT_THROW(renderer.render(pose, pose, none), std::invalid_argument) << none.start;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LensTest, testing::Values(vision::Distortion{}, kBarrel, kPincushion));
+INSTANTIATE_TEST_SUITE_P(All, LensTest,
+                         testing::Values(vision::Distortion{}, kBarrel, kPincushion,
+                                         vision::Distortion{.pixel_aspect = 0.85}));
 
 TEST(Lens, ThatFoldsItsPictureIsRefused) {
   EXPECT_THROW(Lens(rig_with({.k1 = -2.0})), std::invalid_argument);

@@ -42,12 +42,13 @@ TEST(OddInput, PicturesThatAreNoneOfTheRigsAreRefused) {
 
 TEST(OddInput, RigsWithoutNumbersAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 6; ++i) {
     StereoRig rig = small_rig();
     (i == 0   ? rig.camera.focal_px
      : i == 1 ? rig.camera.cx_px
      : i == 2 ? rig.baseline_m
      : i == 3 ? rig.right_turn_rad[1]
+     : i == 4 ? rig.distortion.pixel_aspect
               : rig.distortion.k1) = nan;
     EXPECT_THROW(observe(painted(), rig, {}), std::invalid_argument) << i;
     EXPECT_THROW(Rectification{rig}, std::invalid_argument) << i;

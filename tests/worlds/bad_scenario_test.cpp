@@ -129,6 +129,7 @@ constexpr Fault kValueFaults[] = {
     {"camera: {noise_sd_levels: 1}", "believed_rig: {focal_px: 30}",
      "9: believed_rig.focal_px: expected a focal length of at least 56.44 px"},
     {"focal_px: 500", "focal_px: 500, distortion: [-3, 0, 0, 0, 0]", "8: rig.distortion"},
+    {"focal_px: 500", "focal_px: 500, pixel_aspect: 0.4", "8: rig.pixel_aspect"},
     {"{noise_sd_levels: 1}", "2", "9: camera: expected a group of keys (got 2)"},
     {"bearing_sd_deg: 1", "bearing_sd_deg: inf",
      "10: oracle.bearing_sd_deg: expected a number from 0 to 180 (got inf)"},

@@ -187,19 +187,20 @@ TEST(Scenario, ReadsTheCameraAndItsShutter) {
 
 // Catches: a belief that stays at the file's rig when the true rig is overridden.
 TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
-  const Scenario scenario =
-      read_small({"rig.baseline_m=0.2", "rig.right_turn_deg=[0, 0.5, 0]",
-                  "rig.distortion=[-0.2, 0.03, 0.001, -0.002, 0.004]", "believed_rig={focal_px: 505}"});
+  const Scenario scenario = read_small({"rig.baseline_m=0.2", "rig.right_turn_deg=[0, 0.5, 0]",
+                                        "rig.distortion=[-0.2, 0.03, 0.001, -0.002, 0.004]",
+                                        "rig.pixel_aspect=0.9", "believed_rig={focal_px: 505}"});
   EXPECT_EQ(scenario.rig.distortion,
-            (vision::Distortion{.k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.004}));
+            (vision::Distortion{
+                .k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.004, .pixel_aspect = 0.9}));
   EXPECT_EQ(scenario.rig.right_turn_rad.y(), 0.5 * std::numbers::pi / 180.0);
   EXPECT_EQ(scenario.believed_rig.baseline_m, 0.2);
   EXPECT_EQ(scenario.believed_rig.camera.focal_px, 505.0);
   EXPECT_EQ(scenario.believed_rig.right_turn_rad, scenario.rig.right_turn_rad);
   EXPECT_EQ(scenario.believed_rig.distortion, scenario.rig.distortion);
-  const Scenario blind =
-      read_small({"rig.right_turn_deg=[0, 0.5, 0]", "rig.distortion=[-0.2, 0, 0, 0, 0]",
-                  "believed_rig={right_turn_deg: [0, 0, 0], distortion: [0, 0, 0, 0, 0]}"});
+  const Scenario blind = read_small(
+      {"rig.right_turn_deg=[0, 0.5, 0]", "rig.distortion=[-0.2, 0, 0, 0, 0]", "rig.pixel_aspect=1.1",
+       "believed_rig={right_turn_deg: [0, 0, 0], distortion: [0, 0, 0, 0, 0], pixel_aspect: 1}"});
   EXPECT_EQ(blind.believed_rig.right_turn_rad, Eigen::Vector3d::Zero());
   EXPECT_EQ(blind.believed_rig.distortion, vision::Distortion{});
   EXPECT_EQ(scenario.rig.camera.focal_px, read_small().believed_rig.camera.focal_px);

@@ -68,13 +68,13 @@ inline std::vector<double> deviations(const RigFit& fit, const vision::StereoRig
   EyeParameters truth;
   const vision::Distortion& lens = rig.distortion;
   truth << rig.camera.focal_px, rig.camera.cx_px, rig.camera.cy_px, lens.k1, lens.k2, lens.p1, lens.p2,
-      lens.k3;
+      lens.k3, lens.pixel_aspect;
   std::vector<double> result;
   const auto add = [&](double error, double sd) {
     if (sd > 0.0) result.push_back(error / sd);
   };
   for (std::size_t eye = 0; eye < (model == RigModel::kOneCamera ? 1U : 2U); ++eye)
-    for (int i = 0; i < 8; ++i) add(fit.eyes[eye][i] - truth[i], fit.eyes_sd[eye][i]);
+    for (int i = 0; i < kEyeSize; ++i) add(fit.eyes[eye][i] - truth[i], fit.eyes_sd[eye][i]);
   const Eigen::Matrix3d turn = vision::robot_from_camera(rig).linear().transpose() *
                                vision::robot_from_camera(rig, vision::Eye::kRight).linear();
   const Eigen::AngleAxisd true_turn(turn);

@@ -9,8 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "harness/board/calibration_report.h"
+#include "harness/board/calibration_warnings.h"
 #include "renderer/expose.h"
 #include "renderer/renderer.h"
 #include "tests/harness/board/board_views.h"
@@ -109,6 +111,67 @@ TEST_F(RenderedBoards, GiveBackTheRigThatTookThem) {
     EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
     EXPECT_EQ(found.rig.eyes.has_value(), model == RigModel::kTwoCameras);
   }
+}
+
+/// The same pictures, made lower: what a picture shows is as before, and its pixels are no longer square.
+class StretchedBoards : public RenderedBoards {
+ protected:
+  static constexpr int kRows = 614;
+
+  void SetUp() override {
+    for (const ViewFiles& view : files()) {
+      for (const fs::path& file : {view.left, view.right}) {
+        cv::Mat lower;
+        cv::resize(cv::imread(file.string()), lower, {rig_.camera.width_px, kRows}, 0.0, 0.0, cv::INTER_AREA);
+        const fs::path folder = stretched_.path() / file.parent_path().filename();
+        fs::create_directories(folder);
+        cv::imwrite((folder / file.filename()).string(), lower);
+      }
+    }
+  }
+
+  TestFolder stretched_;
+};
+
+// Pixels are found to be as wide as they are, and nothing is warned of; as square ones they explain nothing
+// and the turn of the right eye is off. Mutations: the simplest model always; the aspect not written.
+TEST_F(StretchedBoards, AreMeasuredByPixelsThatAreNotSquare) {
+  const double aspect = static_cast<double>(kRows) / rig_.camera.height_px;
+  const auto files = find_view_files(stretched_.path(), {});
+  const BoardSettings settings{.board = kBoard, .model = RigModel::kOneCamera};
+  const BoardCalibration found = calibrate_rig(files, settings);
+  EXPECT_NEAR(found.rig.rig.distortion.pixel_aspect, aspect, 4.0 * found.fit.eyes_sd[0][kAspect]);
+  EXPECT_LT(found.fit.rms_px, 0.06);
+  EXPECT_LT(found.row_rms_px, 0.06);
+  EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
+  EXPECT_THAT(warnings_of(found, settings), testing::IsEmpty());
+  BoardSettings square = settings;
+  square.compared.aspect = false;
+  const BoardCalibration taken_for_square = calibrate_rig(files, square);
+  EXPECT_GT(taken_for_square.fit.rms_px, 3.0 * found.fit.rms_px);
+  EXPECT_THAT(warnings_of(taken_for_square, square),
+              testing::Contains(HasSubstr("leave out --pixels square")));
+}
+
+// The rig that is found is drawn through: a board seen through it has its squares' size, as measured above.
+TEST_F(StretchedBoards, TheCommandComparesModelsAndDetectReadsTheRig) {
+  const std::string folder = stretched_.path().string();
+  for (const std::string model : {"one", "two"}) {
+    const std::string out = folder + "/" + model;
+    const Outcome found = run_stereobench(
+        {"calibrate-rig", folder, "--corners", "9x6", "--square-m", "0.03", "--model", model, "--out", out});
+    ASSERT_EQ(found.exit_code, 0) << found.err;
+    EXPECT_THAT(found.out, testing::ContainsRegex("fx = fy, k1 k2 p1 p2 .*(rejected|refused)"));
+    EXPECT_THAT(found.out, testing::ContainsRegex("fx, fy, .* taken"));
+    const Outcome detected = run_stereobench(
+        {"detect", folder + "/left/0.png", folder + "/right/0.png", "--rig", out + "/calibration.yaml"});
+    EXPECT_EQ(detected.exit_code, 0) << detected.err;
+  }
+  const Outcome square =
+      run_stereobench({"calibrate-rig", folder, "--corners", "9x6", "--square-m", "0.03", "--model", "one",
+                       "--pixels", "square", "--out", folder + "/square"});
+  EXPECT_EQ(square.exit_code, 0);
+  EXPECT_THAT(square.err, HasSubstr("warning: corners are"));
 }
 
 std::string dropped(const BoardCalibration& calibration, const std::string& view) {
@@ -220,6 +283,25 @@ TEST(RealBoards, AreExplainedToAFifthOfAPixel) {
   EXPECT_LT(found.fit.rms_px, 0.21);
   EXPECT_LT(found.row_rms_px, 0.15);
   EXPECT_THAT(dropped(found, "left"), HasSubstr("612 x 459 pixels"));  // another pair, of something else
+}
+
+// The same, made lower by a fifth: explained as well, and the right eye is turned as it was.
+TEST(RealBoards, AreExplainedAsWellWhenStretched) {
+  if (!fs::exists(opencv_pictures() / "left01.jpg")) GTEST_SKIP() << "no opencv-doc";
+  const TestFolder folder;
+  for (const ViewFiles& view : find_view_files(opencv_pictures(), {"left*.jpg", "right*.jpg"}))
+    for (const fs::path& file : {view.left, view.right}) {
+      cv::Mat lower;
+      cv::resize(cv::imread(file.string()), lower, {}, 1.0, 0.8, cv::INTER_AREA);
+      cv::imwrite((folder.path() / file.filename().replace_extension(".png")).string(), lower);
+    }
+  const BoardSettings settings{.board = {9, 6, 0.025}};
+  const BoardCalibration found = calibrate_rig(find_view_files(folder.path(), {}), settings);
+  EXPECT_LT(found.fit.rms_px, 0.21);
+  EXPECT_NEAR(found.fit.eyes[0][kAspect], 0.8, 0.002);
+  BoardSettings square = settings;
+  square.compared.aspect = false;
+  EXPECT_GT(calibrate_rig(find_view_files(folder.path(), {}), square).fit.rms_px, 0.5);
 }
 
 }  // namespace

@@ -23,14 +23,23 @@ FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
       .board = kBoard, .width_px = rig.camera.width_px, .height_px = rig.camera.height_px, .model = model};
 }
 
+/// The same rig with pixels that are not square.
+vision::StereoRig stretched_rig() {
+  vision::StereoRig rig = test::faulty_rig();
+  rig.distortion.pixel_aspect = 0.9;
+  return rig;
+}
+
 class RigFits : public testing::TestWithParam<RigModel> {};
 
 // Law: without noise the rig is found again. Points come from vision::image_point, the fit has equations of
-// its own. Mutation: p1 and p2 exchanged.
+// its own. Mutations: p1 and p2 exchanged; the aspect that of columns.
 TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
-  const vision::StereoRig rig = test::faulty_rig();
+  const vision::StereoRig rig = stretched_rig();
   const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 1), 0.0, 1);
-  const RigFit fit = fit_rig(views, settings_for(rig, GetParam()));
+  FitSettings settings = settings_for(rig, GetParam());
+  settings.square_pixels = false;
+  const RigFit fit = fit_rig(views, settings);
   EXPECT_LT(fit.rms_px, 1e-6);
   for (const EyeParameters& eye : fit.eyes) {
     EXPECT_NEAR(eye[0], rig.camera.focal_px, 1e-4);
@@ -40,7 +49,8 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
     EXPECT_NEAR(eye[4], rig.distortion.k2, 1e-5);
     EXPECT_NEAR(eye[5], rig.distortion.p1, 1e-7);
     EXPECT_NEAR(eye[6], rig.distortion.p2, 1e-7);
-    EXPECT_EQ(eye[7], 0.0);
+    EXPECT_EQ(eye[kK3], 0.0);
+    EXPECT_NEAR(eye[kAspect], rig.distortion.pixel_aspect, 1e-7);
   }
   EXPECT_LT((fit.right_in_left_m - Eigen::Vector3d(rig.baseline_m, 0, 0)).norm(), 1e-7);
   const RigCalibration calibration = rectified_rig(fit, GetParam(), 1024, 768);
@@ -55,12 +65,15 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
 // Mutations: variances that are twice as large, or half.
 TEST_P(RigFits, KnowHowFarTheyAreOff) {
   constexpr int kSeeds = 24;
-  const vision::StereoRig rig = test::faulty_rig();
+  const vision::StereoRig rig = stretched_rig();
+  FitSettings settings = settings_for(rig, GetParam());
+  settings.square_pixels = false;
   double squares = 0.0;
   double count = 0.0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 6, seed), 0.2, seed);
-    const RigFit fit = fit_rig(views, settings_for(rig, GetParam()));
+    const RigFit fit = fit_rig(views, settings);
+    EXPECT_NEAR(fit.neighbour_sd_px, 0.2, 0.02);
     EXPECT_NEAR(fit.corner_sd_px, 0.2, 4.0 * 0.2 / std::sqrt(2.0 * 6 * 54 * 4));
     for (const double deviation : test::deviations(fit, rig, GetParam())) {
       squares += deviation * deviation;
@@ -119,11 +132,13 @@ TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
 // Law: once rectified, both eyes see a point on one row, and its disparity is f B / Z.
 // Mutation: the right eye's turn the other way round in the fit.
 TEST(RectifiedRig, PutsPointsOnOneRow) {
-  const vision::StereoRig rig = test::faulty_rig();
+  const vision::StereoRig rig = stretched_rig();
   const auto places = test::board_places(kBoard, 6, 5);
   const auto views = test::seen_through(rig, kBoard, places, 0.0, 1);
   for (const RigModel model : {RigModel::kTwoCameras, RigModel::kOneCamera}) {
-    const RigFit fit = fit_rig(views, settings_for(rig, model));
+    FitSettings settings = settings_for(rig, model);
+    settings.square_pixels = false;
+    const RigFit fit = fit_rig(views, settings);
     const RigCalibration calibration = rectified_rig(fit, model, 1024, 768);
     for (std::size_t i = 0; i < views.front().corners_px[0].size(); ++i) {
       const auto left = rectified_px(calibration, views.front().corners_px[0][i], vision::Eye::kLeft);

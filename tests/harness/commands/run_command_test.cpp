@@ -215,6 +215,25 @@ TEST(BallCircle, BehindALensIsSeenAsWellAsClaimed) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 
+// A rig whose pixels are not square is measured as one whose are: read from the scenario, drawn, and undone.
+// Mutation: an aspect that the renderer does not draw (nothing is found in one place by both).
+TEST(BallCircle, IsTheSameThroughPixelsThatAreNotSquare) {
+  const auto vision_of = [](const std::string& aspect) {
+    return nlohmann::json::parse(
+        result_of({"run", scenario_path("ball_circle"), "--seeds", "0", "--filters", "dead_reckoning",
+                   "--set", "path.laps=0.25", "--set", "gates=[]", "--set", "rig.pixel_aspect=" + aspect},
+                  "run.json"))["vision"];
+  };
+  const auto square = vision_of("1");
+  const auto wide = vision_of("0.9");
+  const auto number = [](const nlohmann::json& vision, const char* key) {
+    return (vision[key].is_object() ? vision[key]["mean"] : vision[key]).get<double>();
+  };
+  EXPECT_NEAR(number(wide, "recall"), number(square, "recall"), 0.05);  // one at the border, where rows end
+  EXPECT_LT(number(wide, "range_rms_m"), 2.0 * number(square, "range_rms_m"));
+  EXPECT_GT(number(wide, "range_rms_m"), 0.5 * number(square, "range_rms_m"));
+}
+
 struct RealLog {
   const char* folder;
   double ate_aligned_m;  ///< mean of five seeds plus three of its standard errors, of the worse filter

@@ -28,6 +28,7 @@ TEST(CalibrationFile, IsReadAsItWasWritten) {
       rig.right_turn_rad = 0.1 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     rig.distortion = {
         .k1 = 0.1 * random.uniform(), .p1 = 1e-3 * random.normal(), .k3 = 0.01 * random.uniform()};
+    if (i % 4 > 1) rig.distortion.pixel_aspect = 0.5 + random.uniform();
     folder.write("rig.yaml", calibration_yaml(rig));
     const vision::StereoRig read = read_calibration(folder.path() / "rig.yaml");
     EXPECT_EQ(read.camera.width_px, 640);
@@ -37,6 +38,8 @@ TEST(CalibrationFile, IsReadAsItWasWritten) {
     EXPECT_EQ(read.camera.cy_px, rig.camera.cy_px);
     EXPECT_EQ(read.baseline_m, rig.baseline_m);
     EXPECT_EQ(read.height_m, rig.height_m);
+    EXPECT_NEAR(read.distortion.pixel_aspect, rig.distortion.pixel_aspect, 1e-15);
+    rig.distortion.pixel_aspect = read.distortion.pixel_aspect;
     EXPECT_EQ(read.distortion, rig.distortion);
     EXPECT_NEAR(read.pitch_down_rad, rig.pitch_down_rad, 1e-15);
     EXPECT_LT((read.right_turn_rad - rig.right_turn_rad).norm(), 1e-14);
@@ -116,6 +119,7 @@ TEST(CalibrationFile, RefusesWhatItCannotComputeWith) {
   EXPECT_THAT(complaint_of("image_width: 640", "image_width: 0"), HasSubstr("positive sizes"));
   EXPECT_THAT(complaint_of("data: [ 0., 0.,", "data: [ -3., 0.,"), HasSubstr("D: expected a lens"));
   EXPECT_THAT(complaint_of("data: [ 500.", "data: [ .Nan"), testing::Not(HasSubstr("no complaint")));
+  EXPECT_THAT(complaint_of("data: [ 500.", "data: [ 1100."), HasSubstr("K: expected focal lengths"));
   EXPECT_THAT(complaint_of("rows: 3", "rows: 2000000000"), HasSubstr("K: expected a matrix of 3 x 3"));
   EXPECT_THAT(complaint_of("K: !!opencv-matrix", "K: 3 #"), HasSubstr("rig.yaml: "));
 }

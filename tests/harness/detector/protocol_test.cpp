@@ -15,7 +15,8 @@ DetectorSetup odd_setup() {
   DetectorSetup setup;
   setup.rig = {{640, 480, 512.3456789012345, 1.0 / 3.0, 239.5}, 0.1 + 0.02, 0.3, 1e-17};
   setup.rig.right_turn_rad = {0.1 / 3.0, -0.01, 1e-9};
-  setup.rig.distortion = {.k1 = -0.1 / 3.0, .k2 = 0.01, .p1 = 1e-3, .p2 = -2e-3, .k3 = 1e-5};
+  setup.rig.distortion = {
+      .k1 = -0.1 / 3.0, .k2 = 0.01, .p1 = 1e-3, .p2 = -2e-3, .k3 = 1e-5, .pixel_aspect = 1.1};
   setup.ball_radius_m = 0.07 / 3.0;
   setup.noise_sd_levels = 2.0 / 7.0;
   setup.encoding = worlds::Encoding::kGamma;

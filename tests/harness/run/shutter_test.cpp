@@ -279,6 +279,17 @@ TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
   EXPECT_GT(std::abs(mean_range_ratio(scenario) - 1.0), 0.003);
 }
 
+// What is 10 % shorter than it is wide is taken for nearer, and aside, by who does not know of it.
+// Mutation: the aspect left out of what is put straight.
+TEST(Rigs, PixelsThatAreNotSquareAreMeasuredAsSquareOnesByWhoKnowsOfIt) {
+  for (const double aspect : {0.8, 0.95, 1.2}) {
+    worlds::Scenario scenario = bend();
+    scenario.rig.distortion.pixel_aspect = aspect;
+    scenario.believed_rig = scenario.rig;
+    EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003) << aspect;
+  }
+}
+
 // Rectified pictures are larger than what was taken, and black there: a ball that the picture's border cuts
 // looks whole in them, of another shape. Mutation: rectification that does not ask what the eye has seen.
 TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
