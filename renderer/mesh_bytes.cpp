@@ -17,6 +17,10 @@ class Writer {
   void operator()(const Value& value, std::size_t count = 1) {
     bytes_->append(reinterpret_cast<const char*>(&value), count * sizeof(Value));
   }
+  void text(const std::string& text) {
+    (*this)(text.size());
+    bytes_->append(text);
+  }
 
  private:
   std::string* bytes_;
@@ -33,6 +37,14 @@ class Reader {
     std::memcpy(&value, from_, count * sizeof(Value));
     from_ += count * sizeof(Value);
     left_ -= count * sizeof(Value);
+  }
+  void text(std::string& text) {
+    std::size_t size = 0;
+    (*this)(size);
+    need(size, 1);
+    text.assign(from_, size);
+    from_ += size;
+    left_ -= size;
   }
   /// Checks that so many things are still there.
   void need(std::size_t count, std::size_t each) const {
@@ -75,6 +87,11 @@ std::string packed(const Mesh& mesh) {
     pass_texture(write, texture);
     write(*texture.rgb.data(), texture.rgb.size());
   }
+  write(mesh.missing_textures.size());
+  for (const MissingTexture& texture : mesh.missing_textures) {
+    write.text(texture.name);
+    write(texture.leads_out);
+  }
   return bytes;
 }
 
@@ -96,6 +113,13 @@ Mesh unpacked(const std::string& bytes) {
     read.need(size, 1);
     texture.rgb.resize(size);
     read(*texture.rgb.data(), size);
+  }
+  read(count);
+  read.need(count, 1);
+  mesh.missing_textures.resize(count);
+  for (MissingTexture& texture : mesh.missing_textures) {
+    read.text(texture.name);
+    read(texture.leads_out);
   }
   return mesh;
 }

@@ -19,6 +19,7 @@
 #include "renderer/child_call.h"
 #include "renderer/mesh_bytes.h"
 #include "renderer/texture_file.h"
+#include "renderer/uv_transform.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -34,10 +35,15 @@ constexpr unsigned kTextureSteps = kSteps | aiProcess_TransformUVCoords;
   throw std::runtime_error(why);
 }
 
-void check_ending(const std::filesystem::path& file) {
+std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+void check_ending(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
   if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
     refuse(fmt::format("mesh files end in obj, dae, gltf, glb, stl or fbx, not '{}'", ending));
   }
@@ -47,13 +53,14 @@ Eigen::Vector3d vector(const aiVector3D& v) {
   return {double{v.x}, double{v.y}, double{v.z}};
 }
 
-/// The colour of a material under white light; a light grey where the file does not say.
-Eigen::Vector3d diffuse_colour(const aiMaterial& material) {
-  aiColor3D colour(0.7F, 0.7F, 0.7F);
-  material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+/// The colour of a material under white light. Where the file does not say it is a light grey, or that of the
+/// texture alone.
+Eigen::Vector3d diffuse_colour(const aiMaterial& material, bool has_texture) {
+  const Eigen::Vector3d unsaid = Eigen::Vector3d::Constant(has_texture ? 1.0 : 0.7);
+  aiColor3D colour;  // where there is none, asking for it makes it black
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != aiReturn_SUCCESS) return unsaid;
   const Eigen::Vector3d rgb(double{colour.r}, double{colour.g}, double{colour.b});
-  if (!rgb.allFinite()) return Eigen::Vector3d::Constant(0.7);
-  return rgb.cwiseMax(0.0).cwiseMin(1.0);
+  return rgb.allFinite() ? rgb.cwiseMax(0.0).cwiseMin(1.0) : unsaid;
 }
 
 Triangle read_triangle(const aiMesh& mesh, const aiFace& face) {
@@ -94,70 +101,109 @@ void colour_corners(const aiMesh& mesh, const aiFace& face, Triangle& triangle) 
   }
 }
 
+/// How a material shows a picture.
+struct Laid {
+  int texture = -1;      ///< index into Mesh::textures
+  unsigned channel = 0;  ///< which of a corner's places on textures is meant
+  UvTransform transform;
+};
+
 /// Where a face's corners lie on a picture; what has no such places has no picture.
-void lay_on(const Texture& texture, int index, const aiMesh& mesh, const aiFace& face, Triangle& triangle) {
-  if (!mesh.HasTextureCoords(0)) return;
+void lay_on(const Texture& texture, const Laid& laid, const aiMesh& mesh, const aiFace& face,
+            Triangle& triangle) {
+  if (!mesh.HasTextureCoords(laid.channel)) return;
+  const Eigen::Vector2d size_px(texture.width_px, texture.height_px);
   for (unsigned i = 0; i < 3; ++i) {
-    const Eigen::Vector3d place = vector(mesh.mTextureCoords[0][face.mIndices[i]]);  // from the lower left
+    const Eigen::Vector3d from_below = vector(mesh.mTextureCoords[laid.channel][face.mIndices[i]]);
+    const Eigen::Vector2d place = laid.transform({from_below.x(), 1.0 - from_below.y()});
     if (!(place.cwiseAbs().maxCoeff() <= kFarthest)) refuse("a place on a texture is not finite, or absurd");
-    triangle.place_px[i] =
-        Eigen::Vector2d(place.x() * texture.width_px, (1.0 - place.y()) * texture.height_px).cast<float>();
+    triangle.place_px[i] = place.cwiseProduct(size_px).cast<float>();
   }
-  triangle.texture = index;
+  triangle.texture = laid.texture;
 }
+
+/// What is asked of a file.
+struct Request {
+  const std::filesystem::path& file;
+  const worlds::MeshLimits& limits;
+  bool with_textures = false;
+  const std::vector<std::string>& texture_folders;
+};
 
 /// What the child does.
 class Parser {
  public:
-  Parser(const std::filesystem::path& file, const worlds::MeshLimits& limits, bool with_textures)
-      : limits_(limits), folder_(file.parent_path()), with_textures_(with_textures) {
-    scene_ = &import(importer_, file, with_textures ? kTextureSteps : kSteps);
-  }
+  explicit Parser(const Request& request)
+      : request_(request),
+        ending_(ending_of(request.file)),
+        folders_(request.file, request.texture_folders),
+        scene_(&import(importer_, request.file, moves_textures() ? kTextureSteps : kSteps)) {}
 
   Mesh parse() {
     for (unsigned m = 0; m < scene_->mNumMeshes; ++m) {
       const aiMesh& mesh = *scene_->mMeshes[m];
       if (mesh.mMaterialIndex >= scene_->mNumMaterials) refuse("a part has a material that does not exist");
       append(mesh);
-      if (result_.triangles.size() > static_cast<std::size_t>(limits_.triangles))
-        refuse(fmt::format("has more than {} triangles", limits_.triangles));
+      if (result_.triangles.size() > static_cast<std::size_t>(request_.limits.triangles))
+        refuse(fmt::format("has more than {} triangles", request_.limits.triangles));
     }
     if (result_.triangles.empty()) refuse("the mesh has no faces");
     return std::move(result_);
   }
 
  private:
+  bool is_gltf() const { return ending_ == ".gltf" || ending_ == ".glb"; }
+  /// Whether assimp is asked to move places on textures; uv_transform.h says why not those of glTF.
+  bool moves_textures() const { return request_.with_textures && !is_gltf(); }
+
   void append(const aiMesh& mesh) {
-    const Eigen::Vector3d colour_rgb = diffuse_colour(*scene_->mMaterials[mesh.mMaterialIndex]);
-    const int texture = with_textures_ ? texture_of(mesh.mMaterialIndex) : -1;
+    const Laid laid = request_.with_textures ? laid_by(mesh.mMaterialIndex) : Laid{};
+    const Eigen::Vector3d colour_rgb = colour_of(*scene_->mMaterials[mesh.mMaterialIndex], laid.texture >= 0);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;
       Triangle triangle = read_triangle(mesh, face);
       triangle.colour_rgb = colour_rgb;
-      if (with_textures_) colour_corners(mesh, face, triangle);
-      if (texture >= 0)
-        lay_on(result_.textures[static_cast<std::size_t>(texture)], texture, mesh, face, triangle);
+      if (request_.with_textures) colour_corners(mesh, face, triangle);
+      if (laid.texture >= 0)
+        lay_on(result_.textures[static_cast<std::size_t>(laid.texture)], laid, mesh, face, triangle);
       result_.triangles.push_back(triangle);
     }
   }
 
-  /// The index of a material's picture, read once; -1 where it has none.
-  int texture_of(unsigned material) {
-    const auto [known, is_new] = textures_.try_emplace(material, -1);
-    if (!is_new) return known->second;
-    std::optional<Texture> texture = read_texture(*scene_, *scene_->mMaterials[material], folder_, limits_);
-    if (!texture) return -1;
-    result_.textures.push_back(*std::move(texture));
-    return known->second = static_cast<int>(result_.textures.size()) - 1;
+  /// Collada gives a material a colour or a texture; beside a texture assimp has a grey of its own.
+  Eigen::Vector3d colour_of(const aiMaterial& material, bool has_texture) const {
+    return has_texture && ending_ == ".dae" ? Eigen::Vector3d::Ones() : diffuse_colour(material, has_texture);
   }
 
-  const worlds::MeshLimits& limits_;
-  std::filesystem::path folder_;
-  bool with_textures_;
+  /// How a material shows its picture, which is read once.
+  Laid laid_by(unsigned index) {
+    const auto [known, is_new] = laid_.try_emplace(index);
+    if (!is_new) return known->second;
+    const aiMaterial& material = *scene_->mMaterials[index];
+    std::optional<MaterialTexture> shown = read_texture(*scene_, material, folders_, request_.limits);
+    if (!shown) return {};
+    if (shown->missing) note(*shown->missing);
+    Laid& laid = known->second;
+    if (int channel = 0; material.Get(AI_MATKEY_UVWSRC(shown->type, 0), channel) == aiReturn_SUCCESS)
+      laid.channel = static_cast<unsigned>(channel);
+    if (is_gltf()) laid.transform = gltf_transform(material, shown->type);
+    result_.textures.push_back(std::move(shown->texture));
+    laid.texture = static_cast<int>(result_.textures.size()) - 1;
+    return laid;
+  }
+
+  void note(const MissingTexture& texture) {
+    auto& missing = result_.missing_textures;
+    if (std::find(missing.begin(), missing.end(), texture) == missing.end()) missing.push_back(texture);
+  }
+
+  Request request_;
+  std::string ending_;
+  TextureFolders folders_;
   Assimp::Importer importer_;
-  const aiScene* scene_ = nullptr;
-  std::map<unsigned, int> textures_;  // by material
+  const aiScene* scene_;
+  std::map<unsigned, Laid> laid_;  // by material
   Mesh result_;
 };
 
@@ -176,24 +222,26 @@ std::string one_line(std::string text) {
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
-Mesh read(const std::filesystem::path& file, const worlds::MeshLimits& limits, bool with_textures) {
+Mesh read(const Request& request) {
   try {
-    check_file(file, limits);
-    return unpacked(call_in_child([&] { return packed(Parser(file, limits, with_textures).parse()); },
-                                  {limits.seconds, static_cast<std::size_t>(limits.memory_mib) << 20U}));
+    check_file(request.file, request.limits);
+    return unpacked(
+        call_in_child([&] { return packed(Parser(request).parse()); },
+                      {request.limits.seconds, static_cast<std::size_t>(request.limits.memory_mib) << 20U}));
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
+    throw std::runtime_error(fmt::format("{}: {}", request.file.string(), one_line(error.what())));
   }
 }
 
 }  // namespace
 
 std::vector<Triangle> read_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
-  return read(file, limits, false).triangles;
+  return read({file, limits, false, {}}).triangles;
 }
 
-Mesh read_textured_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits) {
-  return read(file, limits, true);
+Mesh read_textured_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits,
+                        const std::vector<std::string>& folders) {
+  return read({file, limits, true, folders});
 }
 
 }  // namespace stereobench::renderer

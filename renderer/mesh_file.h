@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "renderer/texture.h"
+#include "renderer/texture_search.h"
 #include "worlds/types.h"
 
 namespace stereobench::renderer {
@@ -27,6 +28,7 @@ struct Triangle {
 struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<Texture> textures;
+  std::vector<MissingTexture> missing_textures = {};  ///< each once; there is grey in their place
 };
 
 /// Reads all triangles of a mesh file; larger faces are cut into triangles, points and lines have no area and
@@ -38,7 +40,9 @@ struct Mesh {
 std::vector<Triangle> read_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits = {});
 
 /// The same with the pictures that the file's materials name or hold.
-/// @throws std::runtime_error also when a picture does not exist, cannot be read, or is larger than a limit
-Mesh read_textured_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits = {});
+/// @param folders that textures may lie in besides those that TextureFolders knows by itself
+/// @throws std::runtime_error also when a picture cannot be read, or is larger than a limit
+Mesh read_textured_mesh(const std::filesystem::path& file, const worlds::MeshLimits& limits = {},
+                        const std::vector<std::string>& folders = {});
 
 }  // namespace stereobench::renderer

@@ -1,5 +1,7 @@
 #include "renderer/mesh_shelf.h"
 
+#include <set>
+
 namespace stereobench::renderer {
 namespace {
 
@@ -24,8 +26,18 @@ FormReader MeshShelf::forms() {
   };
 }
 
+std::vector<std::string> MeshShelf::missing_textures(const worlds::World& world) {
+  std::set<std::string> lines;
+  for (const worlds::MeshInstance& mesh : world.meshes) {
+    if (mesh.shape != worlds::MeshShape::kFile || !shows_file(world, mesh)) continue;
+    const auto& missing = entry(world, mesh).mesh.missing_textures;
+    if (!missing.empty()) lines.insert(mesh.file + ": " + complaint(missing));
+  }
+  return {lines.begin(), lines.end()};
+}
+
 const MeshShelf::Entry& MeshShelf::entry(const worlds::World& world, const worlds::MeshInstance& mesh) {
-  const Key key = {mesh.file, shows_file(world, mesh), world.mesh_limits};
+  const Key key = {mesh.file, shows_file(world, mesh), world.mesh_limits, world.texture_search.folders};
   const auto known = entries_.find(key);
   if (known != entries_.end()) return known->second;
   Mesh read = read_form(world, mesh);

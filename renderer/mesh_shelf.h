@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "renderer/mesh_surfaces.h"
 #include "worlds/solids.h"
@@ -20,9 +21,13 @@ class MeshShelf {
   /// For place_meshes. @throws std::runtime_error as read_form
   FormReader forms();
 
+  /// The textures of a world's meshes that are nowhere, a line for each file that names some.
+  /// @throws std::runtime_error as read_form
+  std::vector<std::string> missing_textures(const worlds::World& world);
+
  private:
-  /// A file, whether it is read with its textures, and what it may cost.
-  using Key = std::tuple<std::string, bool, worlds::MeshLimits>;
+  /// A file, whether it is read with its textures, what it may cost, and where its textures may lie.
+  using Key = std::tuple<std::string, bool, worlds::MeshLimits, std::vector<std::string>>;
   struct Entry {
     Mesh mesh;
     std::shared_ptr<const worlds::TriangleTree> solid;

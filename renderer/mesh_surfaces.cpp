@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "renderer/opposite_faces.h"
 #include "renderer/texture_file.h"
@@ -76,9 +76,12 @@ struct Shape {
   int first_texture = 0;  ///< of the world's
 };
 
-/// Puts a shape's textures beside the others.
+/// Puts a shape's textures beside the others, and notes which are missing.
 Shape add_shape(Mesh form, const worlds::World& world, const worlds::MeshInstance& mesh,
-                std::vector<Texture>& textures) {
+                MeshSurfaces& surfaces) {
+  std::vector<Texture>& textures = surfaces.textures;
+  if (!form.missing_textures.empty())
+    surfaces.missing.push_back(fmt::format("{}: {}", mesh.file, complaint(form.missing_textures)));
   Shape shape{std::move(form.triangles), {}, static_cast<int>(textures.size())};
   shape.one_sided = have_opposites(shape.triangles);
   std::move(form.textures.begin(), form.textures.end(), std::back_inserter(textures));
@@ -140,7 +143,8 @@ bool shows_file(const worlds::World& world, const worlds::MeshInstance& mesh) {
 
 Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh) {
   if (mesh.shape != worlds::MeshShape::kFile) return {unit_shape(mesh.shape), {}};
-  if (shows_file(world, mesh)) return read_textured_mesh(mesh.file, world.mesh_limits);
+  if (shows_file(world, mesh))
+    return read_textured_mesh(mesh.file, world.mesh_limits, world.texture_search.folders);
   return {read_mesh(mesh.file, world.mesh_limits), {}};
 }
 
@@ -151,12 +155,15 @@ MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read) {
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const worlds::MeshInstance& mesh = world.meshes[i];
     const auto [shape, is_new] = shapes.try_emplace({mesh.shape, mesh.file});
-    if (is_new) shape->second = add_shape(read(world, mesh), world, mesh, surfaces.textures);
+    if (is_new) shape->second = add_shape(read(world, mesh), world, mesh, surfaces);
     if (surfaces.vertices.size() + 3 * shape->second.triangles.size() > most_vertices)
       throw std::runtime_error(fmt::format("{}: with it the world has more than {} triangles", mesh.file,
                                            world.mesh_limits.triangles));
     place(world, static_cast<int>(i), shape->second, surfaces);
   }
+  if (!surfaces.missing.empty() && world.texture_search.missing == worlds::MissingTexturePolicy::kError)
+    throw std::runtime_error(fmt::format("{}; or draw grey in their place with world.missing_texture: grey",
+                                         fmt::join(surfaces.missing, "\n")));
   return surfaces;
 }
 

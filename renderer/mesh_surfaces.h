@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "renderer/mesh_file.h"
@@ -27,6 +28,7 @@ struct MeshSurfaces {
   std::vector<SurfaceVertex> vertices;  ///< positions in the world frame
   std::vector<MeshRun> runs;            ///< in the order of World::meshes, at least one for each
   std::vector<Texture> textures;        ///< of material kFile
+  std::vector<std::string> missing;     ///< a line for each file whose textures are grey, as they are nowhere
 };
 
 /// Whether an instance of the same file shows the file's colours.
@@ -38,8 +40,8 @@ Mesh read_form(const worlds::World& world, const worlds::MeshInstance& mesh);
 using FormReader = std::function<Mesh(const worlds::World& world, const worlds::MeshInstance& mesh)>;
 
 /// Reads each mesh file once and puts its instances in their places.
-/// @throws std::runtime_error as read_form, or naming the file with which there are too many triangles or
-/// texels
+/// @throws std::runtime_error as read_form, naming the file with which there are too many triangles or
+/// texels, or, a line for each file, all textures that are missing, unless the world takes grey for them
 MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read = read_form);
 
 /// Whether any of a run can be in the eye's picture.

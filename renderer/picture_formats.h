@@ -12,6 +12,10 @@ cv::Mat decode_tiff(PictureBytes bytes, int longest_px);
 cv::Mat decode_bmp(PictureBytes bytes, int longest_px);
 /// P2, P3, P5 and P6: shades or colours, in figures or in bytes.
 cv::Mat decode_pnm(PictureBytes bytes, int longest_px);
+/// Colours of 15 to 32 bits, palettes and shades, packed or not, from any corner.
+cv::Mat decode_tga(PictureBytes bytes, int longest_px);
+/// Whether a file begins as a TGA does, which has no signature there: what else it may be is asked first.
+bool is_tga(PictureBytes bytes);
 
 /// That a file ends before its picture does, or is damaged. @param library what the library of its format
 /// says

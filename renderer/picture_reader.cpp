@@ -52,7 +52,8 @@ cv::Mat decode_picture(PictureBytes bytes, int longest_px) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const Format& format : kFormats)
     if (text.starts_with(format.begins_with)) return format.decode(bytes, longest_px);
-  throw std::runtime_error("is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)");
+  if (is_tga(bytes)) return decode_tga(bytes, longest_px);
+  throw std::runtime_error("is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM, TGA)");
 }
 
 std::vector<std::uint8_t> picture_bytes(const std::filesystem::path& file) {

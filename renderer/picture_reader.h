@@ -15,7 +15,7 @@ namespace stereobench::renderer {
 /// What a file says, byte for byte.
 using PictureBytes = std::span<const std::uint8_t>;
 
-/// The picture of a PNG, JPEG, TIFF, BMP or PNM file, told apart by how it begins. 16 bits become 8
+/// The picture of a PNG, JPEG, TIFF, BMP, PNM or TGA file, told apart by how it begins. 16 bits become 8
 /// (rounded), palettes become colours, transparency is left out; a JPEG's note of how the camera was held
 /// turns nothing.
 /// @param longest_px what its longer side may have: a larger one is refused by what the file says of its

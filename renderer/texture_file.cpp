@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 #include <opencv2/imgproc.hpp>
@@ -13,10 +14,10 @@
 namespace stereobench::renderer {
 namespace {
 
-/// A file's name as people write it: from this folder, with either slash.
-std::filesystem::path located(std::string name, const std::filesystem::path& folder) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return folder / name;  // an absolute name stays
+/// What is drawn in place of a texture that is nowhere: half of the light.
+Texture grey() {
+  constexpr std::uint8_t kHalfTheLight = 188;  // as sRGB
+  return {1, 1, {true, true}, {kHalfTheLight, kHalfTheLight, kHalfTheLight}};
 }
 
 Texture as_texture(const cv::Mat& picture) {
@@ -55,19 +56,22 @@ Texture read_texture(const std::filesystem::path& file, const worlds::MeshLimits
   return as_texture(decode_picture(picture_bytes(file), limits.texture_px));
 }
 
-std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& material,
-                                    const std::filesystem::path& folder, const worlds::MeshLimits& limits) {
+std::optional<MaterialTexture> read_texture(const aiScene& scene, const aiMaterial& material,
+                                            const TextureFolders& folders, const worlds::MeshLimits& limits) {
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
     aiString path;
     if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS) continue;
     const std::string name = path.C_Str();
     const aiTexture* inside = scene.GetEmbeddedTexture(name.c_str());
+    const TextureFolders::Found found = inside != nullptr ? TextureFolders::Found{} : folders.find(name);
+    if (inside == nullptr && found.file.empty())
+      return MaterialTexture{grey(), type, MissingTexture{name, found.leads_out}};
     try {
       Texture texture = inside != nullptr ? as_texture(embedded(*inside, limits.texture_px))
-                                          : read_texture(located(name, folder), limits);
+                                          : read_texture(found.file, limits);
       texture.repeats = {repeats(material, type, _AI_MATKEY_MAPPINGMODE_U_BASE),
                          repeats(material, type, _AI_MATKEY_MAPPINGMODE_V_BASE)};
-      return texture;
+      return MaterialTexture{std::move(texture), type};
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("its texture {} {}", name, error.what()));
     }

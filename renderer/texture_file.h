@@ -8,6 +8,7 @@
 #include <assimp/scene.h>
 
 #include "renderer/texture.h"
+#include "renderer/texture_search.h"
 #include "worlds/types.h"
 
 namespace stereobench::renderer {
@@ -17,13 +18,19 @@ namespace stereobench::renderer {
 /// ..."
 Texture read_texture(const std::filesystem::path& file, const worlds::MeshLimits& limits);
 
+/// A material's picture.
+struct MaterialTexture {
+  Texture texture;
+  aiTextureType type = aiTextureType_NONE;               ///< where the material keeps what it says of it
+  std::optional<MissingTexture> missing = std::nullopt;  ///< then the texture is grey
+};
+
 /// The picture of a material's diffuse (or base) colour: beside the mesh file, or within it. Transparency is
 /// passed over, and what the file would mirror is repeated.
-/// @param folder of the mesh file
 /// @return none where the material has one colour
-/// @throws std::runtime_error when it does not exist, is no picture, or is larger than a limit
-std::optional<Texture> read_texture(const aiScene& scene, const aiMaterial& material,
-                                    const std::filesystem::path& folder, const worlds::MeshLimits& limits);
+/// @throws std::runtime_error when it is no picture, or is larger than a limit
+std::optional<MaterialTexture> read_texture(const aiScene& scene, const aiMaterial& material,
+                                            const TextureFolders& folders, const worlds::MeshLimits& limits);
 
 /// Whether these are more than a world may have.
 bool exceed(const std::vector<Texture>& textures, const worlds::MeshLimits& limits);

@@ -15,6 +15,7 @@ constexpr Interval kRadius_m = {1e-3, 10.0};
 constexpr Interval kShare = {0.0, 1.0};
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
+constexpr std::size_t kMostFolders = 64;
 constexpr std::size_t kOurMaterials = 6;  // all but a file's
 constexpr std::string_view kNoFloor = "none";
 
@@ -111,6 +112,17 @@ Light read_light(const YamlValue& value) {
   return light;
 }
 
+TextureSearch read_texture_search(const YamlMap& world, const std::filesystem::path& folder) {
+  TextureSearch search;
+  for (const YamlValue& value : world.list("texture_folders")) {
+    const std::filesystem::path path = std::filesystem::absolute(folder / value.text()).lexically_normal();
+    if (!std::filesystem::is_directory(path)) value.fail("expected a folder that exists");
+    search.folders.push_back(path.string());
+  }
+  search.missing = read_choice(world, "missing_texture", search.missing);
+  return search;
+}
+
 }  // namespace
 
 const KeyGroup& ball_keys() {
@@ -172,6 +184,13 @@ const KeyGroup& world_keys() {
           group("meshes", mesh_keys(), "Things from mesh files, boxes and balls that are no landmarks.")
               .list(0, kMostWalls),
           group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost."),
+          text("texture_folders",
+               "Folders, relative to the scenario's, in which textures of mesh files may also lie.")
+              .list(1, kMostFolders)
+              .otherwise_says("beside the mesh file and in its ../materials/textures alone"),
+          choice("missing_texture", {"error", "grey"},
+                 "What becomes of a mesh whose texture is nowhere: an error, or grey in its place.")
+              .otherwise("error"),
           choice("floor", floor_names(), "What the floor is made of; none: nothing is seen in its place.")
               .otherwise("tiles"),
           number("floor_tint_rgb", kTint, "Factors on the floor's red, green and blue.")
@@ -202,6 +221,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   for (const YamlValue& mesh : map.list("meshes"))
     world.meshes.push_back(read_mesh(mesh, folder, world.balls));
   if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
+  world.texture_search = read_texture_search(map, folder);
   read_floor(map, folder, world);
   if (const auto light = map.find("light")) world.light = read_light(*light);
   world.sky_rgb = read_vector<3>(map, "sky_rgb", world.sky_rgb);

@@ -77,6 +77,16 @@ struct MeshLimits {
   auto operator<=>(const MeshLimits&) const = default;
 };
 
+/// What becomes of a mesh whose texture is nowhere.
+enum class MissingTexturePolicy { kError, kGrey };
+
+/// Where textures of mesh files may lie, besides beside the file and in ../materials/textures.
+struct TextureSearch {
+  std::vector<std::string> folders = {};  ///< absolute
+  MissingTexturePolicy missing = MissingTexturePolicy::kError;
+  auto operator<=>(const TextureSearch&) const = default;
+};
+
 /// Sunlight without shadows: Lambert's cosine law above a constant ambient part.
 struct Light {
   Eigen::Vector3d towards_light = {0.3, 0.2, 0.9};  ///< any length but zero
@@ -90,6 +100,7 @@ struct World {
   std::vector<MeshInstance> meshes;
   MeshLimits mesh_limits;
   bool has_floor = true;  ///< false: nothing is seen where the floor would be
+  TextureSearch texture_search;  ///< of meshes
   Material floor = Material::kTiles;
   SurfaceTexture floor_texture;                              ///< of kFile
   Eigen::Vector3d floor_tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours

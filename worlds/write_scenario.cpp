@@ -147,6 +147,8 @@ void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node ro
   YAML::Node world = root["world"];
   name_file_from_anywhere(folder, world["floor_texture"]);
   for (YAML::Node wall : world["walls"]) name_file_from_anywhere(folder, wall["texture"]);
+  for (YAML::Node searched : world["texture_folders"])
+    searched = std::filesystem::absolute(folder / searched.as<std::string>()).lexically_normal().string();
   for (const char* surface : {"walls", "floor"}) {
     if (!root["randomise"] || !root["randomise"][surface]) continue;
     for (YAML::Node texture : root["randomise"][surface]["textures"])

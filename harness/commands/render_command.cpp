@@ -108,6 +108,7 @@ int render(const RenderArguments& arguments) {
   const std::vector<RenderTask> tasks = render_tasks(arguments, scenario, out);
   check_folders(tasks, out);
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
+  warn_of_missing_textures(scenario, *arguments.scenario.meshes);
   if (run.dry_run) {
     for (const RenderTask& task : tasks)
       fmt::print("{}: would render frames {} of seed {} to {}\n", scenario.name, text_of(task.frames),

@@ -25,6 +25,7 @@ int run(const ScenarioArguments& arguments) {
   const auto gates = gates_of(scenario);
   check_metrics(gates, result_without_values(scenario));
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
+  warn_of_missing_textures(scenario, *arguments.meshes);
   if (arguments.run.dry_run) {
     fmt::print("{}: would run {}; {} gates; results: {}\n", scenario.name, work_of(scenario), gates.size(),
                (out / "").string());

@@ -91,6 +91,14 @@ void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur) {
       std::ceil(blur.most_step_px * most));
 }
 
+void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshShelf& meshes) {
+  if (scenario.sensor != worlds::SensorKind::kStereo ||
+      scenario.world.texture_search.missing != worlds::MissingTexturePolicy::kGrey)
+    return;
+  for (const std::string& line : meshes.missing_textures(scenario.world))
+    fmt::print(stderr, "stereobench: warning: drawn in grey: {}\n", line);
+}
+
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend) {
   return scenario.sensor == worlds::SensorKind::kStereo ? renderer::name_of(backend) : "none";
 }

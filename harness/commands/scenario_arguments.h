@@ -49,6 +49,11 @@ void warn_of_crossings(std::span<const worlds::Crossing> crossings);
 /// the instants that it is made of.
 void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur);
 
+/// Says on standard error which textures are grey since they are nowhere, a line for each mesh file; nothing
+/// where the scenario does not allow it, which is an error later.
+/// @throws std::runtime_error as MeshShelf::missing_textures
+void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshShelf& meshes);
+
 /// What run.json says of who rendered: the back end's name, or "none" for a sensor without pixels.
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend);
 

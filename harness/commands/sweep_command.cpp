@@ -108,6 +108,7 @@ int run_sweep(const SweepArguments& arguments) {
   for (const std::string& text : arguments.variations) sweep.variations.push_back(parse_variation(text));
   std::vector<CellPlan> plans = plans_of(arguments, sweep.variations);
   sweep.name = plans.front().scenario.name;
+  warn_of_missing_textures(plans.front().scenario, *base.meshes);
   const std::filesystem::path out = output_folder(base.run, sweep.name + "_sweep");
   if (base.run.dry_run) {
     for (const CellPlan& plan : plans)

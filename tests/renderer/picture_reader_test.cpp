@@ -217,7 +217,7 @@ TEST(PictureReader, SaysInOneLineWhatIsWrong) {
   huge_png[17] = 15;  // the second byte of the width: 983,041 pixels
   EXPECT_THAT(complaint(huge_png), StartsWith("is no whole picture: ")) << "its checksum";
   EXPECT_EQ(complaint({}), "is empty");
-  EXPECT_EQ(complaint(bytes_of("hello")), "is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)");
+  EXPECT_EQ(complaint(bytes_of("hello")), "is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM, TGA)");
   EXPECT_EQ(complaint(bytes_of("P6 60000 60000 255\n")),
             "is 60000 x 60000 pixels, more than 268435456 in all");
   EXPECT_EQ(complaint(bytes_of("P5 3 3 255\n12345678")), "is no whole picture: it is cut short");

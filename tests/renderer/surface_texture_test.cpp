@@ -241,7 +241,7 @@ TEST(SurfaceTexture, ThatIsMissingBrokenOrTooLargeIsOneLine) {
   world.floor = worlds::Material::kPlain;
   folder.write("p.png", std::string("no picture"));
   EXPECT_EQ(complaint(world), "room.yaml:7: world.walls[0].texture.file: " + file +
-                                  " is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)");
+                                  " is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM, TGA)");
   std::filesystem::remove(file);
   EXPECT_EQ(complaint(world), "room.yaml:7: world.walls[0].texture.file: " + file + " does not exist");
 }

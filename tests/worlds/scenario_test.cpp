@@ -13,6 +13,7 @@
 #include "tests/worlds/scenario_text.h"
 #include "worlds/path.h"
 #include "worlds/seeds.h"
+#include "worlds/write_scenario.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -301,6 +302,27 @@ TEST(ScenarioMesh, SaysUnitUpAxisPoseScaleAndMaterial) {
   EXPECT_DOUBLE_EQ(mesh.heading_rad, 30 * kDegree);
   EXPECT_EQ(mesh.scale, Eigen::Vector3d(2, 2, 2));
   EXPECT_EQ(mesh.material, Material::kFile);
+}
+
+TEST(ScenarioMesh, TexturesAreSoughtWhereTheScenarioSays) {
+  const ScenarioFolder folder;
+  const auto at = [&](const std::string& lines) {
+    return read_scenario(folder.write("small.yaml", small_scenario_with("floor: bricks", lines)))
+        .world.texture_search;
+  };
+  EXPECT_EQ(at("floor: bricks"), TextureSearch{});
+  const std::filesystem::path own = folder.write("small.yaml", "").parent_path();
+  const TextureSearch search =
+      at("texture_folders: [., " + own.root_path().string() + "]\n  missing_texture: grey");
+  EXPECT_EQ(search.folders, (std::vector<std::string>{(own / "").string(), own.root_path().string()}));
+  EXPECT_EQ(search.missing, MissingTexturePolicy::kGrey);
+  const ScenarioFolder other;
+  EXPECT_EQ(read_scenario(other.write("copy.yaml", written_out(own / "small.yaml", {}, std::nullopt)))
+                .world.texture_search,
+            search);
+  EXPECT_THAT([&] { at("texture_folders: [nowhere]"); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
+                  "20: world.texture_folders[0]: expected a folder that exists (got nowhere)")));
 }
 
 TEST(ScenarioMesh, LimitsAreTheScenarios) {

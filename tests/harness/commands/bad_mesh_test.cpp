@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string scenario_with(const std::string& mesh, const std::string& limits) {
+std::string scenario_with(const std::string& mesh, const std::string& limits, const std::string& more = {}) {
   return R"(name: meshed
 seeds: 0
 particles: 5
@@ -25,7 +25,7 @@ path: {kind: circle, radius_m: 1, speed_mps: 0.5, laps: 0.1, step_s: 0.5}
 world:
   balls: [{colour: 0, at_m: [2, 0, 0.1]}]
   mesh_limits: {)" +
-         limits + "}\n  meshes: [{file: " + mesh + ", at_m: [1, 1, 0]}]\n";
+         limits + "}\n  meshes: [{file: " + mesh + ", at_m: [1, 1, 0]" + more + "}]\n";
 }
 
 struct BadMesh {
@@ -93,6 +93,26 @@ TEST(RenderCommand, TakesTheMendedScenarioWhereAMeshCouldNotBeRead) {
   const Outcome mended = render("good", "0");
   EXPECT_EQ(mended.exit_code, 0) << mended.err;
   EXPECT_EQ(render("bad", "0").exit_code, 2) << "now there are frames";
+}
+
+// Mutation: the warning for the scenario as it stands, which allows nothing.
+TEST(MissingTextures, AreAnErrorOrAWarningForEachFile) {
+  const ScratchFolder scratch;
+  scratch.write("house.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd ../out.png\n");
+  const std::string mesh = scratch.write("house.obj",
+                                         "mtllib house.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl a\n"
+                                         "f 1/1 2/1 3/1\nusemtl b\nf 1/1 3/1 2/1\n");
+  const std::string file = scratch.write("meshed.yaml", scenario_with(mesh, "", ", material: file"));
+  const std::string out = (scratch.path() / "out").string();
+  const Outcome refused = run_stereobench({"render", file, "--out", out});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr(mesh + ": its texture gone.png does not exist"));
+  EXPECT_THAT(refused.err, HasSubstr("its texture ../out.png leads out of the mesh's folder"));
+  const Outcome grey = run_stereobench(
+      {"run", file, "--out", out, "--set", "world.missing_texture=grey", "--set", "gates=[]"});
+  EXPECT_EQ(grey.exit_code, 0) << grey.err;
+  EXPECT_THAT(grey.err,
+              HasSubstr("warning: drawn in grey: " + mesh + ": its texture gone.png does not exist"));
 }
 
 }  // namespace

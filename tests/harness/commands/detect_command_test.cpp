@@ -205,7 +205,7 @@ TEST_F(Dataset, OddInputsAreOneLine) {
       {"NoPicture", {}, "expected LEFT"},
       {"Missing", {place + "none.png"}, "none.png: no such file"},
       {"Empty", {place + "empty.png"}, "empty.png: is empty"},
-      {"Text", {place + "text.png"}, "is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM)"},
+      {"Text", {place + "text.png"}, "is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM, TGA)"},
       {"Truncated", {place + "truncated.png"}, "is no whole picture"},
       {"HeaderAlone", {place + "header.png"}, "is no whole picture"},
       {"TruncatedJpeg", {place + "truncated.jpg"}, "is no whole picture"},
