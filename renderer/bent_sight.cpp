@@ -9,8 +9,20 @@
 namespace stereobench::renderer {
 namespace {
 
-/// The facet that a ray meets first. Where it meets none of them it looks into the open, or through a crack
-/// that the rasteriser has closed by snapping corners.
+/// How far a ray goes at most to what pixels around its place see.
+double farthest_m(const SceneGeometry& scene, const std::array<int, 4>& around, const Sightline& ray) {
+  constexpr double kRoom = 1.01;  // for slivers that are farther than what is beside them
+  double farthest = 0.0;
+  for (const int facet : around) {
+    if (facet == kNoFacet) return std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d way = scene.seen(facet, ray).on_sight - ray.origin_m;
+    farthest = std::max(farthest, way.dot(ray.direction) / ray.direction.squaredNorm());
+  }
+  return kRoom * farthest;
+}
+
+/// The facet that a ray meets first. Where it meets none it looks into the open, or through a crack that the
+/// rasteriser has closed by snapping corners. Facets thinner than a pixel may be seen by none of four pixels.
 /// @param around the facets of pixels around its place
 /// @param nearest that of the nearest one
 int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int nearest,
@@ -24,6 +36,8 @@ int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int 
     first = facet;
     first_m = there_m;
   }
+  if (first == kNoFacet) first_m = farthest_m(scene, around, ray);
+  if (const int flat = scene.first_flat(ray, kNear_m, first_m); flat != kNoFacet) return flat;
   const bool is_open = std::find(around.begin(), around.end(), kNoFacet) != around.end();
   return first == kNoFacet && !is_open ? nearest : first;
 }

@@ -13,36 +13,41 @@ namespace {
 constexpr float kUnknown_px = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 1e-9;  ///< relative; what meets a point may be the point itself
 
-/// A facet's point in both eyes' frames.
+/// A point of a facet, looked for from another eye.
 struct Point {
   int facet;
   Eigen::Vector3d in_world;
-  Eigen::Vector2d place_px;  ///< in the picture it is looked for in
 };
 
-/// Whether a line from the other eye, which reaches the point at 1, meets a facet before it. A ball's own far
-/// side is told by where it faces: at the rim its two sides are too near to each other.
-bool is_before(const SceneGeometry& scene, int facet, const Sightline& line, const Point& point) {
-  if (facet == kNoFacet) return false;
+/// Whether a line that reaches a facet's point at 1 meets another ball before it. A ball's own far side is
+/// told by where it faces: at the rim its two sides are too near to each other.
+bool ball_is_before(const SceneGeometry& scene, int facet, const Sightline& line, const Point& point) {
+  if (!is_ball(facet)) return false;
   if (facet != point.facet) return scene.enter(facet, line) < 1.0 - kRounding;
-  return is_ball(facet) && scene.normal(facet, point.in_world).dot(line.direction) > 0.0;
+  return scene.normal(facet, point.in_world).dot(line.direction) > 0.0;
 }
 
-/// @param eye_m where the other eye is, world frame
-bool is_hidden(const SceneGeometry& scene, const cv::Mat& facets, const Eigen::Vector3d& eye_m,
-               const Point& point) {
+/// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
+/// these see anything but the point's own facet, all of them are asked.
+bool is_hidden(const SceneGeometry& scene, const EyeSight& eye, const Point& point) {
+  const Eigen::Vector3d eye_m = eye.view.centre_in_world();
   const Sightline line{eye_m, point.in_world - eye_m};
-  if (is_before(scene, point.facet, line, point)) return true;
-  const std::array<int, 4> around = facets_around(facets, point.place_px);
+  const Eigen::Vector3d in_camera = eye.view.camera_from_world * point.in_world;
+  if (!(in_camera.z() > kNear_m)) return false;
+  const std::array<int, 4> around = facets_around(eye.facet, shown_at(eye.view, in_camera));
+  if (ball_is_before(scene, point.facet, line, point)) return true;
+  if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == point.facet; }))
+    return false;
   return std::any_of(around.begin(), around.end(),
-                     [&](int facet) { return facet != point.facet && is_before(scene, facet, line, point); });
+                     [&](int facet) { return ball_is_before(scene, facet, line, point); }) ||
+         scene.first_flat(line, kNear_m / in_camera.z(), 1.0 - kRounding, point.facet) != kNoFacet;
 }
 
 /// Follows pixels of one look to another.
 class Follower {
  public:
   Follower(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to)
-      : scene_(scene), from_(from), to_(to), lines_(from.view), other_eye_m_(to.view.centre_in_world()) {
+      : scene_(scene), from_(from), to_(to), lines_(from.view) {
     if (!(to.view.lens == vision::Distortion{}))
       field_ = vision::directions_seen(to.view.lens, to.view.camera);
   }
@@ -51,15 +56,15 @@ class Follower {
   /// @param shift_px set where the point has a place in the other picture's plane
   Fate follow(int facet, int u, int v, cv::Vec2f& shift_px) const {
     if (facet == kNoFacet) return Fate::kNothing;
-    const Eigen::Vector3d point = scene_.seen_point(facet, lines_(u, v));
-    const Eigen::Vector3d in_other = to_.view.camera_from_world * point;
+    const SceneGeometry::Seen seen = scene_.seen(facet, lines_(u, v));
+    const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_sight;
     if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Fate::kOutside;
     const Eigen::Vector2d there = shown_at(to_.view, in_other);
-    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * point);
+    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_sight);
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
     if (!vision::is_inside(to_.view.camera, there)) return Fate::kOutside;
-    return is_hidden(scene_, to_.facet, other_eye_m_, {facet, point, there}) ? Fate::kHidden : Fate::kSeen;
+    return is_hidden(scene_, to_, {facet, seen.on_facet}) ? Fate::kHidden : Fate::kSeen;
   }
 
  private:
@@ -72,7 +77,6 @@ class Follower {
   const EyeSight& from_;
   const EyeSight& to_;
   Sightlines lines_;
-  Eigen::Vector3d other_eye_m_;
   std::optional<Eigen::AlignedBox2d> field_;  // of the other eye, where it has a lens
 };
 

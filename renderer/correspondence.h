@@ -23,10 +23,10 @@ struct Correspondence {
 
 /// Follows every pixel's point to another look at the same world, by geometry alone.
 ///
-/// A point is hidden when the line from the other eye meets something before it. What can be in the way is
-/// looked for among the facets that the other eye's four pixels around the place see, and then decided
-/// exactly, with the facets' own bounds: only what is seen by none of the four (slivers and tips thinner than
-/// a pixel) is missed.
+/// Shifts are those of the place on the pixel's own ray that its range says. A point is hidden when the line
+/// from the other eye meets something before it, which is decided exactly, with the facets' own bounds.
+/// Nothing is looked for where the other eye's four pixels around the place all see the point's own facet:
+/// what is thinner than a pixel and alone before a facet is missed, as it is missed by the picture.
 Correspondence correspond(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to);
 
 /// Disparity, u in the left picture minus u in the right one.

@@ -25,10 +25,10 @@ EyeTruth eye_truth(const SceneGeometry& scene, const EyeSight& sight) {
       const int facet = sight.facet.at<int>(v, u);
       if (facet == kNoFacet) continue;
       const Sightline line = lines(u, v);
-      const Eigen::Vector3d point = scene.seen_point(facet, line);
-      const Eigen::Vector3d normal = scene.normal(facet, point);
+      const SceneGeometry::Seen seen = scene.seen(facet, line);
+      const Eigen::Vector3d normal = scene.normal(facet, seen.on_facet);
       truth.surface.at<int>(v, u) = scene.surface(facet);
-      truth.range_m.at<float>(v, u) = static_cast<float>((point - line.origin_m).norm());
+      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_sight - line.origin_m).norm());
       truth.normal.at<cv::Vec3f>(v, u) = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
     }
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "renderer/box_tree.h"
 #include "renderer/facets.h"
 #include "renderer/sightline.h"
 
@@ -20,10 +21,20 @@ class SceneGeometry {
   /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
   double enter(int facet, const Sightline& sight) const;
 
-  /// The point of a facet that a pixel's centre sees. The rasteriser snaps corners to 1/256 px and computes
-  /// outlines in single precision: where the sightline just passes by, the facet's nearest point is taken.
+  /// The wall, triangle or floor that a sightline enters first; balls are passed over.
+  /// @param from,before the parameters between which it is looked at
+  /// @param but_for a facet that does not count
+  /// @return kNoFacet where it meets none
+  int first_flat(const Sightline& sight, double from, double before, int but_for = kNoFacet) const;
+
+  /// What a pixel's centre sees of a facet. The rasteriser snaps corners to 1/256 px and computes outlines in
+  /// single precision: where the sightline just passes by, the facet's nearest point is taken.
+  struct Seen {
+    Eigen::Vector3d on_facet;
+    Eigen::Vector3d on_sight;  ///< the same point, or where the sightline comes nearest to it
+  };
   /// @param facet that is seen there, not kNoFacet
-  Eigen::Vector3d seen_point(int facet, const Sightline& sight) const;
+  Seen seen(int facet, const Sightline& sight) const;
 
   /// The unit normal of a facet at one of its points, world frame: outwards for balls, either way for others.
   Eigen::Vector3d normal(int facet, const Eigen::Vector3d& point_m) const;
@@ -38,15 +49,20 @@ class SceneGeometry {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
          const Eigen::Vector3d& up);
     bool contains(double s, double t) const;
+    /// The point of the facet that is taken for one of its plane which is not on it.
+    Eigen::Vector3d nearest(const Eigen::Vector3d& in_plane) const;
     Shape shape;
     int surface;
     Eigen::Vector3d corner, along, up, normal, dual_along, dual_up;
   };
+  static std::vector<Flat> flats_of(const worlds::World& world);
+  static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
   const Flat& flat(int facet) const { return flats_[static_cast<std::size_t>(facet - kFloorFacet)]; }
   const worlds::Ball& ball(int facet) const { return balls_[static_cast<std::size_t>(facet - 1)]; }
 
   std::vector<worlds::Ball> balls_;
   std::vector<Flat> flats_;  // the floor, walls, triangles
+  BoxTree tree_;             // of all flats but the floor
 };
 
 }  // namespace stereobench::renderer

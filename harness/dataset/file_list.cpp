@@ -17,9 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kTextFiles = {
-    "balls.csv",     "calibration.yaml", "draws.jsonl",  "groundtruth.csv", "instants.csv",
-    "landmarks.csv", "observations.csv", "odometry.csv", "surfaces.csv",    "true_calibration.yaml"};
+constexpr std::array<std::string_view, 11> kTextFiles = {
+    "balls.csv",       "calibration.yaml", "draws.jsonl",          "frames.csv",
+    "groundtruth.csv", "instants.csv",     "landmarks.csv",        "observations.csv",
+    "odometry.csv",    "surfaces.csv",     "true_calibration.yaml"};
 
 /// Whether a place in the folder is one where `render` writes: left_depth/000012.pfm.
 bool is_product(const std::string& name) {

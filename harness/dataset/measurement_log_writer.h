@@ -1,11 +1,16 @@
 /// Rendered runs as measurement logs, to be replayed later or read by other people's programs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "harness/types.h"
 
 namespace stereobench::harness {
+
+/// A time as logs write it: seconds with nine digits behind the point.
+std::string seconds_of(std::int64_t stamp_ns);
 
 /// Writes a log as `odometry.csv`, `observations.csv`, `landmarks.csv`, `groundtruth.csv` and
 /// `instants.csv` (the stamps of all steps, also of those at which nothing was seen), each atomically.

@@ -6,6 +6,7 @@
 
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
+#include "harness/dataset/frames_file.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/rendered_truth.h"
 #include "harness/run/process_pool.h"
@@ -41,6 +42,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   if (truth) truth->finish();
   const std::string draws = draws_jsonl(scenario, std::array{task.seed});
   if (!draws.empty()) write_file_atomically(task.folder / "draws.jsonl", draws);
+  write_file_atomically(task.folder / "frames.csv", frames_csv(scenario, task.seed, task.frames));
   rendered.blur = recording.blur;
   dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
   return rendered;

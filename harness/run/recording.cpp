@@ -48,11 +48,10 @@ class StereoSense {
   Sightings look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {
     Stopwatch watch(timing_);
     const worlds::Shutter& shutter = scenario_.shutter;
-    slam::RandomStream chance(seed_, slam::Stream::kFrameLoss, index);
-    if (chance.uniform() < shutter.drop_probability) return {};
-    const double late_s = chance.uniform() < shutter.late_probability ? shutter.late_s : 0.0;
-    const auto [frame, blur_step_px] =
-        watch.time("render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, late_s); });
+    const std::optional<double> late_s = lateness_s(shutter, seed_, index);
+    if (!late_s) return {};
+    const auto [frame, blur_step_px] = watch.time(
+        "render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, *late_s); });
     blur_.add(blur_step_px);
     const vision::StereoPair pair =
         watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
@@ -62,7 +61,7 @@ class StereoSense {
     });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
-    on_look({index, frame, pair, observations, late_s});
+    on_look({index, frame, pair, observations, *late_s});
     return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
   }
 

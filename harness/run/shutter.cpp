@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/run/picture_motion.h"
+#include "slam/random.h"
 #include "worlds/path.h"
 
 namespace stereobench::harness {
@@ -62,6 +63,12 @@ std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px) {
     bands.push_back({rows, share * shutter.readout_s});
   }
   return bands;
+}
+
+std::optional<double> lateness_s(const worlds::Shutter& shutter, std::uint64_t seed, std::size_t step) {
+  slam::RandomStream chance(seed, slam::Stream::kFrameLoss, step);
+  if (chance.uniform() < shutter.drop_probability) return std::nullopt;
+  return chance.uniform() < shutter.late_probability ? shutter.late_s : 0.0;
 }
 
 ExposedFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path, std::size_t index,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderer/renderer.h"
@@ -17,6 +19,10 @@ struct RowBand {
 
 /// The bands of a picture, from the first row to the last; one where all rows look at once.
 std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px);
+
+/// When the eyes look at a step of a drive, which the shutter leaves to chance.
+/// @return by how much later than the step's time, in seconds; none where the frame is dropped
+std::optional<double> lateness_s(const worlds::Shutter& shutter, std::uint64_t seed, std::size_t step);
 
 /// What both eyes see while their shutters are open.
 struct ExposedFrame {
