@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/image_noise.h"
+#include "renderer/types.h"
 #include "slam/elementary.h"
 
 namespace stereobench::renderer {
@@ -187,6 +188,22 @@ double decode(double stored, const worlds::CameraSensor& sensor) {
   return stored <= 0.04045 ? stored / 12.92 : slam::power((stored + 0.055) / 1.055, 2.4);
 }
 
+/// One row of a picture in levels, whatever its light is told in.
+void take_row(const cv::Mat& light, int y, float per_level, Row& row) {
+  switch (light.depth()) {
+    case CV_8U:
+      std::copy_n(light.ptr(y), row.size(), row.begin());
+      break;
+    case CV_16U:
+      std::copy_n(light.ptr<std::uint16_t>(y), row.size(), row.begin());
+      break;
+    default:
+      std::copy_n(light.ptr<float>(y), row.size(), row.begin());
+  }
+  if (per_level == 1.0F) return;
+  for (float& level : row) level /= per_level;
+}
+
 /// The stored byte of a level, by table.
 class Encoder {
  public:
@@ -213,21 +230,25 @@ class Encoder {
 
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
                 std::uint64_t sequence) {
-  const bool sharp = sensor.defocus_sd_px == 0.0;
-  const cv::Mat focused = sharp ? light : blurred(light, sensor.defocus_sd_px);
+  const cv::Mat focused = sensor.defocus_sd_px == 0.0 ? light : blurred(light, sensor.defocus_sd_px);
+  const float per_level = light.depth() == CV_16U ? float{kStepsOfALevel} : 1.0F;
   Chip chip(sensor, seed, sequence);
   const Encoder encoder(sensor);
   cv::Mat levels(light.size(), CV_8UC3);
   Row row(3 * static_cast<std::size_t>(light.cols));
   for (int y = 0; y < light.rows; ++y) {
-    if (sharp)
-      std::copy_n(light.ptr(y), row.size(), row.begin());
-    else
-      std::copy_n(focused.ptr<float>(y), row.size(), row.begin());
+    take_row(focused, y, per_level, row);
     if (sensor.vignette > 0.0) darken_corners(row, y, light.size(), sensor.vignette);
     std::uint8_t* stored = levels.ptr(y);
     for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(chip.level(row[i], i % 3));
   }
+  return levels;
+}
+
+cv::Mat in_levels(const cv::Mat& light) {
+  if (light.depth() == CV_8U) return light;
+  cv::Mat levels;
+  light.convertTo(levels, CV_8U, 1.0 / kStepsOfALevel);
   return levels;
 }
 

@@ -15,12 +15,15 @@ namespace stereobench::renderer {
 /// number counted is Poisson's for e below 16, drawn by inversion, and above it e + sqrt(e - 1/18) z +
 /// (z^2 - 1) / 6 with a standard normal z, which has Poisson's first three moments. Read noise and gain make
 /// levels of it. A camera without a full well has neither shot nor read noise.
-/// @param light CV_8UC3, BGR, linear
+/// @param light BGR, linear: CV_8UC3 in levels, or CV_16UC3 in steps of 1/257 level
 /// @param seed, sequence key of the noise, sequence = 2 * frame + eye; shot noise and the rest draw from
 /// streams of their own
 /// @return CV_8UC3 of the same size, encoded
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
                 std::uint64_t sequence);
+
+/// Light in whole levels, rounded. @param light as develop() takes it
+cv::Mat in_levels(const cv::Mat& light);
 
 /// The light that stored levels stand for: the encoding undone, in whole levels.
 /// @param levels CV_8UC3, as develop() stores them; what is stored linearly is returned as it is

@@ -8,9 +8,10 @@ namespace {
 using Change = std::pair<cv::Point, cv::Vec3f>;
 
 /// Adds what a pair's pixels change by.
+template <class Pixel>
 void add_changes(const EdgeMix& mix, const BallVeil& veil, const cv::Mat& colour,
                  std::vector<Change>& changes) {
-  const auto level = [&](const cv::Point& pixel) { return cv::Vec3f(colour.at<cv::Vec3b>(pixel)); };
+  const auto level = [&](const cv::Point& pixel) { return cv::Vec3f(colour.at<Pixel>(pixel)); };
   const float lower = veil.light_left(mix.lower, mix.inverse_depth);
   const float higher = veil.light_left(mix.higher, mix.inverse_depth);
   const bool is_clear = lower == 1.0F && higher == 1.0F;
@@ -19,21 +20,29 @@ void add_changes(const EdgeMix& mix, const BallVeil& veil, const cv::Mat& colour
   changes.emplace_back(mix.higher, step * (-higher * mix.lower_in_higher));
 }
 
-}  // namespace
-
-void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, EyeFrame& frame) {
+template <class Pixel>
+void mix_pixels(const std::vector<EdgeMix>& mixes, const BallVeil& veil, cv::Mat& picture) {
   std::vector<Change> changes;
   changes.reserve(2 * mixes.size());
   for (const bool is_upright : {false, true}) {  // at a corner the shares of two edges multiply
     changes.clear();
     for (const EdgeMix& mix : mixes)
-      if ((mix.lower.x == mix.higher.x) == is_upright) add_changes(mix, veil, frame.colour, changes);
+      if ((mix.lower.x == mix.higher.x) == is_upright) add_changes<Pixel>(mix, veil, picture, changes);
     for (const auto& [pixel, by] : changes) {
-      auto& colour = frame.colour.at<cv::Vec3b>(pixel);
+      auto& colour = picture.at<Pixel>(pixel);
       for (int i = 0; i < 3; ++i)
-        colour[i] = cv::saturate_cast<std::uint8_t>(static_cast<float>(colour[i]) + by[i]);
+        colour[i] = cv::saturate_cast<typename Pixel::value_type>(static_cast<float>(colour[i]) + by[i]);
     }
   }
+}
+
+}  // namespace
+
+void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, EyeFrame& frame) {
+  if (frame.colour.depth() == CV_16U)
+    mix_pixels<cv::Vec3w>(mixes, veil, frame.colour);
+  else
+    mix_pixels<cv::Vec3b>(mixes, veil, frame.colour);
 }
 
 }  // namespace stereobench::renderer

@@ -151,7 +151,10 @@ class Pairing {
     cv::Point lower, higher;
   };
 
-  cv::Vec3f level(const cv::Point& pixel) const { return frame_.colour.at<cv::Vec3b>(pixel); }
+  cv::Vec3f level(const cv::Point& pixel) const {
+    if (frame_.colour.depth() == CV_16U) return frame_.colour.at<cv::Vec3w>(pixel);
+    return frame_.colour.at<cv::Vec3b>(pixel);
+  }
 
   /// The edge divides the pixels if one sees a face that ends here. What the other one sees may be as near as
   /// it likes: the floor at a wall's foot comes nearer by any amount within a pixel.

@@ -81,8 +81,8 @@ bool only_adds_noise(const worlds::CameraSensor& sensor) {
 }
 
 void check(const cv::Mat& picture) {
-  if (picture.type() != CV_8UC3)
-    throw std::invalid_argument("expose: pictures must have three channels of 8 bits");
+  if (picture.type() != CV_8UC3 && picture.type() != CV_16UC3)
+    throw std::invalid_argument("expose: pictures must have three channels of 8 or 16 bits");
 }
 
 bool within(double value, double least, double most) {
@@ -105,6 +105,10 @@ void check(const worlds::CameraSensor& sensor) {
 
 }  // namespace
 
+LightDepth light_for(const worlds::CameraSensor& sensor) {
+  return only_adds_noise(sensor) ? LightDepth::kEightBits : LightDepth::kSixteenBits;
+}
+
 vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& sensor, std::uint64_t seed,
                           std::uint64_t frame_index) {
   const cv::Mat& left = frame.left.colour;
@@ -115,12 +119,12 @@ vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& 
   if (!only_adds_noise(sensor)) {
     return {develop(left, sensor, seed, 2 * frame_index), develop(right, sensor, seed, 2 * frame_index + 1)};
   }
-  if (sensor.noise_sd_levels == 0.0) return {left, right};
+  if (sensor.noise_sd_levels == 0.0) return {in_levels(left), in_levels(right)};
   const Shifts shifts = shifts_for(sensor.noise_sd_levels);
   const auto key = [&](std::uint64_t eye) {
     return NoiseBlocks({seed, slam::Stream::kImageNoise, 2 * frame_index + eye});
   };
-  return {noisy(left, shifts, key(0)), noisy(right, shifts, key(1))};
+  return {noisy(in_levels(left), shifts, key(0)), noisy(in_levels(right), shifts, key(1))};
 }
 
 }  // namespace stereobench::renderer

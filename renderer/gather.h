@@ -30,6 +30,11 @@ struct LightPlaces {
 void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint8_t* bent,
                   int width);
 
+/// The same of 16 bits, rounded once.
+/// @param straight CV_16UC3, with two columns to the right of every place
+void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint16_t* bent,
+                  int width);
+
 /// For each place its pixel.
 template <class Pixel>
 void pick(const cv::Vec2s* places, const StraightRows& straight, Pixel* picked, int width) {

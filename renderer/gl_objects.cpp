@@ -128,9 +128,9 @@ NumberList::NumberList(const Gl& gl, std::span<const std::uint32_t> numbers)
   gl.TexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, buffer_.get());
 }
 
-Framebuffer::Framebuffer(const Gl& gl, int width_px, int height_px)
+Framebuffer::Framebuffer(const Gl& gl, GLenum colours, int width_px, int height_px)
     : gl_(&gl),
-      colour_(renderbuffer(gl, GL_RGBA8, width_px, height_px)),
+      colour_(renderbuffer(gl, colours, width_px, height_px)),
       depth_(renderbuffer(gl, GL_DEPTH_COMPONENT32F, width_px, height_px)),
       framebuffer_(gl, generate(gl.GenFramebuffers), delete_framebuffer) {
   bind();

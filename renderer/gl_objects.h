@@ -73,10 +73,11 @@ class NumberList {
   GlName texture_;
 };
 
-/// A picture to draw to: 8-bit RGBA and a 32-bit float depth.
+/// A picture to draw to: RGBA and a 32-bit float depth.
 class Framebuffer {
  public:
-  Framebuffer(const Gl& gl, int width_px, int height_px);
+  /// @param colours GL_RGBA8 or GL_RGBA16
+  Framebuffer(const Gl& gl, GLenum colours, int width_px, int height_px);
 
   void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get()); }
 

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "renderer/gather.h"
+#include "renderer/readback.h"
 #include "vision/distortion.h"
 #include "vision/rig.h"
 
@@ -112,14 +113,19 @@ cv::Range Lens::rows_seen(const cv::Range& rows) const {
 
 EyeFrame Lens::bend(const EyeFrame& straight, int first_row, const cv::Range& rows, PicturePool& pool) const {
   const cv::Size size(truth_places_.cols, rows.size());
-  EyeFrame bent{pool.take(size, CV_8UC3), pool.take(size, CV_8UC1), pool.take(size, CV_32FC1)};
+  const bool is_fine = straight.colour.depth() == CV_16U;
+  EyeFrame bent = blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
   const auto bend_row = [&](int v) {
     const int row = rows.start + v;
     const auto light = [&](int k) {
       const int dense = kOversampling * row + k;
       return LightPlaces{light_places_.ptr<cv::Vec2s>(dense), light_fractions_.ptr<std::uint16_t>(dense)};
     };
-    gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr(v), size.width);
+    if (is_fine)
+      gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr<std::uint16_t>(v),
+                   size.width);
+    else
+      gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr(v), size.width);
     const auto* truth = truth_places_.ptr<cv::Vec2s>(row);
     pick(truth, {straight.ball_id, first_row}, bent.ball_id.ptr(v), size.width);
     pick(truth, {straight.depth_m, first_row}, bent.depth_m.ptr<float>(v), size.width);

@@ -26,6 +26,21 @@ void split_row(const std::uint8_t* pixels, std::uint8_t* colour, std::uint8_t* i
   }
 }
 
+/// The same of numbers of 16 bits; an identity is 257 times itself there.
+void split_row(const std::uint16_t* pixels, std::uint16_t* colour, std::uint8_t* id, int count) {
+  int i = 0;
+  for (; i + cv::v_uint16x8::nlanes <= count; i += cv::v_uint16x8::nlanes) {
+    cv::v_uint16x8 blue, green, red, identity;
+    cv::v_load_deinterleave(pixels + 4 * i, blue, green, red, identity);
+    cv::v_store_interleave(colour + 3 * i, blue, green, red);
+    cv::v_pack_store(id + i, identity >> 8);
+  }
+  for (; i < count; ++i) {
+    std::copy_n(pixels + 4 * i, 3, colour + 3 * i);
+    id[i] = static_cast<std::uint8_t>(pixels[4 * i + 3] >> 8U);
+  }
+}
+
 void row_to_metres(float* depth, int count, float near_m) {
   const cv::v_float32x4 near = cv::v_setall_f32(near_m);
   int i = 0;
@@ -38,10 +53,15 @@ void row_to_metres(float* depth, int count, float near_m) {
 }  // namespace
 
 void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame) {
-  frame.colour.create(pixels.size(), CV_8UC3);
+  const bool is_fine = pixels.depth() == CV_16U;
+  frame.colour.create(pixels.size(), is_fine ? CV_16UC3 : CV_8UC3);
   frame.ball_id.create(pixels.size(), CV_8UC1);
   for (int row = 0; row < pixels.rows; ++row) {
-    split_row(pixels.ptr(row), frame.colour.ptr(row), frame.ball_id.ptr(row), pixels.cols);
+    if (is_fine)
+      split_row(pixels.ptr<std::uint16_t>(row), frame.colour.ptr<std::uint16_t>(row), frame.ball_id.ptr(row),
+                pixels.cols);
+    else
+      split_row(pixels.ptr(row), frame.colour.ptr(row), frame.ball_id.ptr(row), pixels.cols);
   }
 }
 
@@ -58,13 +78,15 @@ cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& row
 
 void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeFrame& frame) {
   if (part.empty()) return;
-  cv::Mat pixels(std::min(kBandRows, part.height), part.width, CV_8UC4);
+  const bool is_fine = frame.colour.depth() == CV_16U;
+  cv::Mat pixels(std::min(kBandRows, part.height), part.width, is_fine ? CV_16UC4 : CV_8UC4);
   for (int row = part.y; row < part.br().y; row += kBandRows) {
     const cv::Rect band_px(part.x, row, part.width, std::min(kBandRows, part.br().y - row));
     const cv::Point first = origin + band_px.tl();
     EyeFrame band{frame.colour(band_px), frame.ball_id(band_px), frame.depth_m(band_px)};
     const cv::Mat read = pixels.rowRange(0, band_px.height);
-    gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_RGBA, GL_UNSIGNED_BYTE, read.data);
+    gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_RGBA,
+                  is_fine ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, read.data);
     split_colour_and_id(read, band);
     gl.PixelStorei(GL_PACK_ROW_LENGTH, frame.depth_m.cols);
     gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_DEPTH_COMPONENT, GL_FLOAT,
@@ -74,8 +96,9 @@ void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeF
   }
 }
 
-EyeFrame blank_frame(const cv::Size& size_px, PicturePool& pool) {
-  return {pool.take(size_px, CV_8UC3), pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
+EyeFrame blank_frame(const cv::Size& size_px, LightDepth depth, PicturePool& pool) {
+  return {pool.take(size_px, depth == LightDepth::kEightBits ? CV_8UC3 : CV_16UC3),
+          pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
 }
 
 }  // namespace stereobench::renderer

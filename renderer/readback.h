@@ -7,8 +7,8 @@
 
 namespace stereobench::renderer {
 
-/// Splits the shader's four bytes of each pixel into colour and identity.
-/// @param pixels CV_8UC4: blue, green, red, identity
+/// Splits the shader's four numbers of each pixel into colour and identity.
+/// @param pixels CV_8UC4: blue, green, red, identity; or CV_16UC4, all in steps of 1/257
 void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame);
 
 /// Turns GL's depth n / Z into Z, in place; 0, where nothing was drawn, becomes +inf.
@@ -26,6 +26,6 @@ void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeF
 
 /// A picture with anything in it.
 /// @param pool that the pictures' memory is of
-EyeFrame blank_frame(const cv::Size& size_px, PicturePool& pool);
+EyeFrame blank_frame(const cv::Size& size_px, LightDepth depth, PicturePool& pool);
 
 }  // namespace stereobench::renderer

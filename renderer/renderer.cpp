@@ -103,6 +103,7 @@ struct Renderer::Parts {
   vision::StereoRig asked_rig;
   std::optional<Lens> lens;
   vision::StereoRig rig;  ///< without distortion
+  LightDepth depth;
   Eigen::Vector3f sky_rgb;
   std::unique_ptr<Context> context;
   Gl gl;
@@ -115,14 +116,17 @@ struct Renderer::Parts {
   bool has_drawn = false;
 
   /// @param placed read before there is a context, as reading meshes forks
-  Parts(const worlds::World& world, const Surfaces& placed, const vision::StereoRig& asked, Backend backend)
+  Parts(const worlds::World& world, const Surfaces& placed, const vision::StereoRig& asked, Backend backend,
+        LightDepth light_depth)
       : asked_rig(checked(asked)),
         lens(lens_of(asked)),
         rig(lens ? lens->pinhole_rig() : asked),
+        depth(light_depth),
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
-        framebuffer(gl, 2 * rig.camera.width_px, rig.camera.height_px),
+        framebuffer(gl, depth == LightDepth::kEightBits ? GL_RGBA8 : GL_RGBA16, 2 * rig.camera.width_px,
+                    rig.camera.height_px),
         surfaces(gl, world, placed),
         balls(gl, world),
         edges(world, placed.meshes) {
@@ -175,9 +179,9 @@ struct Renderer::Parts {
 
   /// Reads what has been drawn: surfaces, before any ball hides their edges.
   EyePicture read_surfaces(const EyeView& view, const cv::Range& rows) {
-    EyePicture picture = {
-        .view = view,
-        .frame = blank_frame({view.camera.width_px, rows.size()}, lens ? straight_pictures : pictures)};
+    EyePicture picture = {.view = view,
+                          .frame = blank_frame({view.camera.width_px, rows.size()}, depth,
+                                               lens ? straight_pictures : pictures)};
     read_part(gl, {view.first_column_px, rows.start}, {{0, 0}, picture.frame.colour.size()}, picture.frame);
     picture.mixes = edges.mixes(part_of(view, rows), picture.frame);
     picture.balls = balls.outlines(view);
@@ -198,8 +202,9 @@ struct Renderer::Parts {
   }
 };
 
-Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend)
-    : parts_(std::make_unique<Parts>(world, place_surfaces(checked(world)), rig, backend)) {}
+Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend,
+                   LightDepth depth)
+    : parts_(std::make_unique<Parts>(world, place_surfaces(checked(world)), rig, backend, depth)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;

@@ -19,7 +19,9 @@ class Renderer {
   /// @throws std::invalid_argument when the rig cannot be computed with, or a ball, wall, mesh or light of
   /// the
   ///   world is not finite, has no size, or there are more than 254 balls
-  Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa);
+  /// @param depth of the light in its pictures: expose.h says which cameras need more than eight bits
+  Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa,
+           LightDepth depth = LightDepth::kEightBits);
   ~Renderer();
   Renderer(Renderer&& other) noexcept;
   Renderer& operator=(Renderer&& other) noexcept;

@@ -8,6 +8,7 @@
 #include "harness/detector/detector.h"
 #include "harness/run/recording.h"
 #include "harness/scoring/ball_outline.h"
+#include "renderer/develop.h"
 #include "slam/elementary.h"
 #include "slam/motion.h"
 #include "vision/pixel_noise.h"
@@ -23,8 +24,8 @@ Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::Stereo
   const vision::StereoRig& rig = gallery.rig;
   const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
                                   gallery.camera.defocus_sd_px};
-  const auto left = outline_bound(frame.left.colour, rig.camera, ball.left, quality);
-  const auto right = outline_bound(frame.right.colour, rig.camera, ball.right, quality);
+  const auto left = outline_bound(renderer::in_levels(frame.left.colour), rig.camera, ball.left, quality);
+  const auto right = outline_bound(renderer::in_levels(frame.right.colour), rig.camera, ball.right, quality);
   if (!left || !right || !(ball.left.centre_px.x() > ball.right.centre_px.x()))
     return Eigen::Matrix2d::Zero();
   const double radius_m = gallery.world.balls[static_cast<std::size_t>(ball.ball)].radius_m;

@@ -42,7 +42,7 @@ class StereoSense {
       : scenario_(scenario),
         world_(world),
         seed_(seed),
-        renderer_(world, scenario.rig, backend),
+        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera)),
         detector_(std::move(detector)) {}
 
   Sightings look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {

@@ -87,8 +87,9 @@ ExposedFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTrut
     cv::add(left, instant.left.colour, left, cv::noArray(), CV_32S);
     cv::add(right, instant.right.colour, right, cv::noArray(), CV_32S);
   }
-  left.convertTo(frame.left.colour, CV_8U, 1.0 / samples);
-  right.convertTo(frame.right.colour, CV_8U, 1.0 / samples);
+  const int depth = frame.left.colour.depth();
+  left.convertTo(frame.left.colour, depth, 1.0 / samples);
+  right.convertTo(frame.right.colour, depth, 1.0 / samples);
   return {frame, way_px / samples};
 }
 

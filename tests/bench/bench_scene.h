@@ -15,9 +15,10 @@ namespace stereobench {
 
 /// A rendered pair and what copying it costs.
 struct Bench {
-  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa)
+  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa,
+                 renderer::LightDepth depth = renderer::LightDepth::kEightBits)
       : scene(std::move(shown)),
-        renderer(scene.world, scene.rig, backend),
+        renderer(scene.world, scene.rig, backend, depth),
         frame(renderer.render(scene.pose)) {}
 
   /// Times `stage`, and the copy right after it, so that both see the same machine. The fastest of the times

@@ -26,6 +26,12 @@ void render_pair(benchmark::State& state, const Scene& scene) {
   }
 }
 
+/// With light of 16 bits, for cameras that do not store it as it is.
+void render_pair_fine(benchmark::State& state, const Scene& scene) {
+  Bench bench(scene, renderer::Backend::kOsmesa, renderer::LightDepth::kSixteenBits);
+  bench.run(state, [&] { benchmark::DoNotOptimize(bench.renderer.render(scene.pose)); });
+}
+
 /// Behind a lens that bends straight lines by tens of pixels.
 Scene behind_a_lens() {
   Scene scene = scenario_scene("ball_circle");
@@ -77,6 +83,10 @@ STEREOBENCH_STAGE(render_pair, behind_a_lens, behind_a_lens())->DenseRange(0, 0)
 STEREOBENCH_STAGE(render_pair, textured, textured_scene())->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, image_textured, image_textured_scene())->DenseRange(0, kLastBackend);
 STEREOBENCH_STAGE(render_pair, corridor, scenario_scene("corridor"))->DenseRange(0, kLastBackend);
+STEREOBENCH_STAGE(render_pair_fine, ball_circle, scenario_scene("ball_circle"));
+STEREOBENCH_STAGE(render_pair_fine, behind_a_lens, behind_a_lens());
+STEREOBENCH_STAGE(render_pair_fine, image_textured, image_textured_scene());
+STEREOBENCH_STAGE(render_pair_fine, corridor, scenario_scene("corridor"));
 STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), plain_noise());
 STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle"), noise_and_vignette());
 STEREOBENCH_STAGE(expose_pair, whole_camera, scenario_scene("ball_circle"), whole_camera());
