@@ -6,6 +6,7 @@
 namespace stereobench::renderer {
 
 cv::Mat decode_png(PictureBytes bytes, int longest_px);
+SaidOfLevels said_by_png(PictureBytes bytes);
 cv::Mat decode_jpeg(PictureBytes bytes, int longest_px);
 cv::Mat decode_tiff(PictureBytes bytes, int longest_px);
 /// Uncompressed, of 8 (a palette), 24 or 32 bits a pixel.

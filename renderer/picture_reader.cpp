@@ -56,6 +56,13 @@ cv::Mat decode_picture(PictureBytes bytes, int longest_px) {
   throw std::runtime_error("is no picture that can be read (PNG, JPEG, TIFF, BMP, PNM, TGA)");
 }
 
+SaidOfLevels said_of_levels(PictureBytes bytes) {
+  if (bytes.empty()) return SaidOfLevels::kNothing;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\xFF\xD8\xFF"sv)) return SaidOfLevels::kSrgb;
+  return text.starts_with("\x89PNG"sv) ? said_by_png(bytes) : SaidOfLevels::kNothing;
+}
+
 std::vector<std::uint8_t> picture_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(stream), {});

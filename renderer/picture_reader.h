@@ -24,6 +24,13 @@ using PictureBytes = std::span<const std::uint8_t>;
 /// @throws std::runtime_error that says of the file, in one line, "is cut short: ...", "is 8000 x 9 ..."
 cv::Mat decode_picture(PictureBytes bytes, int longest_px = std::numeric_limits<int>::max());
 
+/// What a file says of how its levels stand for light.
+enum class SaidOfLevels { kNothing, kLinear, kSrgb };
+
+/// JPEGs are sRGB (JFIF has no other); PNGs may say so, or their gamma. Others say nothing.
+/// @return kNothing as well for what cannot be read
+SaidOfLevels said_of_levels(PictureBytes bytes);
+
 /// All of a file, whatever it holds.
 /// @throws std::runtime_error where it cannot be read
 std::vector<std::uint8_t> picture_bytes(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "renderer/png_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,7 @@ struct Work {
   std::vector<png_bytep> rows;
   PngPacking packing = PngPacking::kRuns;
   std::string complaint;
+  SaidOfLevels said = SaidOfLevels::kNothing;
 
   void point_at_rows() {
     for (int v = 0; v < picture.rows; ++v) rows.push_back(picture.ptr(v));
@@ -64,6 +66,20 @@ void read(png_structp png, png_infop info, Work& work) {
   png_read_end(png, nullptr);
 }
 
+/// An sRGB note, or a gamma: of sRGB's (1 / 2.2), or of light itself.
+void read_note(png_structp png, png_infop info, Work& work) {
+  constexpr double kNear = 0.05;
+  png_set_read_fn(png, &work, take);
+  png_read_info(png, info);
+  double gamma = 0.0;
+  if (png_get_valid(png, info, PNG_INFO_sRGB) != 0)
+    work.said = SaidOfLevels::kSrgb;
+  else if (png_get_gAMA(png, info, &gamma) != 0)
+    work.said = std::abs(gamma - 1.0) < kNear         ? SaidOfLevels::kLinear
+                : std::abs(gamma - 1.0 / 2.2) < kNear ? SaidOfLevels::kSrgb
+                                                      : SaidOfLevels::kNothing;
+}
+
 void write(png_structp png, png_infop info, Work& work) {
   const cv::Mat& picture = work.picture;
   const int colour = picture.channels() == 1   ? PNG_COLOR_TYPE_GRAY
@@ -90,22 +106,30 @@ bool runs(void (*function)(png_structp, png_infop, Work&), png_structp png, png_
   return true;
 }
 
+struct Reader {
+  explicit Reader(Work& work)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &work, complain, pass_over)),
+        info(png_create_info_struct(png)) {}
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  png_structp png;
+  png_infop info;
+};
+
 }  // namespace
 
 cv::Mat decode_png(PictureBytes bytes, int longest_px) {
   Work work{.input = bytes, .longest_px = longest_px};
-  struct Reader {
-    explicit Reader(Work& work)
-        : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &work, complain, pass_over)),
-          info(png_create_info_struct(png)) {}
-    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-    png_structp png;
-    png_infop info;
-  } reader(work);
+  const Reader reader(work);
   if (!runs(read, reader.png, reader.info, work)) refuse_broken(work.complaint);
   return work.picture;
+}
+
+SaidOfLevels said_by_png(PictureBytes bytes) {
+  Work work{.input = bytes};
+  const Reader reader(work);
+  return runs(read_note, reader.png, reader.info, work) ? work.said : SaidOfLevels::kNothing;
 }
 
 std::vector<std::uint8_t> encode_png(const cv::Mat& picture, PngPacking packing) {

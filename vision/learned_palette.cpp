@@ -30,12 +30,17 @@ const Eigen::Vector2d& grey() {
   return value;
 }
 
-Eigen::Vector2d chromaticity_of(const Eigen::Vector3d& bgr) {
-  return Eigen::Vector2d(bgr[2], bgr[1]) / std::max(bgr.sum(), 1.0);
+/// IEC 61966-2-1: level / 255 = 1.055 light^(1 / 2.4) - 0.055.
+constexpr double kSrgbOffset_levels = 0.055 * 255.0;
+
+/// The chromaticity of light, or of its power.
+Eigen::Vector2d chromaticity_of(const Eigen::Vector3d& bgr, Levels levels) {
+  const double offset = levels == Levels::kSrgb ? kSrgbOffset_levels : 0.0;
+  return Eigen::Vector2d(bgr[2] + offset, bgr[1] + offset) / std::max(bgr.sum() + 3.0 * offset, 1.0);
 }
 
-bool has_colour(const Eigen::Vector3d& bgr) {
-  return bgr.maxCoeff() >= kLeastLevel && (chromaticity_of(bgr) - grey()).norm() >= kLeastSaturation;
+bool has_colour(const Eigen::Vector3d& bgr, Levels levels) {
+  return bgr.maxCoeff() >= kLeastLevel && (chromaticity_of(bgr, levels) - grey()).norm() >= kLeastSaturation;
 }
 
 struct Gaussian {
@@ -82,14 +87,14 @@ Gaussian closest_half(const std::vector<Eigen::Vector2d>& points) {
 
 }  // namespace
 
-LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vector3d> bgr) {
+LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vector3d> bgr, Levels levels) {
   if (bgr.size() < kFewestPixels)
     throw std::invalid_argument(name + ": expected samples of at least 20 pixels");
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3d> coloured;
   for (const Eigen::Vector3d& pixel : bgr) {
-    if (!has_colour(pixel)) continue;
-    points.push_back(chromaticity_of(pixel));
+    if (!has_colour(pixel, levels)) continue;
+    points.push_back(chromaticity_of(pixel, levels));
     coloured.push_back(pixel);
   }
   if (2 * points.size() < bgr.size()) throw std::invalid_argument(name + ": the samples have no colour");
@@ -101,14 +106,14 @@ LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vecto
   const Gaussian all = gaussian_of(points, inside);
 
   LearnedColour colour{name, all.mean, all.covariance};
-  std::vector<double> levels;
+  std::vector<double> brightest;
   for (const std::size_t i : inside) {
-    levels.push_back(coloured[i].maxCoeff());
+    brightest.push_back(coloured[i].maxCoeff());
     colour.bgr += coloured[i] / static_cast<double>(inside.size());
   }
-  std::sort(levels.begin(), levels.end());
-  const auto rank = static_cast<std::size_t>(kDarkestShare * static_cast<double>(levels.size()));
-  colour.darkest_level = kDarker * levels[rank];
+  std::sort(brightest.begin(), brightest.end());
+  const auto rank = static_cast<std::size_t>(kDarkestShare * static_cast<double>(brightest.size()));
+  colour.darkest_level = kDarker * brightest[rank];
   return colour;
 }
 
@@ -124,10 +129,10 @@ double separation(const LearnedColour& a, const LearnedColour& b) {
   return 1.0 / (of_a + of_b);
 }
 
-ColourTable table_of(std::span<const LearnedColour> colours) {
+ColourTable table_of(std::span<const LearnedColour> colours, Levels levels) {
   if (colours.size() >= kBackground) throw std::invalid_argument("a palette has at most 254 colours");
   return ColourTable([&](const Eigen::Vector3d& bgr) {
-    const Eigen::Vector2d at = chromaticity_of(bgr);
+    const Eigen::Vector2d at = chromaticity_of(bgr, levels);
     std::uint8_t best = kBackground;
     double least = 0.0;
     for (std::size_t i = 0; i < colours.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -10,13 +11,14 @@
 
 #include "slam/elementary.h"
 #include "vision/blobs.h"
+#include "vision/circle_cover.h"
 #include "vision/patch_boundary.h"
 
 namespace stereobench::vision {
 namespace {
 
 constexpr double kMinPatch = 0.3;       // of the smallest circle's area
-constexpr double kMinFill = 0.4;        // of the bounding box; a disc has 0.79
+constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
 constexpr double kMaxElongation = 2.5;  // of the bounding box: half of a disc has 2
 constexpr int kLooks = 5;               // each around the circle of the one before
 constexpr double kFirstBand = 0.4;      // of the radius: how far to either side of it the first look goes
@@ -29,8 +31,19 @@ constexpr double kLeastSpread_px = 0.15;  // of edges: no thing is known to be r
 constexpr double kTukey = 4.685;          // 95 % efficiency for Gaussian errors
 constexpr std::size_t kFewestEdges = 8;
 constexpr double kMinArc = 0.2;
-constexpr double kReach = 0.8;  // of the radius: what shows its colour so far out is not hidden
+constexpr double kKnownArc =
+    0.65;  // of an outline; what shows less of it may be no circle: an oval follows one along half of its way
 constexpr int kSteps = 12;
+constexpr double kRough_px = 0.25;      // that edges of a round thing may scatter by: noise and JPEG's blocks
+constexpr double kRough = 0.03;         // the same of the radius: real things are not quite round
+constexpr double kRoughest = 2.0;       // times that, of what is reported: rougher than round is not trusted
+constexpr double kMostBeyond = 0.15;    // of rays, along which the patch's colour may go on across the circle
+constexpr double kBeyond_px = 1.5;      // and farther than that: outlines are blurred
+constexpr double kBeyond = 0.12;        // of the radius
+constexpr double kLargestPatch = 1.15;  // of an outline's area: edges are blurred
+constexpr std::size_t kMostPatches = 200;  // of a picture that are looked at, the largest: bounds the work
+constexpr double kLeastPiece = 0.02;       // of the patch beside it, in area
+constexpr double kGap = 0.15;              // of a patch's longer side: a seam is no wider
 
 /// Where a ray from the centre leaves the patch.
 struct EdgePoint {
@@ -53,30 +66,10 @@ bool may_be_round(const Blob& blob) {
          std::max(width, height) <= kMaxElongation * std::min(width, height);
 }
 
-/// The colour at a place between pixels; empty outside of the picture.
-std::optional<Eigen::Vector3d> colour_at(const cv::Mat& image, const Eigen::Vector2d& at) {
-  const int x = static_cast<int>(std::floor(at.x()));
-  const int y = static_cast<int>(std::floor(at.y()));
-  if (x < 0 || y < 0 || x + 1 >= image.cols || y + 1 >= image.rows) return std::nullopt;
-  const double right = at.x() - x;
-  const double down = at.y() - y;
-  const auto pixel = [&](int row, int column) {
-    const cv::Vec3b& bgr = image.at<cv::Vec3b>(row, column);
-    return Eigen::Vector3d(bgr[0], bgr[1], bgr[2]);
-  };
-  return (1.0 - down) * ((1.0 - right) * pixel(y, x) + right * pixel(y, x + 1)) +
-         down * ((1.0 - right) * pixel(y + 1, x) + right * pixel(y + 1, x + 1));
-}
-
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& colours, std::size_t from, std::size_t to) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = from; i < to; ++i) sum += colours[i];
   return sum / static_cast<double>(to - from);
-}
-
-std::uint8_t class_of(const ColourTable& table, const Eigen::Vector3d& bgr) {
-  return table.classify(cv::saturate_cast<std::uint8_t>(bgr[0]), cv::saturate_cast<std::uint8_t>(bgr[1]),
-                        cv::saturate_cast<std::uint8_t>(bgr[2]));
 }
 
 /// How far along a ray's samples its first colour goes, in samples; empty unless the ray begins with the
@@ -182,45 +175,29 @@ Circle first_guess(const cv::Mat& image, const Blob& blob, const ColourTable& ta
   return is_near ? fit->circle : box;
 }
 
-/// How much of a circle's area within the picture does not show the patch's colour as far out as it should:
-/// along each ray, what lies beyond the outermost place that does. Highlights are within.
-double hidden_share(const cv::Mat& image, const Circle& circle, int colour, const ColourTable& table) {
-  constexpr int kSpokes = 96;
-  double hidden = 0.0;
-  int rays = 0;
-  for (int spoke = 0; spoke < kSpokes; ++spoke) {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kSpokes);
-    const Eigen::Vector2d direction(c, s);
-    if (!colour_at(image, circle.centre_px + circle.radius_px * direction)) continue;
-    double reach = circle.radius_px;
-    while (reach > 0.0) {
-      const auto sample = colour_at(image, circle.centre_px + reach * direction);
-      if (sample && class_of(table, *sample) == colour) break;
-      reach -= kStep_px;
-    }
-    const double share = std::max(0.0, reach) / circle.radius_px;
-    ++rays;
-    if (share < kReach) hidden += 1.0 - share * share;
-  }
-  return rays == 0 ? 1.0 : hidden / rays;
+/// Whether along a ray the patch goes on across a circle: a place beyond has its colour still, and is more
+/// like what is inside than like what is farther out.
+bool goes_on(const cv::Mat& image, const Circle& circle, const Eigen::Vector2d& direction, int colour,
+             const ColourTable& table) {
+  const double beyond_px = std::max(kBeyond_px, kBeyond * circle.radius_px);
+  const auto at = [&](double from_circle_px) {
+    return colour_at(image, circle.centre_px + (circle.radius_px + from_circle_px) * direction);
+  };
+  const auto inside = at(-2.0 * beyond_px), beyond = at(beyond_px), outside = at(3.0 * beyond_px);
+  return inside && beyond && outside && class_of(table, *inside) == colour &&
+         class_of(table, *beyond) == colour && (*beyond - *inside).norm() <= (*beyond - *outside).norm();
 }
 
-/// The share of a circle's area that lies beyond the picture's border.
-double outside_share(const cv::Mat& image, const Circle& circle) {
-  constexpr int kRings = 24;
-  constexpr int kSpokes = 48;
-  int outside = 0;
-  for (int ring = 0; ring < kRings; ++ring) {
-    const double radius = circle.radius_px * std::sqrt((ring + 0.5) / kRings);  // rings of equal area
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
-      const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kSpokes);
-      const Eigen::Vector2d at = circle.centre_px + radius * Eigen::Vector2d(c, s);
-      const bool is_inside =
-          at.x() >= -0.5 && at.y() >= -0.5 && at.x() <= image.cols - 0.5 && at.y() <= image.rows - 0.5;
-      outside += is_inside ? 0 : 1;
-    }
+/// Of rays, along how many the patch's colour goes on across a circle: what hides a thing takes of its patch,
+/// and adds nothing.
+double share_beyond(const cv::Mat& image, const Circle& circle, int colour, const ColourTable& table) {
+  constexpr int kRays = 72;
+  int beyond = 0;
+  for (int ray = 0; ray < kRays; ++ray) {
+    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * ray / kRays);
+    beyond += goes_on(image, circle, Eigen::Vector2d(c, s), colour, table) ? 1 : 0;
   }
-  return static_cast<double>(outside) / (kRings * kSpokes);
+  return static_cast<double>(beyond) / kRays;
 }
 
 std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, const ColourTable& table) {
@@ -240,7 +217,10 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   double seen = 0.0;
   for (const EdgePoint& point : edges.points) seen += point.weight > 0.0 ? 1.0 : 0.0;
   const double arc_share = seen / (edges.rays + edges.outside);
-  if (arc_share < kMinArc) return std::nullopt;
+  const double rough = fit->spread_px / (kRough_px + kRough * circle.radius_px);
+  if (arc_share < kMinArc || rough > kRoughest ||
+      share_beyond(image, circle, blob.colour, table) > kMostBeyond)
+    return std::nullopt;
   MeasuredOutline outline;
   outline.colour = blob.colour;
   outline.centre_px = circle.centre_px;
@@ -248,9 +228,64 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   outline.covariance_px2 = fit->covariance;
   outline.arc_share = arc_share;
   outline.outside_fraction = outside_share(image, circle);
-  outline.hidden_fraction = hidden_share(image, circle, blob.colour, table);
+  outline.hidden_fraction = std::max(
+      {hidden_share(image, circle, blob.colour, table), kKnownArc - arc_share, std::min(rough - 1.0, 1.0)});
   outline.seen_px = blob.area_px;
   return outline;
+}
+
+/// A patch and the pieces beside it of the same colour, which seams and prints have cut off; the box of all.
+Blob with_pieces(const Blob& patch, const ScratchVector<Blob>& blobs) {
+  Blob all = patch;
+  const int gap = static_cast<int>(
+      std::ceil(kGap * std::max(patch.max_x - patch.min_x + 1, patch.max_y - patch.min_y + 1)));
+  for (const Blob& other : blobs) {
+    const bool is_beside = other.colour == patch.colour && other.min_x <= patch.max_x + gap &&
+                           other.max_x >= patch.min_x - gap && other.min_y <= patch.max_y + gap &&
+                           other.max_y >= patch.min_y - gap;
+    if (!is_beside || &other == &patch ||
+        static_cast<double>(other.area_px) < kLeastPiece * static_cast<double>(patch.area_px))
+      continue;
+    all.area_px += other.area_px;
+    all.min_x = std::min(all.min_x, other.min_x);
+    all.max_x = std::max(all.max_x, other.max_x);
+    all.min_y = std::min(all.min_y, other.min_y);
+    all.max_y = std::max(all.max_y, other.max_y);
+  }
+  return all;
+}
+
+/// Of two outlines around one patch, the one that more of its arc speaks for, in px.
+bool is_better(const MeasuredOutline& a, const MeasuredOutline& b) {
+  return a.arc_share * a.radius_px > b.arc_share * b.radius_px;
+}
+
+/// Whether a patch may be the inside of an outline: about it, and no larger.
+bool holds(const MeasuredOutline& outline, const Blob& patch) {
+  const Eigen::Vector2d middle(0.5 * (patch.min_x + patch.max_x), 0.5 * (patch.min_y + patch.max_y));
+  const double area_px = std::numbers::pi * outline.radius_px * outline.radius_px;
+  return (outline.centre_px - middle).norm() < outline.radius_px &&
+         static_cast<double>(patch.area_px) <= kLargestPatch * area_px;
+}
+
+/// The better outline of a patch, alone and with its pieces.
+std::optional<MeasuredOutline> best_outline(const cv::Mat& image, const Blob& alone, const Blob& with_pieces,
+                                            const ColourTable& table, double min_radius_px) {
+  std::optional<MeasuredOutline> best;
+  for (const Blob& blob : {alone, with_pieces}) {
+    const auto outline = may_be_round(blob) ? measure(image, blob, table) : std::nullopt;
+    if (outline && outline->radius_px >= min_radius_px && holds(*outline, alone) &&
+        (!best || is_better(*outline, *best)))
+      best = outline;
+    if (with_pieces.area_px == alone.area_px) break;
+  }
+  return best;
+}
+
+/// Pieces of a thing that was found whole are within it.
+bool is_within(const MeasuredOutline& piece, const MeasuredOutline& whole) {
+  return piece.colour == whole.colour && piece.radius_px < whole.radius_px &&
+         (piece.centre_px - whole.centre_px).norm() + 0.5 * piece.radius_px < whole.radius_px;
 }
 
 }  // namespace
@@ -259,13 +294,20 @@ std::vector<MeasuredOutline> find_round_patches(const cv::Mat& image, const Colo
                                                 double min_radius_px) {
   std::vector<MeasuredOutline> outlines;
   const double smallest = kMinPatch * std::numbers::pi * min_radius_px * min_radius_px;
-  for (const Blob& blob : find_blobs(image, std::lround(smallest), table)) {
-    const auto outline = may_be_round(blob) ? measure(image, blob, table) : std::nullopt;
-    if (outline && outline->radius_px >= min_radius_px) outlines.push_back(*outline);
+  ScratchVector<Blob> blobs = find_blobs(image, std::lround(kLeastPiece * smallest) + 1, table);
+  std::ranges::stable_sort(blobs, std::greater{}, &Blob::area_px);
+  const std::size_t most = std::min(blobs.size(), kMostPatches);
+  for (std::size_t i = 0; i < most && static_cast<double>(blobs[i].area_px) >= smallest; ++i) {
+    const auto best = best_outline(image, blobs[i], with_pieces(blobs[i], blobs), table, min_radius_px);
+    if (best) outlines.push_back(*best);
   }
-  std::stable_sort(outlines.begin(), outlines.end(),
-                   [](const auto& a, const auto& b) { return a.seen_px > b.seen_px; });
-  return outlines;
+  std::vector<MeasuredOutline> whole;
+  for (const MeasuredOutline& outline : outlines) {
+    const auto holds = [&](const MeasuredOutline& other) { return is_within(outline, other); };
+    if (std::ranges::none_of(outlines, holds)) whole.push_back(outline);
+  }
+  std::ranges::stable_sort(whole, std::greater{}, &MeasuredOutline::seen_px);
+  return whole;
 }
 
 }  // namespace stereobench::vision

@@ -35,7 +35,7 @@ struct DetectArguments {
   fs::path palette;  ///< of learned colours; empty: our own
   std::optional<double> ball_radius_m;
   double noise_sd_levels = 2.0;
-  std::string encoding = "linear";
+  std::string encoding = "auto";
   fs::path out;   ///< empty: stdout
   fs::path draw;  ///< empty: nothing is drawn
   bool serve = false;
@@ -92,7 +92,7 @@ void check_size(const fs::path& file, const cv::Mat& picture, const vision::Intr
 /// Looks at pictures as the command line says.
 class Looker {
  public:
-  explicit Looker(const DetectArguments& arguments) : arguments_(arguments) {
+  Looker(const DetectArguments& arguments, worlds::Encoding encoding) : arguments_(arguments) {
     const fs::path& given = arguments.pictures[0];
     const fs::path beside = given / "calibration.yaml";
     const fs::path file = arguments.rig.empty() && fs::exists(beside) ? beside : arguments.rig;
@@ -106,7 +106,7 @@ class Looker {
     else if (fs::exists(given / "balls.csv"))
       setup_.ball_radius_m = read_balls(given / "balls.csv").front().radius_m;
     setup_.noise_sd_levels = arguments.noise_sd_levels;
-    setup_.encoding = arguments.encoding == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+    setup_.encoding = encoding;
     if (rig_) setup_.rig = *rig_;
     if (!arguments.palette.empty()) learn(read_palette(arguments.palette));
   }
@@ -120,7 +120,7 @@ class Looker {
   void learn(const PaletteFile& palette) {
     setup_.palette = palette.colours;
     setup_.encoding = palette.encoding;
-    table_ = vision::table_of(palette.colours);
+    table_ = vision::table_of(palette.colours, levels_of(palette.encoding));
     for (const vision::LearnedColour& colour : palette.colours) names_.push_back(colour.name);
   }
 
@@ -151,7 +151,7 @@ class Looker {
   std::string look_at_one(const Task& task) const {
     const cv::Mat picture = read_picture(task.left);
     if (rig_) check_size(task.left, picture, rig_->camera);
-    const cv::Mat light = renderer::decode(picture, {.encoding = setup_.encoding});
+    const cv::Mat light = table_ ? picture : renderer::decode(picture, {.encoding = setup_.encoding});
     const auto outlines = vision::find_outlines(light, rig_ ? rig_->camera : camera_for(picture),
                                                 {.ball_radius_m = setup_.ball_radius_m,
                                                  .noise_sd_levels = setup_.noise_sd_levels,
@@ -178,15 +178,28 @@ int serve() {
   return kPassed;
 }
 
+/// By what the first picture's file says, where it is left to that; a line says so where it matters.
+worlds::Encoding encoding_for(const DetectArguments& arguments, const std::vector<Task>& tasks) {
+  if (!arguments.palette.empty()) return worlds::Encoding::kLinear;  // the palette's own is taken
+  const std::array<fs::path, 1> first = {tasks.front().left};
+  const worlds::Encoding encoding = encoding_of(arguments.encoding, first);
+  if (arguments.encoding == "auto" && encoding == worlds::Encoding::kSrgb)
+    fmt::print(stderr,
+               "stereobench: pictures are read as sRGB, as {} says it is (--encoding linear: as light)\n",
+               first.front().string());
+  return encoding;
+}
+
 int detect(const DetectArguments& arguments) {
   if (arguments.serve) return serve();
   if (arguments.pictures.empty())
     throw std::runtime_error("detect: expected LEFT, LEFT RIGHT or a folder; see --help");
   require_as_rendered(arguments.pictures.front());
-  const Looker looker(arguments);
+  const std::vector<Task> tasks = tasks_of(arguments.pictures);
+  const Looker looker(arguments, encoding_for(arguments, tasks));
   if (!arguments.draw.empty()) prepare_output_folder(arguments.draw);
   std::string lines;
-  for (const Task& task : tasks_of(arguments.pictures)) {
+  for (const Task& task : tasks) {
     const std::string line = looker.look(task) + "\n";
     if (arguments.out.empty()) fmt::print("{}", line);
     lines += line;
@@ -214,8 +227,11 @@ void add_detect_command(CLI::App& program, Action& action) {
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();
-  CLI::Option* encoding = command->add_option("--encoding", arguments->encoding, "how levels stand for light")
-                              ->check(CLI::IsMember({"linear", "srgb"}))
+  CLI::Option* encoding = command
+                              ->add_option("--encoding", arguments->encoding,
+                                           "how levels stand for light; auto: sRGB of JPEGs and of "
+                                           "PNGs that say so, else linear")
+                              ->check(CLI::IsMember({"auto", "linear", "srgb"}))
                               ->capture_default_str();
   command
       ->add_option("--palette", arguments->palette,

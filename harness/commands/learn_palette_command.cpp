@@ -9,6 +9,7 @@
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/colour_marks.h"
 #include "harness/dataset/palette_file.h"
+#include "harness/detector/detector.h"
 #include "harness/report/text_table.h"
 
 namespace stereobench::harness {
@@ -20,7 +21,7 @@ constexpr double kFewestApart = 3.0;  // standard deviations; below it one pixel
 
 struct LearnPaletteArguments {
   fs::path marks;
-  std::string encoding = "linear";
+  std::string encoding = "auto";
   fs::path out = "palette.json";
 };
 
@@ -53,18 +54,23 @@ std::string report(const PaletteFile& palette, const MarkedPixels& marked) {
 
 int learn(const LearnPaletteArguments& arguments) {
   PaletteFile palette;
-  palette.encoding = arguments.encoding == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
-  const MarkedPixels marked = read_marked_pixels(arguments.marks, palette.encoding);
+  const MarkedPixels marked = read_marked_pixels(arguments.marks, arguments.encoding);
+  palette.encoding = marked.encoding;
   if (marked.colours.size() >= vision::kBackground)
     throw std::runtime_error(fmt::format("{}: expected at most 254 colours", arguments.marks.string()));
   try {
     for (const std::string& name : marked.colours)
-      palette.colours.push_back(vision::learn_colour(name, marked.pixels.at(name)));
+      palette.colours.push_back(
+          vision::learn_colour(name, marked.pixels.at(name), levels_of(palette.encoding)));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", arguments.marks.string(), error.what()));
   }
   write_file_atomically(arguments.out, palette_json(palette));
-  fmt::print("{}{}\n", report(palette, marked), arguments.out.string());
+  fmt::print("{}levels are taken for {} ({})\n{}\n", report(palette, marked),
+             palette.encoding == worlds::Encoding::kSrgb ? "sRGB" : "linear light",
+             arguments.encoding == "auto" ? "by what the pictures' files say; --encoding says otherwise"
+                                          : "--encoding",
+             arguments.out.string());
   return kPassed;
 }
 
@@ -76,8 +82,11 @@ void add_learn_palette_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<LearnPaletteArguments>();
   command->add_option("marks", arguments->marks, "JSON file: which picture shows which colour where")
       ->required();
-  command->add_option("--encoding", arguments->encoding, "how the pictures' levels stand for light")
-      ->check(CLI::IsMember({"linear", "srgb"}))
+  command
+      ->add_option("--encoding", arguments->encoding,
+                   "how the pictures' levels stand for light; auto: sRGB of JPEGs and of PNGs "
+                   "that say so, else linear")
+      ->check(CLI::IsMember({"auto", "linear", "srgb"}))
       ->capture_default_str();
   command->add_option("--out,-o", arguments->out, "file for the palette")->capture_default_str();
   add_quiet_option(*command);

@@ -11,7 +11,6 @@
 #include "harness/dataset/picture_reader.h"
 #include "harness/dataset/text_file.h"
 #include "harness/detector/json_line.h"
-#include "renderer/develop.h"
 
 namespace stereobench::harness {
 namespace {
@@ -66,12 +65,12 @@ std::vector<Mark> read_marks(const fs::path& file) {
   }
 }
 
-std::size_t add_pixels(const cv::Mat& light, const Mark& mark, std::vector<Eigen::Vector3d>& pixels) {
+std::size_t add_pixels(const cv::Mat& levels, const Mark& mark, std::vector<Eigen::Vector3d>& pixels) {
   const std::size_t before = pixels.size();
-  for (int row = 0; row < light.rows; ++row)
-    for (int column = 0; column < light.cols; ++column) {
+  for (int row = 0; row < levels.rows; ++row)
+    for (int column = 0; column < levels.cols; ++column) {
       if (!mark.contains(column, row)) continue;
-      const cv::Vec3b& bgr = light.at<cv::Vec3b>(row, column);
+      const cv::Vec3b& bgr = levels.at<cv::Vec3b>(row, column);
       pixels.emplace_back(bgr[0], bgr[1], bgr[2]);
     }
   return pixels.size() - before;
@@ -79,18 +78,22 @@ std::size_t add_pixels(const cv::Mat& light, const Mark& mark, std::vector<Eigen
 
 }  // namespace
 
-MarkedPixels read_marked_pixels(const fs::path& file, worlds::Encoding encoding) {
+MarkedPixels read_marked_pixels(const fs::path& file, const std::string& encoding) {
   MarkedPixels marked;
   std::map<std::string, cv::Mat> pictures;
+  std::vector<fs::path> files;
   for (const Mark& mark : read_marks(file)) {
-    cv::Mat& light = pictures[mark.picture];
-    if (light.empty())
-      light = renderer::decode(read_picture(file.parent_path() / mark.picture), {.encoding = encoding});
+    cv::Mat& levels = pictures[mark.picture];
+    if (levels.empty()) {
+      files.push_back(file.parent_path() / mark.picture);
+      levels = read_picture(files.back());
+    }
     if (!marked.pixels.contains(mark.colour)) marked.colours.push_back(mark.colour);
-    if (add_pixels(light, mark, marked.pixels[mark.colour]) == 0)
+    if (add_pixels(levels, mark, marked.pixels[mark.colour]) == 0)
       throw std::runtime_error(fmt::format("{}: a mark of '{}' holds no pixel of {}", file.string(),
                                            excerpt(mark.colour), excerpt(mark.picture)));
   }
+  marked.encoding = encoding_of(encoding, files);
   return marked;
 }
 

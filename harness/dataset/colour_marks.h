@@ -18,15 +18,18 @@
 
 namespace stereobench::harness {
 
-/// The pixels of what was marked, BGR light, by colour; and the colours in the order of the file.
+/// The pixels of what was marked, BGR levels as they are stored, by colour; and the colours in the order of
+/// the file.
 struct MarkedPixels {
+  worlds::Encoding encoding = worlds::Encoding::kLinear;  ///< of the pictures
   std::vector<std::string> colours;
   std::map<std::string, std::vector<Eigen::Vector3d>> pixels;
 };
 
 /// Reads a file of marks and the pictures that it names.
+/// @param encoding auto, linear or srgb, as encoding_of (picture_reader.h) takes it
 /// @throws std::runtime_error, one line, for what is not exactly as above, pictures that cannot be read, and
 ///   marks that hold no pixel of their picture
-MarkedPixels read_marked_pixels(const std::filesystem::path& file, worlds::Encoding encoding);
+MarkedPixels read_marked_pixels(const std::filesystem::path& file, const std::string& encoding);
 
 }  // namespace stereobench::harness

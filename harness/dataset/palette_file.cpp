@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kVersion = 2;
+constexpr std::int64_t kOfLight = 1;  // the version whose colours were learned in 8 bits of linear light
 constexpr double kLeastVariance = 1e-8;
 
 const char* name_of(worlds::Encoding encoding) {
@@ -55,11 +56,14 @@ PaletteFile read(const JsonValue& value) {
   value.allow({"format", "version", "encoding", "colours"});
   if (value.at("format").text() != "stereobench-palette")
     value.at("format").refuse("\"stereobench-palette\"");
-  value.at("version").integer(kVersion, kVersion);
+  const std::int64_t version = value.at("version").integer(kOfLight, kVersion);
   PaletteFile palette;
   const std::string encoding = value.at("encoding").text();
   if (encoding != "linear" && encoding != "srgb") value.at("encoding").refuse("\"linear\" or \"srgb\"");
   palette.encoding = encoding == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+  if (version == kOfLight && palette.encoding == worlds::Encoding::kSrgb)
+    value.at("version").refuse(
+        "2, of sRGB: colours are learned in levels as they are stored since; learn them again");
   std::set<std::string> names;
   for (const JsonValue& entry : value.at("colours").list(1, vision::kBackground - 1U)) {
     palette.colours.push_back(read_colour(entry));

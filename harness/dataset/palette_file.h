@@ -10,7 +10,7 @@
 
 namespace stereobench::harness {
 
-/// Colours, and how the levels that they were learned from stand for light.
+/// Colours, and how the levels that they were learned from, as these are stored, stand for light.
 struct PaletteFile {
   std::vector<vision::LearnedColour> colours;  ///< 1 to 254, with names of their own
   worlds::Encoding encoding = worlds::Encoding::kLinear;

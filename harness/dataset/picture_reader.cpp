@@ -44,6 +44,21 @@ cv::Mat read_grey_picture(const fs::path& file) {
   return picture;
 }
 
+worlds::Encoding encoding_of(const std::string& asked, std::span<const fs::path> files) {
+  if (asked != "auto") return asked == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+  const auto is_srgb = [](const fs::path& file) {
+    if (!fs::is_regular_file(file)) refuse(file, "no such file");
+    return renderer::said_of_levels(renderer::picture_bytes(file)) == renderer::SaidOfLevels::kSrgb;
+  };
+  for (const fs::path& file : files)
+    if (is_srgb(file) != is_srgb(files.front()))
+      throw std::runtime_error(fmt::format(
+          "--encoding: {} and {} contradict each other, one is sRGB by its file and the other is not: say "
+          "linear or srgb",
+          files.front().string(), file.string()));
+  return !files.empty() && is_srgb(files.front()) ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+}
+
 bool is_picture_name(const fs::path& file) {
   constexpr std::array<std::string_view, 9> kExtensions = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
                                                            ".tiff", ".ppm", ".pgm",  ".pnm"};

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include <opencv2/core.hpp>
+
+#include "worlds/camera_sensor.h"
 
 namespace stereobench::harness {
 
@@ -21,6 +25,12 @@ cv::Mat read_picture(const std::filesystem::path& file);
 /// @return CV_8UC1
 /// @throws std::runtime_error as read_levels does
 cv::Mat read_grey_picture(const std::filesystem::path& file);
+
+/// How the levels of pictures stand for light: what `asked` says, or where that is "auto" what their files
+/// say; pictures of which no file says anything, as ours, are of linear light.
+/// @param asked auto, linear or srgb
+/// @throws std::runtime_error, one line, where files contradict each other or cannot be read
+worlds::Encoding encoding_of(const std::string& asked, std::span<const std::filesystem::path> files);
 
 /// Whether a file's name says that it is a picture.
 bool is_picture_name(const std::filesystem::path& file);

@@ -10,6 +10,10 @@ constexpr double kTypicalLevel = 128.0;  ///< at which detectors are told how la
 
 }  // namespace
 
+vision::Levels levels_of(worlds::Encoding encoding) {
+  return encoding == worlds::Encoding::kLinear ? vision::Levels::kLinear : vision::Levels::kSrgb;
+}
+
 DetectorSetup detector_setup(const worlds::Scenario& scenario) {
   return {.rig = scenario.believed_rig,
           .ball_radius_m = scenario.world.ball_radius_m(),
@@ -25,14 +29,17 @@ Detector our_detector(const DetectorSetup& setup) {
   const worlds::CameraSensor camera{.encoding = setup.encoding, .gamma = setup.gamma};
   const vision::EyePair eyes = setup.eyes ? *setup.eyes : vision::eyes_of(setup.rig);
   std::optional<vision::ColourTable> learned;
-  if (!setup.palette.empty()) learned = vision::table_of(setup.palette);
+  if (!setup.palette.empty()) learned = vision::table_of(setup.palette, levels_of(setup.encoding));
   return [settings, camera, learned,
           rectification = vision::Rectification(setup.rig, eyes)](const DetectorInput& input) {
+    if (learned) {  // which are found in levels as they are stored
+      vision::ObserverSettings with_colours = settings;
+      with_colours.learned = &*learned;
+      return vision::observe(input.pair, rectification, with_colours);
+    }
     const vision::StereoPair light = {renderer::decode(input.pair.left, camera),
                                       renderer::decode(input.pair.right, camera)};
-    vision::ObserverSettings with_colours = settings;
-    with_colours.learned = learned ? &*learned : nullptr;
-    return vision::observe(light, rectification, with_colours);
+    return vision::observe(light, rectification, settings);
   };
 }
 

@@ -41,6 +41,9 @@ struct DetectorSetup {
   std::vector<vision::LearnedColour> palette;  ///< colours that were learned; empty: vision::kPalette
 };
 
+/// What levels are by their encoding, for colours that are learned: gamma is near enough to sRGB.
+vision::Levels levels_of(worlds::Encoding encoding);
+
 /// What detectors are told of a scenario.
 DetectorSetup detector_setup(const worlds::Scenario& scenario);
 

@@ -103,6 +103,30 @@ TEST(LearnPalette, FindsWhatWasMarkedAndNothingElse) {
   EXPECT_EQ(run_stereobench({"detect", picture, "--palette", palette, "--encoding", "linear"}).exit_code, 2);
 }
 
+// JPEGs are sRGB, and what learned from them says so; both at once are refused. Mutation: the first picture's
+// alone looked at.
+TEST(LearnPalette, FindsTheEncodingInTheFiles) {
+  const ScratchFolder scratch;
+  const std::string png = draw_discs(scratch);
+  cv::imwrite((scratch.path() / "discs.jpg").string(), cv::imread(png), {cv::IMWRITE_JPEG_QUALITY, 95});
+  std::string text = kDiscMarks;
+  const auto replace = [&](std::size_t from) { text.replace(text.find("discs.png", from), 9, "discs.jpg"); };
+  const std::string palette = (scratch.path() / "palette.json").string();
+  replace(text.rfind("{\"picture\""));
+  const Outcome both = run_stereobench({"learn-palette", scratch.write("marks.json", text), "-o", palette});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, HasSubstr("contradict each other"));
+  replace(0);
+  const Outcome learned =
+      run_stereobench({"learn-palette", scratch.write("marks.json", text), "-o", palette});
+  ASSERT_EQ(learned.exit_code, 0) << learned.err;
+  EXPECT_THAT(learned.out, HasSubstr("levels are taken for sRGB"));
+  EXPECT_EQ(read_palette(palette).encoding, worlds::Encoding::kSrgb);
+  const Outcome found =
+      run_stereobench({"detect", (scratch.path() / "discs.jpg").string(), "--palette", palette});
+  EXPECT_EQ(nlohmann::json::parse(found.out)["balls"].size(), 2U);
+}
+
 TEST(LearnPalette, WarnsOfColoursThatAreTakenForEachOther) {
   const ScratchFolder scratch;
   draw_discs(scratch);
@@ -166,7 +190,12 @@ TEST(PaletteFile, RefusesWhatIsNone) {
   EXPECT_THAT(complaint("\"red\"", "\"\""), HasSubstr("name: expected a name"));
   EXPECT_THAT(complaint("0.9", "1.9"), HasSubstr("chromaticity_rg[0]: expected a number"));
   EXPECT_THAT(complaint("0.0004", "-0.4"), HasSubstr("covariance: expected a symmetric, positive matrix"));
-  EXPECT_THAT(complaint("\"version\": 1", "\"version\": 2"), HasSubstr("version: expected 1"));
+  EXPECT_THAT(complaint("\"version\": 2", "\"version\": 3"), HasSubstr("version: expected"));
+  EXPECT_EQ(complaint("\"version\": 2", "\"version\": 1"), "no complaint") << "of light, as they were";
+  std::string old = palette_json({{red}, worlds::Encoding::kSrgb});
+  old.replace(old.find("\"version\": 2"), 12, "\"version\": 1");
+  EXPECT_THAT([&] { parse_palette(old, "palette.json"); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("learn them again")));
   EXPECT_THAT(complaint("linear", "log"), HasSubstr("encoding: expected"));
   EXPECT_THAT(palette_json({{red, red}}), HasSubstr("red"));
   EXPECT_THROW(parse_palette(palette_json({{red, red}}), "palette.json"), std::runtime_error);
