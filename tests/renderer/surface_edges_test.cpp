@@ -71,7 +71,9 @@ TEST(SurfaceEdges, OfWallsThatMeetAreOne) {
 TEST(SurfaceEdges, OfAWallEndWhereItDoes) {
   worlds::World world;
   world.walls = {{{-8123.4567, 3.3333}, {7654.3211, -1234.5678}, 0.45}};
-  for (const SurfaceEdge& edge : surface_edges(world, {}).at(0).edges)
+  const std::vector<SurfaceEdge> edges = surface_edges(world, {}).at(0).edges;
+  EXPECT_EQ(edges.size(), 4U);
+  for (const SurfaceEdge& edge : edges)
     for (const Eigen::Vector3d& end : {edge.from_m, edge.to_m}) {
       const Eigen::Vector2d foot = end.head<2>();
       EXPECT_TRUE(foot == world.walls[0].from_m || foot == world.walls[0].to_m) << foot.transpose();
