@@ -18,7 +18,8 @@ enum class Stream : std::uint32_t {
   kReadNoise,
   kFrameLoss,
   kGallery,
-  kRandomise
+  kRandomise,
+  kBallRadius
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).

@@ -192,6 +192,15 @@ ShadeTrust trust_around(const ScratchVector<ShadeCheck>& checks, std::size_t arc
   return {believed_part(around.squares, around.freedom), std::min(kUnknownShade, at_rim)};
 }
 
+// What black adds to each channel of a colour that is the mean of noisy pixels. Mixed pixels are above black:
+// a ball without blue seems to have some, and its rim to lie further out.
+Eigen::Vector3d raised(const Eigen::Vector3d& bgr, double noise_sd) {
+  Eigen::Vector3d by_black;
+  for (int channel = 0; channel < 3; ++channel)
+    by_black[channel] = raised_by_black(std::max(0.0, bgr[channel]), noise_sd);
+  return by_black;
+}
+
 // The two colours of an arc, and what disturbs them.
 struct Mixture {
   Eigen::Vector3d background;
@@ -233,14 +242,18 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
   const auto checks = rim.has_shades ? check_shades(balls, noise_variance) : ScratchVector<ShadeCheck>();
   const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
+  const double noise_sd = std::sqrt(noise_variance);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const RimArc& seen = rim.arcs[i];
     if (!balls[i].shows_ball || seen.outside.count() < 2.0 || seen.crossed.count() < 1.0) continue;
     const BallSums& inside = balls[i].inside;
     const ShadeTrust trust = rim.has_shades ? trust_around(checks, i) : ShadeTrust{};
-    const Eigen::Vector3d beyond_shade = trust.beyond_shade * (inside.mean() - inside.mean_shade());
-    arcs[i] = unmixed({.background = background_at_rim(seen.outside, gradients, i, noise_variance),
-                       .ball = seen.crossed.mean_shade() + beyond_shade,
+    const Eigen::Vector3d shade = seen.crossed.mean_shade();
+    const Eigen::Vector3d beyond_shade =
+        trust.beyond_shade * (inside.mean() - inside.mean_shade()) - raised(shade, noise_sd);
+    const Eigen::Vector3d beside = background_at_rim(seen.outside, gradients, i, noise_variance);
+    arcs[i] = unmixed({.background = beside - raised(beside, noise_sd),
+                       .ball = shade + beyond_shade,
                        .beyond_shade = beyond_shade,
                        .texture = elsewhere + texture_around(rim.arcs, i, noise_variance),
                        .shade_sd = trust.relative_sd,

@@ -10,46 +10,84 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kSizeSd = 0.1;  // of what is believed of a ball's radius, relative
-constexpr int kSteps = 4;
+constexpr double kLooseSd = 0.1;   // of what is believed of a ball's radius before outlines are matched
+constexpr double kExactSd = 1e-7;  // of a radius that is exactly known: as good as 0, and has an inverse
+constexpr int kSteps = 4;          // from where the centres triangulate to
+constexpr int kFurtherSteps = 2;   // from the loose fit
+constexpr double kBelieved = 9.0;  // squared contradiction of size and disparity, in variances
 
-using Ball = Eigen::Vector4d;  // X, Y, Z in the eye or the left camera, and the radius, metres
-using OutlineByBall = Eigen::Matrix<double, 3, 4>;
+// Two outlines of one ball, as the eyes measured them.
+class Sight {
+ public:
+  Sight(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right)
+      : camera_(rig.camera),
+        to_right_(-rig.baseline_m, 0.0, 0.0, 0.0),
+        left_(as_vector(left)),
+        right_(as_vector(right)),
+        left_noise_(left.covariance_px2),
+        right_noise_(right.covariance_px2) {}
 
-// Centre and radius of the outline that a ball has in an eye, and their derivatives (sphere.h).
-struct SeenBall {
-  Eigen::Vector3d outline_px = Eigen::Vector3d::Zero();
-  OutlineByBall by_ball = OutlineByBall::Zero();
+  // One step towards the ball that explains both.
+  // @param size of a ball before it is looked at
+  // @return covariance of the ball
+  Eigen::Matrix4d improve(SizedBall& ball, const BallSize& size) const {
+    const double size_information = 1.0 / (size.radius_sd_m * size.radius_sd_m);
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+    information(3, 3) = size_information;
+    Eigen::Vector4d evidence(0.0, 0.0, 0.0, size_information * (size.radius_m - ball.w()));
+    const auto add = [&](const SeenOutline& seen, const Eigen::Vector3d& outline, const auto& noise) {
+      const Eigen::Matrix<double, 4, 3> weighted = noise.solve(seen.by_ball).transpose();
+      information.noalias() += weighted * seen.by_ball;
+      evidence.noalias() += weighted * (outline - seen.outline_px);
+    };
+    add(seen_outline(camera_, ball), left_, left_noise_);
+    add(seen_outline(camera_, ball + to_right_), right_, right_noise_);
+    const Eigen::LDLT<Eigen::Matrix4d> solver(information);
+    ball += solver.solve(evidence);
+    return solver.solve(Eigen::Matrix4d::Identity());
+  }
+
+  Eigen::Vector3d left_residual(const SizedBall& ball) const {
+    return left_ - seen_outline(camera_, ball).outline_px;
+  }
+  Eigen::Vector3d right_residual(const SizedBall& ball) const {
+    return right_ - seen_outline(camera_, ball + to_right_).outline_px;
+  }
+
+ private:
+  static Eigen::Vector3d as_vector(const MeasuredOutline& outline) {
+    return {outline.centre_px.x(), outline.centre_px.y(), outline.radius_px};
+  }
+
+  Intrinsics camera_;
+  Eigen::Vector4d to_right_;
+  Eigen::Vector3d left_, right_;
+  Eigen::LDLT<Eigen::Matrix3d> left_noise_, right_noise_;
 };
 
-SeenBall see(const Intrinsics& camera, const Ball& ball) {
-  const double z = ball.z();
-  const double radius = ball.w();
-  const double gap = z * z - radius * radius;
-  const double tangent2 = ball.head<3>().squaredNorm() - radius * radius;  // squared length of a tangent
-  const double f = camera.focal_px;
-  SeenBall seen;
-  for (int axis = 0; axis < 2; ++axis) {
-    seen.outline_px[axis] = f * ball[axis] * z / gap + (axis == 0 ? camera.cx_px : camera.cy_px);
-    seen.by_ball(axis, axis) = f * z / gap;
-    seen.by_ball(axis, 2) = f * ball[axis] * (1.0 - 2.0 * z * z / gap) / gap;
-    seen.by_ball(axis, 3) = 2.0 * f * ball[axis] * z * radius / (gap * gap);
-  }
-  const double outline_radius = f * radius * std::sqrt(std::sqrt(tangent2 / gap) / gap);
-  seen.outline_px[2] = outline_radius;
-  const double by_tangent = 0.5 * outline_radius / tangent2;
-  const double by_gap = -1.5 * outline_radius / gap;
-  seen.by_ball.row(2) << by_tangent * ball.x(), by_tangent * ball.y(), (by_tangent + by_gap) * z,
-      outline_radius / radius - (by_tangent + by_gap) * radius;
-  return seen;
-}
-
-Eigen::Vector3d as_vector(const MeasuredOutline& outline) {
-  return {outline.centre_px.x(), outline.centre_px.y(), outline.radius_px};
-}
-
-bool is_ahead(const Ball& ball) {
+bool is_ahead(const SizedBall& ball) {
   return ball.allFinite() && ball.w() > 0.0 && ball.z() > 1.01 * ball.w();
+}
+
+// Puts a ball and its covariance into a fit. @return whether there is such a ball
+bool put(const SizedBall& ball, const Eigen::Matrix4d& covariance, BallFit& fit) {
+  if (!is_ahead(ball) || !covariance.allFinite()) return false;
+  fit.ball_in_camera = ball.head<3>();
+  fit.covariance_m2 = 0.5 * (covariance.topLeftCorner<3, 3>() + covariance.topLeftCorner<3, 3>().transpose());
+  fit.radius_m = ball.w();
+  fit.radius_variance_m2 = covariance(3, 3);
+  return true;
+}
+
+// What is known of a ball's size, as far as its outlines do not contradict it.
+BallSize believed_size(const BallSize& size, const BallFit& loose) {
+  const double loose_sd_m = kLooseSd * size.radius_m;
+  const double off_m = loose.radius_m - size.radius_m;
+  const double told_m2 = size.radius_sd_m * size.radius_sd_m;
+  const double seen_m2 = loose.radius_variance_m2;
+  const double contradicted_m2 = off_m * off_m > kBelieved * (seen_m2 + told_m2) ? off_m * off_m : 0.0;
+  const double exact_m = kExactSd * size.radius_m;
+  return {size.radius_m, std::clamp(std::sqrt(told_m2 + contradicted_m2), exact_m, loose_sd_m)};
 }
 
 }  // namespace
@@ -58,42 +96,38 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
                                 const MeasuredOutline& right, double ball_radius_m) {
   const auto start = triangulate_ball(rig, left.centre_px, right.centre_px, ball_radius_m);
   if (!start) return std::nullopt;
-  const Eigen::LDLT<Eigen::Matrix3d> left_noise(left.covariance_px2);
-  const Eigen::LDLT<Eigen::Matrix3d> right_noise(right.covariance_px2);
-  const double size_sd_m = kSizeSd * ball_radius_m;
-  const double size_information = 1.0 / (size_sd_m * size_sd_m);
-  const Eigen::Vector4d to_right(-rig.baseline_m, 0.0, 0.0, 0.0);
-
-  Ball ball(start->x(), start->y(), start->z(), ball_radius_m);
-  Eigen::LDLT<Eigen::Matrix4d> solver;
+  const Sight sight(rig, left, right);
+  SizedBall ball(start->x(), start->y(), start->z(), ball_radius_m);
+  Eigen::Matrix4d covariance;
   for (int step = 0; step < kSteps; ++step) {
     if (!is_ahead(ball)) return std::nullopt;
-    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-    information(3, 3) = size_information;
-    Eigen::Vector4d evidence(0.0, 0.0, 0.0, size_information * (ball_radius_m - ball.w()));
-    const auto add = [&](const SeenBall& seen, const MeasuredOutline& outline, const auto& noise) {
-      const Eigen::Matrix<double, 4, 3> weighted = noise.solve(seen.by_ball).transpose();
-      information.noalias() += weighted * seen.by_ball;
-      evidence.noalias() += weighted * (as_vector(outline) - seen.outline_px);
-    };
-    add(see(rig.camera, ball), left, left_noise);
-    add(see(rig.camera, ball + to_right), right, right_noise);
-    solver.compute(information);
-    ball += solver.solve(evidence);
+    covariance = sight.improve(ball, {ball_radius_m, kLooseSd * ball_radius_m});
   }
-  if (!is_ahead(ball)) return std::nullopt;
-  const Eigen::Matrix4d covariance = solver.solve(Eigen::Matrix4d::Identity());
-  if (!covariance.allFinite()) return std::nullopt;
-  const Eigen::Vector3d left_residual = as_vector(left) - see(rig.camera, ball).outline_px;
-  const Eigen::Vector3d right_residual = as_vector(right) - see(rig.camera, ball + to_right).outline_px;
   BallFit fit;
-  fit.ball_in_camera = ball.head<3>();
-  fit.covariance_m2 = 0.5 * (covariance.topLeftCorner<3, 3>() + covariance.topLeftCorner<3, 3>().transpose());
+  if (!put(ball, covariance, fit)) return std::nullopt;
+  const Eigen::Vector3d left_residual = sight.left_residual(ball);
+  const Eigen::Vector3d right_residual = sight.right_residual(ball);
   fit.row_misfit_px = std::abs(left_residual.y() - right_residual.y());
   const double size_misfit_px =
       std::abs(ball.w() / ball_radius_m - 1.0) * std::max(left.radius_px, right.radius_px);
   fit.radius_misfit_px =
       std::max({std::abs(left_residual.z()), std::abs(right_residual.z()), size_misfit_px});
+  return fit;
+}
+
+BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+                         const BallSize& size, const BallFit& loose) {
+  const Sight sight(rig, left, right);
+  const BallSize believed = believed_size(size, loose);
+  SizedBall ball;
+  ball << loose.ball_in_camera, loose.radius_m;
+  Eigen::Matrix4d covariance;
+  for (int step = 0; step < kFurtherSteps; ++step) {
+    if (!is_ahead(ball)) return loose;
+    covariance = sight.improve(ball, believed);
+  }
+  BallFit fit = loose;
+  put(ball, covariance, fit);
   return fit;
 }
 

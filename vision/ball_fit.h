@@ -14,20 +14,38 @@ namespace stereobench::vision {
 struct BallFit {
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< left camera, metres
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();   ///< of it
+  double radius_m = 0.0;                                     ///< as the outlines tell it
+  double radius_variance_m2 = 0.0;                           ///< of that
   double row_misfit_px = 0.0;                                ///< between the eyes, absolute
   double radius_misfit_px = 0.0;  ///< to balls of the known size, of the worse eye, absolute
 };
 
-/// The ball of about known size whose outlines suit what both eyes measured best.
+/// The ball of about known size whose outlines suit what both eyes measured best: the one by which outlines
+/// are matched.
 ///
 /// Generalised least squares over (X, Y, Z, R): three numbers an eye, each eye's with their covariance. The
-/// size is known to ten percent only, so that distance comes from disparity and not from a radius that blur
-/// would change. A whole outline's centre says nothing of its radius, and its ball is where the centres
-/// triangulate to. Of an outline that is seen in part, centre and radius are uncertain together, and what the
-/// other eye says of the radius helps to fix the centre.
+/// size is held to ten percent only, so that disparity and size can be seen to contradict each other. A whole
+/// outline's centre says nothing of its radius, and its ball is where the centres triangulate to. Of an
+/// outline that is seen in part, centre and radius are uncertain together, and what the other eye says of the
+/// radius helps to fix the centre.
 /// @param ball_radius_m > 0
 /// @return empty when the outlines' centres have no positive disparity
 std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& left,
                                 const MeasuredOutline& right, double ball_radius_m);
+
+/// How large balls are, and how well that is known.
+struct BallSize {
+  double radius_m = 0.0;     ///< > 0
+  double radius_sd_m = 0.0;  ///< tolerance of manufacture; 0 is exactly known
+};
+
+/// The same ball by all that is known of its size: the outlines' size tells depth as well, f R / r.
+///
+/// The size counts by its tolerance. Where it contradicts the disparity by more than three standard
+/// deviations, as that of a ball of another size does, it counts by how much it contradicts.
+/// @param loose fit_ball's, of the same outlines
+/// @return `loose` itself where no ball of that size explains the outlines
+BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+                         const BallSize& size, const BallFit& loose);
 
 }  // namespace stereobench::vision

@@ -46,6 +46,9 @@ void check_settings(const ObserverSettings& settings) {
   if (!positive(settings.ball_radius_m) || !positive(settings.min_radius_px) ||
       !positive(settings.min_depth_m))
     throw std::invalid_argument("observer settings: expected positive ball radius, outline radius and depth");
+  const double tolerance_m = settings.ball_radius_sd_m;
+  if (!std::isfinite(tolerance_m) || tolerance_m < 0.0 || tolerance_m > settings.ball_radius_m)
+    throw std::invalid_argument("observer settings: expected a tolerance of at most the ball radius");
   if (!std::isfinite(settings.noise_sd_levels) || settings.noise_sd_levels < 0.0)
     throw std::invalid_argument("observer settings: expected an image noise of at least 0 levels");
 }
@@ -150,15 +153,16 @@ bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
   return contradiction > kMostContradiction || (contradiction > 1.0 && disparity_sd_px > kVague_px);
 }
 
-BallObservation measure(const OutlinePair& pair, const StereoRig& rig) {
+BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const BallSize& size) {
+  const BallFit fit = fit_ball_of_size(rig, pair.left, pair.right, size, pair.ball);
   BallObservation ball;
   ball.colour = pair.left.colour;
   ball.left_px = pair.left.centre_px;
   ball.right_px = pair.right.centre_px;
   ball.left_radius_px = pair.left.radius_px;
   ball.right_radius_px = pair.right.radius_px;
-  ball.ball_in_camera = pair.ball.ball_in_camera;
-  ball.range_bearing = range_bearing(ball.ball_in_camera, pair.ball.covariance_m2, robot_from_camera(rig));
+  ball.ball_in_camera = fit.ball_in_camera;
+  ball.range_bearing = range_bearing(ball.ball_in_camera, fit.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
   if (!pair.sizes_agree || !shows_enough(pair) || contradicts_itself(pair, rig)) {
     ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
@@ -191,9 +195,10 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
                                find_in(pair.right, rig.camera, settings)};
   share_lamp(eyes, settings);
   const auto pairs = match_outlines(eyes[0].outlines, eyes[1].outlines, rig, settings);
+  const BallSize size = {settings.ball_radius_m, settings.ball_radius_sd_m};
   std::vector<BallObservation> balls;
   balls.reserve(pairs.size());
-  for (const OutlinePair& outlines : pairs) balls.push_back(measure(outlines, rig));
+  for (const OutlinePair& outlines : pairs) balls.push_back(measure(outlines, rig, size));
   std::sort(balls.begin(), balls.end(), by_colour_then_column);
   return balls;
 }

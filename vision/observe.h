@@ -14,7 +14,9 @@ namespace stereobench::vision {
 
 /// What the observer knows of the balls and of the camera before it looks.
 struct ObserverSettings {
-  double ball_radius_m = 0.05;   ///< all balls are of one size
+  double ball_radius_m = 0.05;  ///< that balls are made to
+  double ball_radius_sd_m =
+      0.0;                       ///< how exactly they are: standard deviation, at most the radius; 0: exactly
   double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
   double min_radius_px = 5.0;    ///< outlines of less than 0.98 of it are not measured
   double min_depth_m = 0.15;     ///< nearer balls are not looked for
@@ -43,8 +45,8 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 /// the model's from then on.
 ///
 /// Of a ball that is hidden or cut in part, at least a fifth of the outline must speak for it in each eye,
-/// and a third for it to be trusted. It is measured by that and by the size that balls have (ball_fit.h),
-/// with the covariance that is left.
+/// and a third for it to be trusted. All balls are measured by their places in both eyes and by the size that
+/// balls have, as far as that is known (ball_fit.h), with the covariance that is left.
 /// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball, or of which
 ///         little is seen, are included, flagged, and not to be trusted; empty when no ball is seen by both
 ///         eyes

@@ -49,11 +49,15 @@ class OutlineModel {
     return (level2 - level2.sqrt()) / slope;
   }
 
-  /// How much of a pixel the ball covers. A blurred edge seems to lie where less of the disc is round about:
-  /// blur^2 / 2r further inside than it is.
+  /// How much of a pixel the ball covers. An outline bends away from its tangent, so that a pixel gathers
+  /// from less of the disc than of the tangent's side: as if the edge lay s^2 / 2r further inside, s^2 being
+  /// the variance of where the pixel's light comes from along the edge, 1/12 px^2 of a box and that of the
+  /// blur.
   Coverage coverage(const RimPoint& rim) const {
-    if (blur_px_ <= 0.0) return edge_coverage(rim);
-    return blurred_coverage(rim.distance_px + 0.5 * blur_px_ * blur_px_ / radius_px_, blur_px_);
+    constexpr double kBoxVariance_px2 = 1.0 / 12.0;
+    const double inside_px = 0.5 * (kBoxVariance_px2 + blur_px_ * blur_px_) / radius_px_;
+    if (blur_px_ <= 0.0) return edge_coverage({rim.distance_px + inside_px, rim.normal});
+    return blurred_coverage(rim.distance_px + inside_px, blur_px_);
   }
 
   /// Relative size of the concentric, similar ellipse through a point: 1 on the outline, 0 at its centre.

@@ -40,6 +40,28 @@ std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eig
   return ellipse;
 }
 
+SeenOutline seen_outline(const Intrinsics& camera, const SizedBall& ball) {
+  const double z = ball.z();
+  const double radius = ball.w();
+  const double gap = z * z - radius * radius;
+  const double tangent2 = ball.head<3>().squaredNorm() - radius * radius;  // squared length of a tangent
+  const double f = camera.focal_px;
+  SeenOutline seen;
+  for (int axis = 0; axis < 2; ++axis) {
+    seen.outline_px[axis] = f * ball[axis] * z / gap + (axis == 0 ? camera.cx_px : camera.cy_px);
+    seen.by_ball(axis, axis) = f * z / gap;
+    seen.by_ball(axis, 2) = f * ball[axis] * (1.0 - 2.0 * z * z / gap) / gap;
+    seen.by_ball(axis, 3) = 2.0 * f * ball[axis] * z * radius / (gap * gap);
+  }
+  const double outline_radius = f * radius * std::sqrt(std::sqrt(tangent2 / gap) / gap);
+  seen.outline_px[2] = outline_radius;
+  const double by_tangent = 0.5 * outline_radius / tangent2;
+  const double by_gap = -1.5 * outline_radius / gap;
+  seen.by_ball.row(2) << by_tangent * ball.x(), by_tangent * ball.y(), (by_tangent + by_gap) * z,
+      outline_radius / radius - (by_tangent + by_gap) * radius;
+  return seen;
+}
+
 double ball_depth(double triangulated_depth_m, double radius_m) {
   const double zn = triangulated_depth_m;
   return 0.5 * (zn + std::sqrt(zn * zn + 4.0 * radius_m * radius_m));

@@ -35,6 +35,19 @@ struct OutlineEllipse {
 std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eigen::Vector3d& ball_in_camera,
                                              double radius_m);
 
+/// A ball and its size: X, Y, Z of its centre in the eye that looks, and its radius, metres.
+using SizedBall = Eigen::Vector4d;
+
+/// What an eye sees of a ball, and how that changes with the ball.
+struct SeenOutline {
+  Eigen::Vector3d outline_px = Eigen::Vector3d::Zero();  ///< centre, and radius of the circle of equal area
+  Eigen::Matrix<double, 3, 4> by_ball = Eigen::Matrix<double, 3, 4>::Zero();  ///< its derivative
+};
+
+/// The outline of sphere_outline with its derivative by the ball's place and size.
+/// @param ball wholly ahead (Z > R > 0)
+SeenOutline seen_outline(const Intrinsics& camera, const SizedBall& ball);
+
 /// Whether an outline lies within the area of the image's pixels.
 bool lies_inside(const Intrinsics& camera, const OutlineEllipse& outline);
 

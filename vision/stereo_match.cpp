@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kGateSigmas = 4.0;
 constexpr double kRowGate_px = 0.35;  // beyond noise: the rig's and the fit's own errors
+constexpr double kToleranceSds = 3.0;
 constexpr double kSizeGate_px = 0.45;
 constexpr double kSizeGate = 0.08;  // relative; beyond it two outlines are not one ball
 constexpr double kWholeSizeGate_px = 0.2;
@@ -37,8 +38,10 @@ std::optional<Misfit> misfit(const MeasuredOutline& left, const MeasuredOutline&
   const double radius = std::max(left.radius_px, right.radius_px);
   const double noise =
       kGateSigmas * std::sqrt(std::max(left.covariance_px2(2, 2), right.covariance_px2(2, 2)));
-  result.size = ball->radius_misfit_px / (kSizeGate_px + kSizeGate * radius + noise);
-  result.sizes_agree = ball->radius_misfit_px <= kWholeSizeGate_px + kWholeSizeGate * radius + noise;
+  const double made_px = kToleranceSds * settings.ball_radius_sd_m / settings.ball_radius_m * radius;
+  result.size = ball->radius_misfit_px / (kSizeGate_px + kSizeGate * radius + noise + made_px);
+  result.sizes_agree =
+      ball->radius_misfit_px <= kWholeSizeGate_px + kWholeSizeGate * radius + noise + made_px;
   return result.total() <= 1.0 ? std::optional(result) : std::nullopt;
 }
 

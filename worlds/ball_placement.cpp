@@ -55,7 +55,7 @@ class Placement {
   std::optional<Ball> ball_at(const Eigen::Vector2d& at, double first_colour) const {
     const std::optional<int> colour = is_clear(at) ? colour_for(at, first_colour) : std::nullopt;
     if (!colour) return std::nullopt;
-    return Ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m, *colour};
+    return Ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m, *colour, {}, true};
   }
 
   bool put(const Eigen::Vector2d& at) {

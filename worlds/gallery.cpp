@@ -61,7 +61,9 @@ Ball ball_at(const slam::Pose& robot, const Eigen::Vector3d& in_robot, double ra
   const auto [s, c] = slam::sine_cosine(robot.heading_rad);
   return {{c * in_robot.x() - s * in_robot.y(), s * in_robot.x() + c * in_robot.y(), in_robot.z()},
           radius_m,
-          colour};
+          colour,
+          {},
+          true};
 }
 
 bool has_room(const Ball& ball, const std::vector<Ball>& others) {
@@ -129,6 +131,8 @@ Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std:
   made.colour_spacing_m = 0.0;
   made.placement_jitter_m = 0.0;
   made.world = {};
+  made.world.usual_radius_m = scenario.world.ball_radius_m();
+  made.world.ball_radius_sd_m = scenario.world.ball_radius_sd_m;
   made.world.sky_rgb = scenario.world.sky_rgb;
   made.world.light = any_light(draws);
   made.world.floor = any_material(settings.plain, draws);

@@ -24,11 +24,12 @@ struct GallerySettings {
   bool plain = false;  ///< walls and floor without texture: what is measured then is the noise alone
 };
 
-/// A scenario with the eyes of another: its rig, what is believed of it, its camera, its detector and its
-/// size of balls. All else is drawn: where balls are (evenly over the logarithm of their depth and over the
-/// pictures), their colours, the sun and the ambient light, the materials of the floor and of walls behind
-/// them. Balls may hide parts of each other. The robot stands at the origin and looks once into each
-/// direction, as many as its field of view has room for; it does not move, so that the shutter is left out.
+/// A scenario with the eyes of another: its rig, what is believed of it, its camera, its detector, and its
+/// size of balls with their tolerance, which world_for_seed draws. All else is drawn: where balls are (evenly
+/// over the logarithm of their depth and over the pictures), their colours, the sun and the ambient light,
+/// the materials of the floor and of walls behind them. Balls may hide parts of each other. The robot stands
+/// at the origin and looks once into each direction, as many as its field of view has room for; it does not
+/// move, so that the shutter is left out.
 /// @param scenario with a stereo sensor
 /// @param seed of the draws
 Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed);

@@ -1,6 +1,7 @@
 #include "worlds/randomise.h"
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr int kColours = static_cast<int>(vision::kPalette.size());
 
+constexpr double kStepsPerMetre = 1024.0 * 1024.0 * 1024.0;  // of radii: sums of so few digits are exact
+
 void jitter(double by_m, std::uint64_t seed, World& world) {
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     slam::RandomStream draws(seed, slam::Stream::kWorld, i);
@@ -27,6 +30,22 @@ void jitter(double by_m, std::uint64_t seed, World& world) {
   for (MeshInstance& mesh : world.meshes) {
     if (mesh.carried_ball == slam::kUnknown) continue;
     mesh.position_m.head<2>() = world.balls[static_cast<std::size_t>(mesh.carried_ball)].centre_m.head<2>();
+  }
+}
+
+/// Makes the balls that have the usual radius, each with its own error; a ball stays on what it stands on.
+void make_balls(std::uint64_t seed, World& world) {
+  if (!(world.ball_radius_sd_m > 0.0)) return;
+  for (std::size_t i = 0; i < world.balls.size(); ++i) {
+    Ball& ball = world.balls[i];
+    if (!ball.has_usual_radius) continue;
+    slam::RandomStream draws(seed, slam::Stream::kBallRadius, i);
+    double off = draws.normal();
+    while (std::abs(off) > kMostRadiusSds) off = draws.normal();
+    const double off_m = std::round(off * world.ball_radius_sd_m * kStepsPerMetre) / kStepsPerMetre;
+    ball.radius_m += off_m;
+    ball.centre_m.z() += off_m;
+    ball.has_usual_radius = false;
   }
 }
 
@@ -79,6 +98,7 @@ SeedWorld seed_world(const Scenario& scenario, std::uint64_t seed) {
   SeedWorld made{scenario.world, {}, {}};
   Draws draws(seed);
   jitter(scenario.placement_jitter_m, seed, made.world);
+  make_balls(seed, made.world);
   if (rules.ball_colours) recolour(*rules.ball_colours, made.world, draws);
   resurface(rules, made.world, draws);
   if (rules.light) relight(*rules.light, made.world.light, draws);

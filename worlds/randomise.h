@@ -17,9 +17,9 @@ struct SeedWorld {
   std::vector<std::string> left_out;  ///< things that found no place
 };
 
-/// Moves balls by the placement jitter, then draws what `randomise:` leaves to chance. What a key draws
-/// depends on the seed and its name alone; only where things would stand in each other or hide too much, the
-/// later one takes its next attempt.
+/// Moves balls by the placement jitter, draws their radii within their tolerance, then draws what
+/// `randomise:` leaves to chance. What a key draws depends on the seed and its name alone; only where things
+/// would stand in each other or hide too much, the later one takes its next attempt.
 SeedWorld seed_world(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace stereobench::worlds

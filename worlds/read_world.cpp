@@ -1,3 +1,4 @@
+#include <cmath>
 #include <span>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@ namespace {
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kSize_m = {1e-3, 1e3};
 constexpr Interval kRadius_m = {1e-3, 10.0};
+constexpr Interval kTolerance_m = {0.0, 1.0};
+constexpr double kMostTolerance = 0.1;  // of the usual radius
 constexpr Interval kShare = {0.0, 1.0};
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
@@ -62,6 +65,7 @@ void read_floor(const YamlMap& map, const std::filesystem::path& folder, World& 
 Ball read_ball(const YamlValue& value, double usual_radius_m) {
   const YamlMap map(value, ball_keys());
   Ball ball;
+  ball.has_usual_radius = !map.find("radius_m");
   ball.radius_m = map.number("radius_m", usual_radius_m);
   ball.centre_m = read_vector<3>(map, "at_m");
   ball.colour = map.whole("colour");
@@ -77,6 +81,18 @@ std::vector<Ball> read_balls(const YamlMap& world) {
   std::vector<Ball> balls;
   for (const YamlValue& value : world.list("balls")) balls.push_back(read_ball(value, usual_radius_m));
   return balls;
+}
+
+/// How large balls are made, and how exactly. Where lists of balls say another size, it is that of the first.
+void read_ball_size(const YamlMap& map, World& world) {
+  const double usual_radius_m = read_ball_radius_m(map);
+  world.ball_radius_sd_m = map.number("ball_radius_sd_m", 0.0);
+  if (world.ball_radius_sd_m > kMostTolerance * usual_radius_m)
+    map.at("ball_radius_sd_m")
+        .refuse(
+            fmt::format("expected at most a tenth of ball_radius_m, {:g}", kMostTolerance * usual_radius_m));
+  const double off_m = world.balls.empty() ? 0.0 : std::abs(world.balls.front().radius_m - usual_radius_m);
+  if (off_m <= kMostRadiusSds * world.ball_radius_sd_m) world.usual_radius_m = usual_radius_m;
 }
 
 /// One line of corners is a wall from each corner to the next.
@@ -176,6 +192,10 @@ const KeyGroup& world_keys() {
               .otherwise_says("balls"),
           number("ball_radius_m", kRadius_m, "Radius of balls that do not say theirs, in metres.")
               .otherwise("0.05"),
+          number("ball_radius_sd_m", kTolerance_m,
+                 "Tolerance of manufacture: standard deviation of the radii of balls that do not say theirs, "
+                 "in metres; 0 is exactly known.")
+              .otherwise("0"),
           group("balls", ball_keys(), "The landmarks; a ball's place in the list is its identity.")
               .list(1, kMostBalls)
               .needed_unless("generator"),
@@ -217,6 +237,7 @@ World read_world(const YamlMap& map, const std::filesystem::path& folder) {
   } else {
     world.balls = read_balls(map);
   }
+  read_ball_size(map, world);
   for (const YamlValue& wall : map.list("walls")) append_walls(wall, folder, world.walls);
   for (const YamlValue& mesh : map.list("meshes"))
     world.meshes.push_back(read_mesh(mesh, folder, world.balls));

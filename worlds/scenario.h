@@ -28,10 +28,11 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                        const SolidReader& solids = {});
 
 /// The world of one seed (randomise.h): the scenario's, with each ball moved by a uniform draw of up to
-/// +-placement_jitter_m in x and in y, and with what `randomise:` draws. Each ball has a stream of its own,
-/// so adding one moves no other.
+/// +-placement_jitter_m in x and in y, made as exactly as `ball_radius_sd_m` says (its lowest point stays
+/// where it is), and with what `randomise:` draws. Each ball has streams of its own, so adding one moves no
+/// other.
 ///
-/// @return exactly scenario.world when the jitter is 0 and nothing is left to chance
+/// @return exactly scenario.world when jitter and tolerance are 0 and nothing is left to chance
 World world_for_seed(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace stereobench::worlds

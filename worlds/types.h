@@ -32,6 +32,8 @@ struct Ball {
   /// What it is really painted with, where that is not exactly the palette's colour: red, green and blue
   /// under full light, in [0, 1].
   std::optional<Eigen::Vector3d> paint_rgb = {};
+  /// Whether it is one of many that were made alike: each seed draws its radius (World::ball_radius_sd_m).
+  bool has_usual_radius = false;
 };
 
 /// A wall: an upright rectangle without thickness, standing on the floor, seen from both sides.
@@ -94,6 +96,9 @@ struct Light {
   double diffuse = 0.55;                            ///< in [0, 1]
 };
 
+/// No ball is farther off its usual radius than so many standard deviations: those are sorted out.
+inline constexpr double kMostRadiusSds = 3.0;
+
 struct World {
   std::vector<Ball> balls;  ///< at most 254: identities are written into 8 bits
   std::vector<Wall> walls;
@@ -107,8 +112,14 @@ struct World {
   Light light;
   Eigen::Vector3d sky_rgb = {0.75, 0.78, 0.80};  ///< what is seen where there is nothing, in [0, 1]
 
-  /// How large its balls are, as detectors are told: like the first one, or the usual size.
-  double ball_radius_m() const { return balls.empty() ? Ball{}.radius_m : balls.front().radius_m; }
+  std::optional<double> usual_radius_m = {};  ///< that balls are made to; none: that of the first ball
+  /// Tolerance of manufacture: standard deviation of the radii of balls that have the usual one. 0: exact.
+  double ball_radius_sd_m = 0.0;
+
+  /// How large its balls are, as detectors are told.
+  double ball_radius_m() const {
+    return usual_radius_m.value_or(balls.empty() ? Ball{}.radius_m : balls.front().radius_m);
+  }
 };
 
 /// One instant of the robot's drive: where it is, and the true controls that brought it here.

@@ -42,11 +42,12 @@ YAML::Node lines_of(const SurfaceTexture& texture) {
   return node;
 }
 
-YAML::Node lines_of(const Ball& ball) {
+/// @param is_made whether its radius is what it is, and not to be drawn
+YAML::Node lines_of(const Ball& ball, bool is_made) {
   YAML::Node node;
   node["colour"] = ball.colour;
   node["at_m"] = list_of(ball.centre_m);
-  node["radius_m"] = digits(ball.radius_m);
+  if (is_made) node["radius_m"] = digits(ball.radius_m);
   if (ball.paint_rgb) node["paint_rgb"] = list_of(*ball.paint_rgb);
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
@@ -88,6 +89,13 @@ YAML::Node list_of_lines(const Things& things) {
   return list;
 }
 
+YAML::Node list_of_balls(const World& world) {
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const Ball& ball : world.balls)
+    list.push_back(lines_of(ball, !ball.has_usual_radius || world.ball_radius_sd_m == 0.0));
+  return list;
+}
+
 void write_tour(const Layout& layout, YAML::Node path) {
   path["kind"] = "polyline";
   YAML::Node points;
@@ -109,12 +117,12 @@ void write_generated(const YamlDocument& document, const World& world, YAML::Nod
   if (path["kind"].as<std::string>() == "tour") write_tour(layout_of(document), path);
   lines.remove("generator");
   if (!world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
-  lines["balls"] = list_of_lines(world.balls);
+  lines["balls"] = list_of_balls(world);
 }
 
 /// Says what a seed has made of the world. @param meshes how many of its meshes have lines already
 void write_drawn(const Randomisation& randomise, const World& world, std::size_t meshes, YAML::Node lines) {
-  lines["balls"] = list_of_lines(world.balls);
+  lines["balls"] = list_of_balls(world);
   if (randomise.walls && !world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
   if (randomise.floor) {
     lines.remove("floor");

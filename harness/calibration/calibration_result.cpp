@@ -28,6 +28,7 @@ nlohmann::ordered_json bin_json(const CalibrationBin& bin) {
           {"range_bias_m", number(bin.bias.x())},
           {"range_sd_m", number(bin.sd.x())},
           {"range_sd_over_bound", number(bin.over_bound.x())},
+          {"range_sd_over_bound_unknown_size", number(bin.over_unknown_size.x())},
           {"bearing_bias_rad", number(bin.bias.y())},
           {"bearing_sd_rad", number(bin.sd.y())},
           {"bearing_sd_over_bound", number(bin.over_bound.y())},
@@ -62,18 +63,18 @@ CalibrationResult calibrate(std::span<const CalibrationTake> takes, const std::v
 
 std::string calibration_table(const CalibrationResult& result) {
   AlignedTable table;
-  table.header = {
-      "depth [m]",           "balls",     "refused",    "range bias [mm]", "sd [mm]", "sd / bound",
-      "bearing bias [mrad]", "sd [mrad]", "sd / bound", "correlation",     "stated",  "NIS/2 stated",
-      "per_observation",     "stereo"};
+  table.header = {"depth [m]",    "balls",           "refused",         "range bias [mm]",
+                  "sd [mm]",      "sd / bound",      "of unknown size", "bearing bias [mrad]",
+                  "sd [mrad]",    "sd / bound",      "correlation",     "stated",
+                  "NIS/2 stated", "per_observation", "stereo"};
   for (const CalibrationBin& bin : result.bins) {
     table.rows.push_back({depths(bin), std::to_string(bin.samples), std::to_string(bin.refused),
                           format_number(1e3 * bin.bias.x(), 2), format_number(1e3 * bin.sd.x()),
-                          format_number(bin.over_bound.x()), format_number(1e3 * bin.bias.y(), 2),
-                          format_number(1e3 * bin.sd.y()), format_number(bin.over_bound.y()),
-                          format_number(bin.correlation.x(), 2), format_number(bin.correlation.y(), 2),
-                          format_number(bin.half_nis[0]), format_number(bin.half_nis[1]),
-                          format_number(bin.half_nis[2])});
+                          format_number(bin.over_bound.x()), format_number(bin.over_unknown_size.x()),
+                          format_number(1e3 * bin.bias.y(), 2), format_number(1e3 * bin.sd.y()),
+                          format_number(bin.over_bound.y()), format_number(bin.correlation.x(), 2),
+                          format_number(bin.correlation.y(), 2), format_number(bin.half_nis[0]),
+                          format_number(bin.half_nis[1]), format_number(bin.half_nis[2])});
   }
   return plain_text(table);
 }

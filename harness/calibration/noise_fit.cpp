@@ -88,6 +88,7 @@ struct Spread {
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
   Eigen::Vector2d sd = Eigen::Vector2d::Zero();
   Eigen::Vector2d over_bound = Eigen::Vector2d::Zero();
+  Eigen::Vector2d over_unknown_size = Eigen::Vector2d::Zero();
   double correlation = 0.0;  ///< of errors in units of what is stated of them
 };
 
@@ -97,6 +98,7 @@ Spread spread_of(std::span<const CalibrationSample* const> samples) {
   for (const CalibrationSample* sample : samples) spread.bias += sample->error / count;
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   Eigen::Vector2d bounded_squares = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squares_of_unknown_size = Eigen::Vector2d::Zero();
   Eigen::Matrix2d pulls = Eigen::Matrix2d::Zero();
   long bounded = 0;
   for (const CalibrationSample* sample : samples) {
@@ -104,12 +106,15 @@ Spread spread_of(std::span<const CalibrationSample* const> samples) {
     squares += off.cwiseAbs2();
     const Eigen::Vector2d pull = off.cwiseQuotient(sample->stated.diagonal().cwiseSqrt());
     pulls += pull * pull.transpose();
-    if (!(sample->bound.determinant() > 0.0)) continue;
-    bounded_squares += off.cwiseAbs2().cwiseQuotient(sample->bound.diagonal());
+    const BallBounds& bounds = sample->bounds;
+    if (!(bounds.of_size.determinant() > 0.0)) continue;
+    bounded_squares += off.cwiseAbs2().cwiseQuotient(bounds.of_size.diagonal());
+    squares_of_unknown_size += off.cwiseAbs2().cwiseQuotient(bounds.unknown_size.diagonal());
     ++bounded;
   }
   spread.sd = (squares / (count - 1.0)).cwiseSqrt();
   spread.over_bound = (bounded_squares / static_cast<double>(bounded)).cwiseSqrt();  // 0 / 0 without a bound
+  spread.over_unknown_size = (squares_of_unknown_size / static_cast<double>(bounded)).cwiseSqrt();
   spread.correlation = correlation(pulls);
   return spread;
 }
@@ -139,6 +144,7 @@ CalibrationBin summarise(std::span<const CalibrationSample* const> samples, cons
   bin.bias = used > 0.0 ? spread.bias : Eigen::Vector2d::Constant(std::nan(""));
   bin.sd = spread.sd;
   bin.over_bound = spread.over_bound;
+  bin.over_unknown_size = spread.over_unknown_size;
   bin.half_nis /= used;
   bin.correlation = {spread.correlation, stated_correlation / used};
   bin.disparity_error_px = harness::summarise(disparity_errors_px);

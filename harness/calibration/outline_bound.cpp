@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "vision/outline_model.h"
@@ -23,12 +24,11 @@ Eigen::Vector3d colour_at(const cv::Mat& light, const Eigen::Vector2d& place) {
 
 }  // namespace
 
-std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision::Intrinsics& camera,
-                                             const vision::OutlineEllipse& outline,
-                                             const PictureQuality& quality) {
+Eigen::Matrix3d outline_information(const cv::Mat& light, const vision::Intrinsics& camera,
+                                    const vision::OutlineEllipse& outline, const PictureQuality& quality) {
   const vision::OutlineModel model(camera, outline.centre_px, outline.radius_px(), quality.blur_px);
   const Eigen::Vector2d reach = outline.half_extent_px().array() + 1.0 + kBlurReach * quality.blur_px;
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (int y = static_cast<int>(outline.centre_px.y() - reach.y()); y <= outline.centre_px.y() + reach.y();
        ++y) {
     for (int x = static_cast<int>(outline.centre_px.x() - reach.x()); x <= outline.centre_px.x() + reach.x();
@@ -40,10 +40,18 @@ std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision:
       const Eigen::Vector2d on_rim = pixel - rim.distance_px * rim.normal;
       const Eigen::Vector3d contrast = colour_at(light, on_rim - kBeside_px * rim.normal) -
                                        colour_at(light, on_rim + kBeside_px * rim.normal);
-      information += slope * slope * contrast.squaredNorm() * rim.normal * rim.normal.transpose();
+      const Eigen::Vector3d outwards = rim.normal.homogeneous();
+      information += slope * slope * contrast.squaredNorm() * outwards * outwards.transpose();
     }
   }
-  information /= quality.noise_sd_levels * quality.noise_sd_levels;
+  return information / (quality.noise_sd_levels * quality.noise_sd_levels);
+}
+
+std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision::Intrinsics& camera,
+                                             const vision::OutlineEllipse& outline,
+                                             const PictureQuality& quality) {
+  const Eigen::Matrix2d information =
+      outline_information(light, camera, outline, quality).topLeftCorner<2, 2>();
   if (!(information.determinant() > 0.0)) return std::nullopt;
   return information.inverse();
 }

@@ -17,11 +17,17 @@ struct PictureQuality {
   double blur_px = 0.0;          ///< standard deviation of the Gaussian that it makes of a point
 };
 
-/// The Cramer-Rao bound on an outline's centre, its radius and both colours beside it being known: the
-/// inverse of the sum over rim pixels of the gradients' squares over the noise's variance, sigma^2 / (A^2 pi
-/// r) for an outline of radius r with the contrast A all around.
+/// The Fisher information that a picture holds of an outline's centre and radius, both colours beside it
+/// being known: the sum over rim pixels of the products of the gradients over the noise's variance,
+/// A^2 pi r / sigma^2 of each coordinate of the centre, for an outline of radius r with the contrast A all
+/// around, and twice that of the radius.
 /// @param light CV_8UC3, the picture in focus, before noise
 /// @param outline wholly inside of it, at least five pixels in radius
+/// @return of (column, row, radius), 1 / px^2; zero where nothing of it can be told
+Eigen::Matrix3d outline_information(const cv::Mat& light, const vision::Intrinsics& camera,
+                                    const vision::OutlineEllipse& outline, const PictureQuality& quality);
+
+/// The Cramer-Rao bound on an outline's centre, its radius being known.
 /// @return covariance of the centre, px^2; empty where nothing of it can be told
 std::optional<Eigen::Matrix2d> outline_bound(const cv::Mat& light, const vision::Intrinsics& camera,
                                              const vision::OutlineEllipse& outline,

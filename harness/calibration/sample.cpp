@@ -12,28 +12,26 @@
 #include "slam/elementary.h"
 #include "slam/motion.h"
 #include "vision/pixel_noise.h"
-#include "vision/range_bearing.h"
 #include "vision/rig.h"
+#include "worlds/scenario.h"
 
 namespace stereobench::harness {
 namespace {
 
-/// The bound on range and bearing that those on both outlines' centres make; zero where there is none.
-Eigen::Matrix2d bound_of(const worlds::Scenario& gallery, const renderer::StereoFrame& frame,
-                         const BallOutline& ball, double noise_sd_levels) {
+/// The bounds on range and bearing that the picture's noise makes.
+/// @param world the gallery's, as its seed has it
+BallBounds bounds_of(const worlds::Scenario& gallery, const worlds::World& world,
+                     const renderer::StereoFrame& frame, const BallOutline& ball, double noise_sd_levels) {
   const vision::StereoRig& rig = gallery.rig;
   const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
                                   gallery.camera.defocus_sd_px};
-  const auto left = outline_bound(renderer::in_levels(frame.left.colour), rig.camera, ball.left, quality);
-  const auto right = outline_bound(renderer::in_levels(frame.right.colour), rig.camera, ball.right, quality);
-  if (!left || !right || !(ball.left.centre_px.x() > ball.right.centre_px.x()))
-    return Eigen::Matrix2d::Zero();
-  const double radius_m = gallery.world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
-  const vision::OutlineCentres centres = {ball.left.centre_px, ball.right.centre_px, *left, *right};
-  const Eigen::Isometry3d robot_from_camera = vision::robot_from_camera(rig);
-  return vision::range_bearing(robot_from_camera.inverse() * ball.ball_in_robot,
-                               vision::ball_covariance(rig, centres, radius_m), robot_from_camera)
-      .covariance;
+  vision::SizedBall sized;
+  sized << vision::robot_from_camera(rig).inverse() * ball.ball_in_robot,
+      world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
+  return ball_bounds(
+      rig, sized, world.ball_radius_sd_m,
+      {outline_information(renderer::in_levels(frame.left.colour), rig.camera, ball.left, quality),
+       outline_information(renderer::in_levels(frame.right.colour), rig.camera, ball.right, quality)});
 }
 
 CalibrationSample compare(const BallOutline& ball, const vision::BallObservation& observation) {
@@ -57,8 +55,9 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
   CalibrationTake take;
   const double noise_sd_levels = detector_setup(gallery).noise_sd_levels;
   Listeners listeners;
+  const worlds::World world = worlds::world_for_seed(gallery, gallery.seeds.front());
   listeners.on_look = [&](const Look& look) {
-    const VisionTruth truth = {gallery.world, gallery.rig, gallery.path[look.step].pose, look.frame};
+    const VisionTruth truth = {world, gallery.rig, gallery.path[look.step].pose, look.frame};
     const std::vector<BallOutline> outlines = ball_outlines(truth);
     const std::vector<int> balls = balls_observed(truth, look.observations);
     const std::vector<vision::BallObservation> straight = straightened(gallery.rig, look.observations);
@@ -67,11 +66,11 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
       if (!observation.trusted()) continue;
       const auto ball = std::ranges::find(outlines, balls[i], &BallOutline::ball);
       if (ball == outlines.end()) continue;
-      const int colour = gallery.world.balls[static_cast<std::size_t>(ball->ball)].colour;
+      const int colour = world.balls[static_cast<std::size_t>(ball->ball)].colour;
       if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
       CalibrationSample sample = compare(*ball, observation);
       sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
-      if (sample.whole) sample.bound = bound_of(gallery, look.frame, *ball, noise_sd_levels);
+      if (sample.whole) sample.bounds = bounds_of(gallery, world, look.frame, *ball, noise_sd_levels);
       take.samples.push_back(sample);
     }
   };

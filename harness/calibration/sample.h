@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "harness/calibration/ball_bound.h"
 #include "harness/scoring/vision_score.h"
 #include "renderer/types.h"
 #include "worlds/types.h"
@@ -17,7 +18,7 @@ struct CalibrationSample {
   Eigen::Vector2d truth = Eigen::Vector2d::Zero();   ///< range m, bearing rad, in the robot's frame
   Eigen::Vector2d error = Eigen::Vector2d::Zero();   ///< measured minus true
   Eigen::Matrix2d stated = Eigen::Matrix2d::Zero();  ///< the covariance that it came with
-  Eigen::Matrix2d bound = Eigen::Matrix2d::Zero();   ///< the least there can be; zero for parts of balls
+  BallBounds bounds;                                 ///< the least there can be; zero for parts of balls
   double disparity_error_px = 0.0;                   ///< NaN where nothing is said of pixels, and so below
   Eigen::Vector2d radius_error_px = Eigen::Vector2d::Zero();  ///< of the outlines, left and right
   double depth_m = 0.0;

@@ -34,6 +34,7 @@ struct DetectArguments {
   fs::path rig;
   fs::path palette;  ///< of learned colours; empty: our own
   std::optional<double> ball_radius_m;
+  std::optional<double> ball_radius_sd_m;
   double noise_sd_levels = 2.0;
   std::string encoding = "auto";
   fs::path out;   ///< empty: stdout
@@ -101,10 +102,7 @@ class Looker {
       rig_ = calibration.rig;
       setup_.eyes = calibration.eyes;
     }
-    if (arguments.ball_radius_m)
-      setup_.ball_radius_m = *arguments.ball_radius_m;
-    else if (fs::exists(given / "balls.csv"))
-      setup_.ball_radius_m = read_balls(given / "balls.csv").front().radius_m;
+    read_ball_size(given);
     setup_.noise_sd_levels = arguments.noise_sd_levels;
     setup_.encoding = encoding;
     if (rig_) setup_.rig = *rig_;
@@ -117,6 +115,24 @@ class Looker {
   }
 
  private:
+  /// As the command line says, or the folder; of balls that nothing is known of, a tenth more or less.
+  void read_ball_size(const fs::path& given) {
+    constexpr double kUnknownTolerance = 0.1;
+    if (!arguments_.ball_radius_m && fs::exists(given / "balls.csv")) {
+      const worlds::World world = read_balls(given);
+      setup_.ball_radius_m = world.ball_radius_m();
+      setup_.ball_radius_sd_m = world.ball_radius_sd_m;
+    } else {
+      setup_.ball_radius_m = arguments_.ball_radius_m.value_or(setup_.ball_radius_m);
+      setup_.ball_radius_sd_m = kUnknownTolerance * setup_.ball_radius_m;
+    }
+    if (!arguments_.ball_radius_sd_m) return;
+    setup_.ball_radius_sd_m = *arguments_.ball_radius_sd_m;
+    if (setup_.ball_radius_sd_m > setup_.ball_radius_m)
+      throw std::runtime_error(fmt::format("--ball-radius-sd-m: expected at most the radius, {:g} (got {:g})",
+                                           setup_.ball_radius_m, setup_.ball_radius_sd_m));
+  }
+
   void learn(const PaletteFile& palette) {
     setup_.palette = palette.colours;
     setup_.encoding = palette.encoding;
@@ -222,8 +238,12 @@ void add_detect_command(CLI::App& program, Action& action) {
       "calibration.yaml as `render` and `calibrate-rig` write it (default: the folder's own, if it has one)");
   command
       ->add_option("--ball-radius-m", arguments->ball_radius_m,
-                   "of all balls (default: as in the folder's balls.csv, or 0.05)")
+                   "that balls are made to (default: as the folder's data set says, or 0.05)")
       ->check(CLI::Range(1e-6, 1e6));
+  command
+      ->add_option("--ball-radius-sd-m", arguments->ball_radius_sd_m,
+                   "how exactly they are (default: as the folder's data set says, or a tenth of the radius)")
+      ->check(CLI::Range(0.0, 1e6));
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();

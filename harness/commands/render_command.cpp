@@ -9,6 +9,7 @@
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/standard_streams.h"
+#include "harness/dataset/file_list.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/seed_render.h"
 #include "harness/dataset/truth_limits.h"
@@ -28,7 +29,7 @@ struct RenderArguments {
 
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
 /// own text, what was changed of it, the files that it names, what renders, who looks, what was asked for,
-/// and the program's version.
+/// and the program's version. The size of balls is what `detect` is told.
 nlohmann::ordered_json identity_of(const RenderArguments& arguments, const worlds::Scenario& scenario,
                                    const FrameChoice& frames) {
   const ScenarioArguments& asked = arguments.scenario;
@@ -46,6 +47,8 @@ nlohmann::ordered_json identity_of(const RenderArguments& arguments, const world
       {"detector_files_sha256", files_of_command(detector)},
       {"scenario", text.str()},
       {"files_sha256", hashes_of_named_files(asked.scenario, asked.overrides)}};
+  identity[kBallSize] = {{"radius_m", scenario.world.ball_radius_m()},
+                         {"radius_sd_m", scenario.world.ball_radius_sd_m}};
   for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
   if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
   return identity;

@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include "harness/dataset/calibration_file.h"
+#include "harness/dataset/file_list.h"
 #include "harness/dataset/number_table.h"
 #include "harness/dataset/picture_reader.h"
+#include "harness/dataset/text_file.h"
+#include "harness/detector/json_line.h"
 
 namespace stereobench::harness {
 namespace {
@@ -38,9 +41,7 @@ cv::Mat read_ids(const fs::path& file, const vision::Intrinsics& camera) {
   return ids;
 }
 
-}  // namespace
-
-std::vector<worlds::Ball> read_balls(const fs::path& file) {
+std::vector<worlds::Ball> balls_in(const fs::path& file) {
   const NumberTable table = read_csv_table(file, {"ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m"});
   std::vector<worlds::Ball> balls;
   for (const TableRow& row : table.rows) {
@@ -58,12 +59,37 @@ std::vector<worlds::Ball> read_balls(const fs::path& file) {
   return balls;
 }
 
+/// What dataset.json says of the size that balls are made to.
+void read_ball_size(const fs::path& marker, worlds::World& world) {
+  constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
+  if (!fs::exists(marker)) return;
+  try {
+    const nlohmann::json json = parse_line(read_text(marker));
+    const auto size = json.find(kBallSize);
+    if (size == json.end()) return;
+    const JsonValue value(*size, kBallSize);
+    world.usual_radius_m = value.at("radius_m").number(kLeast_m, kMost_m);
+    world.ball_radius_sd_m = value.at("radius_sd_m").number(0.0, *world.usual_radius_m);
+  } catch (const BadLine& bad) {
+    throw std::runtime_error(fmt::format("{}: {}", marker.string(), bad.what()));
+  }
+}
+
+}  // namespace
+
+worlds::World read_balls(const fs::path& folder) {
+  worlds::World world;
+  world.balls = balls_in(folder / "balls.csv");
+  read_ball_size(folder / kFinishedDataset, world);
+  return world;
+}
+
 DatasetTruth read_dataset_truth(const fs::path& folder) {
   if (!fs::exists(folder / "dataset.json"))
     throw std::runtime_error(fmt::format(
         "{}: expected a whole data set of `stereobench render` (it has no dataset.json)", folder.string()));
   DatasetTruth truth;
-  truth.world.balls = read_balls(folder / "balls.csv");
+  truth.world = read_balls(folder);
   truth.rig = read_calibration(folder / "true_calibration.yaml");
   truth.believed_rig = read_calibration(folder / "calibration.yaml");
   truth.frames = frames_in(folder / "left_id");

@@ -13,7 +13,7 @@ namespace stereobench::harness {
 
 /// What a data set says of itself.
 struct DatasetTruth {
-  worlds::World world;              ///< its balls, and nothing else
+  worlds::World world;              ///< its balls and what they are made to, and nothing else
   vision::StereoRig rig;            ///< as it is
   vision::StereoRig believed_rig;   ///< as vision takes it to be
   std::vector<std::size_t> frames;  ///< that there are pictures of, in order; lost ones are not among them
@@ -28,7 +28,9 @@ DatasetTruth read_dataset_truth(const std::filesystem::path& folder);
 renderer::StereoFrame read_ball_ids(const std::filesystem::path& folder, std::size_t frame,
                                     const vision::StereoRig& rig);
 
-/// The balls of balls.csv, in the order of their ball_id.
-std::vector<worlds::Ball> read_balls(const std::filesystem::path& file);
+/// The world of balls.csv: its balls in the order of their ball_id, and what dataset.json says they are made
+/// to; where it says nothing, as those of older versions, all balls are exactly of one size.
+/// @throws std::runtime_error, one line, as above
+worlds::World read_balls(const std::filesystem::path& folder);
 
 }  // namespace stereobench::harness

@@ -11,6 +11,9 @@ namespace stereobench::harness {
 
 /// The marker of a finished data set, and its key that lists the files.
 inline constexpr const char* kFinishedDataset = "dataset.json";
+
+/// Its key that says what size balls are made to.
+inline constexpr const char* kBallSize = "balls";
 inline constexpr const char* kFiles = "files";
 
 /// The files of a data set that `render` writes, by their place in the folder, sorted. Others that lie there

@@ -34,8 +34,9 @@ using Detector = std::function<std::vector<vision::BallObservation>(const Detect
 struct DetectorSetup {
   vision::StereoRig rig;                ///< as it is believed to be
   std::optional<vision::EyePair> eyes;  ///< of a rig of two different cameras; ours alone knows of them
-  double ball_radius_m = 0.05;
-  double noise_sd_levels = 0.0;  ///< of a grey pixel, in levels of 255
+  double ball_radius_m = 0.05;          ///< that balls are made to
+  double ball_radius_sd_m = 0.0;        ///< how exactly they are; 0: exactly
+  double noise_sd_levels = 0.0;         ///< of a grey pixel, in levels of 255
   worlds::Encoding encoding = worlds::Encoding::kLinear;
   double gamma = 2.2;                          ///< of Encoding::kGamma
   std::vector<vision::LearnedColour> palette;  ///< colours that were learned; empty: vision::kPalette

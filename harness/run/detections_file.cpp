@@ -43,7 +43,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
 VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
                               std::optional<worlds::Identity> identity) {
   const DatasetTruth truth = read_dataset_truth(folder);
-  const BallGeometry geometry = {truth.believed_rig, truth.world.balls.front().radius_m};
+  const BallGeometry geometry = {truth.believed_rig, truth.world.ball_radius_m()};
   const worlds::Identity told = identity.value_or(identity_by_colour(truth.world.balls));
   const std::vector<std::string> lines = lines_of(detections);
   for (LogStep& step : log.steps) {

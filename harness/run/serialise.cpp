@@ -52,7 +52,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
                                    normalised_errors)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bound, disparity_error_px,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
                                    radius_error_px, depth_m, whole)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pictures, most_step_px)

@@ -16,6 +16,7 @@ constexpr worlds::GalleryDepths kDepths = {0.5, 15.0};
 constexpr int kBins = 6;
 constexpr double k95 = 1.96;  // standard deviations of a normal either side
 constexpr double kPerMilli = 1e3;
+constexpr double kOfUnknownSize = 1.25;
 constexpr double kBearingSd_mrad = 0.0013;  // at 1 m
 constexpr double kRadiusRms_px = 0.0024;    // at 1 m
 
@@ -30,6 +31,10 @@ double standard_error(double sd, const CalibrationBin& bin) {
 /// A bias of nothing, within three standard errors of the mean.
 Limit unbiased(double standard_error) {
   return {-3.0 * standard_error, 3.0 * standard_error};
+}
+
+double half_width_of_sd(double sd, const CalibrationBin& bin) {
+  return k95 * sd / std::sqrt(2.0 * static_cast<double>(used(bin)));
 }
 
 /// Errors of an outline of r px go with 1 / sqrt(r), and r with 1 / depth: so the errors grow with the root
@@ -66,10 +71,8 @@ const Quantity kQuantities[] = {
      [](const CalibrationBin& bin) { return unbiased(bin.disparity_error_px.half_width / k95); },
      [](const CalibrationBin& bin) { return bin.disparity_error_px.half_width; }},
     {"range sd / Cramer-Rao bound", [](const CalibrationBin& bin) { return bin.over_bound.x(); },
-     [](const CalibrationBin&) { return Limit{.at_most = 1.25}; },
-     [](const CalibrationBin& bin) {
-       return k95 * bin.over_bound.x() / std::sqrt(2.0 * static_cast<double>(used(bin)));
-     }},
+     [](const CalibrationBin&) { return Limit{.at_most = 1.4}; },
+     [](const CalibrationBin& bin) { return half_width_of_sd(bin.over_bound.x(), bin); }},
     {"bearing sd [mrad]", [](const CalibrationBin& bin) { return kPerMilli * bin.sd.y(); },
      [](const CalibrationBin& bin) { return growing_with_depth(kBearingSd_mrad, bin); }},
     {"bearing bias [mrad]", [](const CalibrationBin& bin) { return kPerMilli * bin.bias.y(); },
@@ -88,24 +91,47 @@ const Quantity kQuantities[] = {
      [](const CalibrationBin& bin) { return k95 * standard_error(1.0, bin); }},
 };
 
-worlds::Scenario eyes() {
+/// @param radius_sd_m tolerance of the balls
+worlds::Scenario eyes(double radius_sd_m) {
   harness::ScenarioArguments arguments;
   arguments.scenario = STEREOBENCH_SOURCE_DIR "/assets/scenarios/ball_circle.yaml";
   arguments.overrides = {
-      "world={floor: tiles, ball_radius_m: 0.09, balls: [{colour: 0, at_m: [2, 0, 0.09]}]}"};
+      fmt::format("world={{floor: tiles, ball_radius_m: 0.09, ball_radius_sd_m: {}, balls: "
+                  "[{{colour: 0, at_m: [2, 0, 0.09]}}]}}",
+                  radius_sd_m)};
   return harness::read_scenario(arguments);
+}
+
+std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<std::uint64_t>& seeds,
+                                          int jobs) {
+  std::vector<harness::CalibrationSample> samples;
+  for (const harness::CalibrationTake& take :
+       harness::take_galleries(eyes(radius_sd_m), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
+    samples.insert(samples.end(), take.samples.begin(), take.samples.end());
+  const harness::FittedNoise as_stated;
+  return harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins);
+}
+
+std::string depths_of(const CalibrationBin& bin) {
+  return fmt::format("{:.2f} .. {:.2f} m", bin.nearest_m, bin.farthest_m);
 }
 
 }  // namespace
 
 std::vector<Section> study_depths(const std::vector<std::uint64_t>& seeds, int jobs) {
-  std::vector<harness::CalibrationSample> samples;
-  for (const harness::CalibrationTake& take :
-       harness::take_galleries(eyes(), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
-    samples.insert(samples.end(), take.samples.begin(), take.samples.end());
-  const harness::FittedNoise as_stated;
-  return depth_sections(
-      harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins));
+  return depth_sections(measured_bins(0.0, seeds, jobs));
+}
+
+Section study_tolerance(const std::vector<std::uint64_t>& seeds, int jobs) {
+  constexpr double kTolerance_m = 0.001;
+  Section section{"sizes to 1 mm: range sd / bound for unknown size", {}};
+  for (const CalibrationBin& bin : measured_bins(kTolerance_m, seeds, jobs)) {
+    if (!bin.whole) continue;
+    const double ratio = bin.over_unknown_size.x();
+    section.lines.push_back(
+        {depths_of(bin), ratio, half_width_of_sd(ratio, bin), Limit{.at_most = kOfUnknownSize}});
+  }
+  return section;
 }
 
 std::vector<Section> depth_sections(std::span<const CalibrationBin> bins) {
@@ -114,8 +140,8 @@ std::vector<Section> depth_sections(std::span<const CalibrationBin> bins) {
     Section section{quantity.title, {}};
     for (const CalibrationBin& bin : bins) {
       if (!bin.whole) continue;
-      section.lines.push_back({fmt::format("{:.2f} .. {:.2f} m", bin.nearest_m, bin.farthest_m),
-                               quantity.measured(bin), quantity.half_width(bin), quantity.limit(bin)});
+      section.lines.push_back(
+          {depths_of(bin), quantity.measured(bin), quantity.half_width(bin), quantity.limit(bin)});
     }
     sections.push_back(section);
   }

@@ -10,9 +10,12 @@
 
 namespace stereobench {
 
-/// Looks around in galleries before plain walls, balls of 9 cm radius 0.5 to 15 m away.
+/// Looks around in galleries before plain walls, balls of exactly 9 cm radius 0.5 to 15 m away.
 /// @param seeds one gallery each
 std::vector<Section> study_depths(const std::vector<std::uint64_t>& seeds, int jobs);
+
+/// The same with balls that are made to a millimetre, whose size tells next to nothing.
+Section study_tolerance(const std::vector<std::uint64_t>& seeds, int jobs);
 
 /// A section for each thing that is measured, a line for each range of depths. Parts of balls are left out.
 std::vector<Section> depth_sections(std::span<const harness::CalibrationBin> bins);

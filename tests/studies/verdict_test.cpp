@@ -67,7 +67,7 @@ TEST(DepthSections, HaveWhatTheSamplesOfEachDepthSay) {
     const bool is_near = i % 4 < 2;
     sample.error = sign * Eigen::Vector2d(0.01, 1e-5);
     sample.stated = Eigen::Vector2d(1e-4, 1e-10).asDiagonal();
-    sample.bound = 0.25 * sample.stated;
+    sample.bounds.of_size = 0.25 * sample.stated;
     sample.disparity_error_px = (is_near ? 0.0005 : -0.004) + sign * 0.001;
     sample.radius_error_px = {0.03, -0.04};
     sample.depth_m = is_near ? 0.6 : 3.0;

@@ -41,7 +41,8 @@ void add_options(CLI::App& program, Arguments& arguments) {
   program.footer(
       "Prints what vision measures beside its limits: whole balls by depth (9 cm radius, plain walls, 2 "
       "levels\n"
-      "of noise, in galleries as `stereobench calibrate` makes them), painted balls by where they lie "
+      "of noise, sizes exact and to 1 mm, in galleries as `stereobench calibrate` makes them), painted balls "
+      "by where they lie "
       "between\n"
       "pixels, balls among things that look like them, and balls that are hidden in part. +- is the 95 %\n"
       "interval; where it reaches across a limit, more --seeds decide.\n"
@@ -62,6 +63,7 @@ int study(const Arguments& arguments) {
   if (!arguments.out.empty())
     harness::prepare_output_folder(std::filesystem::absolute(arguments.out).parent_path());
   std::vector<Section> sections = study_depths(seeds, arguments.jobs);
+  sections.push_back(study_tolerance(seeds, arguments.jobs));
   sections.push_back(study_phases(arguments.jobs));
   for (const Section& section : study_fields(arguments.fields, arguments.jobs)) sections.push_back(section);
   sections.push_back(study_hidden_balls(arguments.jobs));

@@ -52,8 +52,10 @@ void add(const StereoRig& rig, const PaintedBall& ball, const BallObservation& s
   ++pulls.balls;
 }
 
+constexpr double kTolerance_m = 0.001;  // of balls whose size is not to tell their distance
+
 // Scenes of scattered balls, all else as in `scene`.
-Pulls measure(painter::Scene scene, std::uint64_t scenes = 14) {
+Pulls measure(painter::Scene scene, std::uint64_t scenes = 14, double radius_sd_m = 0.0) {
   StereoRig rig;
   rig.camera.width_px = 640;
   rig.camera.height_px = 480;
@@ -61,6 +63,7 @@ Pulls measure(painter::Scene scene, std::uint64_t scenes = 14) {
   rig.camera.cy_px = 239.5;
   ObserverSettings settings;
   settings.noise_sd_levels = scene.noise_sd_levels;
+  settings.ball_radius_sd_m = radius_sd_m;
   Pulls pulls;
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     scene.balls = painter::scattered_balls(rig, 1.0, 6.0, 500 + seed);
@@ -99,7 +102,8 @@ TEST_P(NoiseLaw, ErrorsAreWhatTheCovariancesSayAndNearTheCramerRaoBound) {
 // the rim's shades from beside it (3.0 times the bound); texture looked for all around alone (2.3) or
 // nowhere.
 TEST(TexturedBackdrop, CostsAFactorOfTwoAndIsKnown) {
-  const Pulls pulls = measure({.backdrop = painter::Backdrop::kTextured, .noise_sd_levels = 2.0});
+  const Pulls pulls =
+      measure({.backdrop = painter::Backdrop::kTextured, .noise_sd_levels = 2.0}, 14, kTolerance_m);
   ASSERT_GT(pulls.balls, 200);
   const double n = pulls.balls;
   EXPECT_NEAR(pulls.nis / n / 2.0, 1.0, 0.15 + 3.0 / std::sqrt(n));
@@ -138,7 +142,8 @@ TEST_P(NotMatt, BallsAreMeasuredAsWellAsTheyClaim) {
 // ends is not known, and costs some. Mutation: each ball by itself (NIS / 2 of 2.7, 1.9 times the bound).
 TEST(LampBehindTheBalls, IsToldByAllOfThem) {
   const Pulls pulls = measure(
-      {.backdrop = painter::Backdrop::kPlain, .towards_lamp = {0.6, -0.6, 0.7}, .noise_sd_levels = 2.0});
+      {.backdrop = painter::Backdrop::kPlain, .towards_lamp = {0.6, -0.6, 0.7}, .noise_sd_levels = 2.0}, 14,
+      kTolerance_m);
   ASSERT_GT(pulls.balls, 200);
   const double n = pulls.balls;
   EXPECT_GT(pulls.nis / n / 2.0, 1.0 - 3.0 / std::sqrt(n));  // honest is 1; 1.71 is what is reached

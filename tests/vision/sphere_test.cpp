@@ -87,6 +87,29 @@ TEST(SphereOutline, IsEmptyUnlessTheWholeBallIsAhead) {
 
 // Catches: front-surface depth (Z - R), uncorrected Z - R^2/Z, the projected centre, a baseline of the wrong
 // sign, half a pixel in one eye.
+// Law: the outline is sphere_outline's, and its derivative that of small changes of place and size.
+// Mutation: the radius' share of the centre's change left out.
+TEST(SeenOutline, IsTheEllipseAndItsDerivative) {
+  painter::Dice dice(8);
+  const Intrinsics camera;
+  for (int i = 0; i < kSpheres; ++i) {
+    const Sphere sphere = random_sphere(dice);
+    SizedBall ball;
+    ball << sphere.centre, sphere.radius_m;
+    const SeenOutline seen = seen_outline(camera, ball);
+    const auto ellipse = sphere_outline(camera, sphere.centre, sphere.radius_m);
+    ASSERT_LT((seen.outline_px.head<2>() - ellipse->centre_px).norm(), 1e-7);
+    ASSERT_NEAR(seen.outline_px.z(), ellipse->radius_px(), 1e-7);
+    for (int k = 0; k < 4; ++k) {
+      const SizedBall step = 1e-6 * SizedBall::Unit(k);
+      const Eigen::Vector3d change =
+          (seen_outline(camera, ball + step).outline_px - seen_outline(camera, ball - step).outline_px) /
+          2e-6;
+      ASSERT_LT((change - seen.by_ball.col(k)).norm(), 1e-4 * (1.0 + seen.by_ball.col(k).norm())) << k;
+    }
+  }
+}
+
 TEST(TriangulateBall, UndoesTheProjectionOfOutlines) {
   painter::Dice dice(3);
   const StereoRig rig;

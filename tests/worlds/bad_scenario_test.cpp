@@ -174,6 +174,8 @@ constexpr Fault kWorldFaults[] = {
     {"floor: bricks", "mesh_limits: {seconds: 0}",
      "20: world.mesh_limits.seconds: expected a number from 0.001 to 3600 (got 0)"},
     {"floor: bricks", "mesh_limits: {faces: 3}", "20: world.mesh_limits.faces: unknown key"},
+    {"ball_radius_m: 0.05", "ball_radius_m: 0.05\n  ball_radius_sd_m: 0.006",
+     "28: world.ball_radius_sd_m: expected at most a tenth of ball_radius_m, 0.005"},
     {"ball_radius_m: 0.05", "ball_radius_m: 0",
      "27: world.ball_radius_m: expected a number from 0.001 to 10"},
     {"colour: 1", "colour: 18", "30: world.balls[1].colour: expected a whole number from 0 to 17 (got 18)"},

@@ -120,6 +120,7 @@ std::string print(const World& world) {
   std::string text;
   for (const Ball& ball : world.balls) {
     add(text, ball.centre_m);
+    add(text, std::array{ball.radius_m});
     add(text, paint_of(ball));
     text += std::to_string(ball.colour);
   }

@@ -273,6 +273,36 @@ TEST(WorldForSeed, IsTheSameAgainAndEachBallIsOnItsOwn) {
   EXPECT_NE(world.balls[0].centre_m, world_for_seed(scenario, 10).balls[0].centre_m);
 }
 
+// 3 x 2000 draws of a normal cut off at three deviations, whose variance is 0.9733: its square's mean has the
+// sd 1.33 / sqrt(6000). Mutations: one stream for all balls; the ball's centre left where it was, in the
+// floor.
+TEST(WorldForSeed, MakesBallsWithinTheirTolerance) {
+  const Scenario scenario = read_small({"placement_jitter_m=0", "world.ball_radius_sd_m=0.001"});
+  constexpr int kSeeds = 2000;
+  double squares = 0.0, product = 0.0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const World world = world_for_seed(scenario, seed);
+    ASSERT_EQ(world.ball_radius_m(), 0.05) << "what detectors are told";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Ball &made = world.balls[i], &meant = scenario.world.balls[i];
+      ASSERT_LE(std::abs(made.radius_m - meant.radius_m), 0.003);
+      ASSERT_EQ(made.centre_m.z() - made.radius_m, meant.centre_m.z() - meant.radius_m) << "it stands";
+      squares += std::pow((made.radius_m - 0.05) / 0.001, 2);
+    }
+    product += (world.balls[0].radius_m - 0.05) * (world.balls[1].radius_m - 0.05) / 1e-6;
+  }
+  EXPECT_NEAR(squares / (3 * kSeeds), 0.9733, 4.0 * 1.33 / std::sqrt(3.0 * kSeeds));
+  EXPECT_NEAR(product / kSeeds, 0.0, 4.0 / std::sqrt(kSeeds));
+  EXPECT_EQ(world_for_seed(scenario, 3).balls[2].radius_m, world_for_seed(scenario, 3).balls[2].radius_m);
+}
+
+TEST(WorldForSeed, LeavesBallsAloneThatSayTheirRadius) {
+  const Scenario scenario = read_small({"world.ball_radius_sd_m=0.001", "world.balls[1].radius_m=0.0505"});
+  const World world = world_for_seed(scenario, 4);
+  EXPECT_NE(world.balls[0].radius_m, 0.05);
+  EXPECT_EQ(world.balls[1].radius_m, 0.0505);
+}
+
 TEST(Seeds, AreReadAsPeopleWriteThem) {
   EXPECT_THAT(parse_seeds("0..3"), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(parse_seeds("7"), ElementsAre(7));

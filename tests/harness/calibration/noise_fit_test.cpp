@@ -105,7 +105,8 @@ TEST(NoiseFit, TheDeviationIsAboutTheBias) {
     sample.truth = {1.0, 0.0};
     sample.error = bias + sd.cwiseProduct(Eigen::Vector2d(random.normal(), random.normal()));
     sample.stated = (4.0 * sd).cwiseAbs2().asDiagonal();
-    sample.bound = (0.5 * sd).cwiseAbs2().asDiagonal();
+    sample.bounds.of_size = (0.5 * sd).cwiseAbs2().asDiagonal();
+    sample.bounds.unknown_size = sd.cwiseAbs2().asDiagonal();
     samples.push_back(sample);
   }
   const CalibrationBin bin = bin_samples(samples, {}, 0.5, 10.0, 1).front();
@@ -114,6 +115,7 @@ TEST(NoiseFit, TheDeviationIsAboutTheBias) {
     EXPECT_NEAR(bin.bias[axis], bias[axis], 4.0 * sd[axis] / std::sqrt(2000.0));
     EXPECT_NEAR(bin.sd[axis] / sd[axis], 1.0, 4.0 / std::sqrt(4000.0));
     EXPECT_NEAR(bin.over_bound[axis], 2.0, 8.0 / std::sqrt(4000.0));
+    EXPECT_NEAR(bin.over_unknown_size[axis], 1.0, 4.0 / std::sqrt(4000.0));
   }
   EXPECT_NEAR(bin.correlation.x(), 0.0, 4.0 / std::sqrt(2000.0));
 }
