@@ -5,27 +5,30 @@
 
 #include <Eigen/Cholesky>
 
+#include "vision/outline_model.h"
 #include "vision/sphere.h"
 
 namespace stereobench::vision {
 namespace {
 
-constexpr double kLooseSd = 0.1;   // of what is believed of a ball's radius before outlines are matched
-constexpr double kExactSd = 1e-7;  // of a radius that is exactly known: as good as 0, and has an inverse
-constexpr int kSteps = 4;          // from where the centres triangulate to
-constexpr int kFurtherSteps = 2;   // from the loose fit
-constexpr double kBelieved = 9.0;  // squared contradiction of size and disparity, in variances
+constexpr double kLooseSd = 0.1;    // of what is believed of a ball's radius before outlines are matched
+constexpr double kExactSd = 1e-7;   // of a radius that is exactly known: as good as 0, and has an inverse
+constexpr int kSteps = 4;           // from where the centres triangulate to
+constexpr int kFurtherSteps = 2;    // from the loose fit
+constexpr double kBelieved = 25.0;  // squared contradiction of size and disparity, in variances
 
 // Two outlines of one ball, as the eyes measured them.
 class Sight {
  public:
-  Sight(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right)
+  Sight(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+        double disparity_variance_px2)
       : camera_(rig.camera),
         to_right_(-rig.baseline_m, 0.0, 0.0, 0.0),
         left_(as_vector(left)),
         right_(as_vector(right)),
         left_noise_(left.covariance_px2),
-        right_noise_(right.covariance_px2) {}
+        right_noise_(right.covariance_px2 +
+                     Eigen::Matrix3d(Eigen::Vector3d(disparity_variance_px2, 0.0, 0.0).asDiagonal())) {}
 
   // One step towards the ball that explains both.
   // @param size of a ball before it is looked at
@@ -79,24 +82,41 @@ bool put(const SizedBall& ball, const Eigen::Matrix4d& covariance, BallFit& fit)
   return true;
 }
 
-// What is known of a ball's size, as far as its outlines do not contradict it.
-BallSize believed_size(const BallSize& size, const BallFit& loose) {
-  const double loose_sd_m = kLooseSd * size.radius_m;
+// Semi-minor axis of an outline at unit depth.
+double minor_axis(const Intrinsics& camera, const MeasuredOutline& outline) {
+  return OutlineModel(camera, outline.centre_px, outline.radius_px).semi_minor_px() / camera.focal_px;
+}
+
+// Where a ball is by its size, whatever the disparity says.
+std::optional<Eigen::Vector3d> place_by_size(const StereoRig& rig, const MeasuredOutline& left,
+                                             const MeasuredOutline& right, double ball_radius_m) {
+  const Eigen::Vector2d disparity(disparity_by_size_px(rig, left, right, ball_radius_m), 0.0);
+  return triangulate_ball(rig, left.centre_px, left.centre_px - disparity, ball_radius_m);
+}
+
+// By how much a ball's radius contradicts its size, squared; 0 where that may be chance.
+double contradiction_m2(const BallSize& size, const BallFit& loose) {
   const double off_m = loose.radius_m - size.radius_m;
-  const double told_m2 = size.radius_sd_m * size.radius_sd_m;
-  const double seen_m2 = loose.radius_variance_m2;
-  const double contradicted_m2 = off_m * off_m > kBelieved * (seen_m2 + told_m2) ? off_m * off_m : 0.0;
-  const double exact_m = kExactSd * size.radius_m;
-  return {size.radius_m, std::clamp(std::sqrt(told_m2 + contradicted_m2), exact_m, loose_sd_m)};
+  const double by_chance_m2 = loose.radius_variance_m2 + size.radius_sd_m * size.radius_sd_m;
+  return off_m * off_m > kBelieved * by_chance_m2 ? off_m * off_m : 0.0;
 }
 
 }  // namespace
 
+double disparity_by_size_px(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+                            double ball_radius_m) {
+  const double b = 0.5 * (minor_axis(rig.camera, left) + minor_axis(rig.camera, right));
+  return rig.camera.focal_px * rig.baseline_m * b * std::sqrt(1.0 + b * b) / ball_radius_m;
+}
+
 std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& left,
-                                const MeasuredOutline& right, double ball_radius_m) {
-  const auto start = triangulate_ball(rig, left.centre_px, right.centre_px, ball_radius_m);
+                                const MeasuredOutline& right, double ball_radius_m,
+                                double disparity_variance_px2) {
+  const auto start = disparity_variance_px2 > 0.0
+                         ? place_by_size(rig, left, right, ball_radius_m)
+                         : triangulate_ball(rig, left.centre_px, right.centre_px, ball_radius_m);
   if (!start) return std::nullopt;
-  const Sight sight(rig, left, right);
+  const Sight sight(rig, left, right, disparity_variance_px2);
   SizedBall ball(start->x(), start->y(), start->z(), ball_radius_m);
   Eigen::Matrix4d covariance;
   for (int step = 0; step < kSteps; ++step) {
@@ -116,9 +136,14 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
 }
 
 BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
-                         const BallSize& size, const BallFit& loose) {
-  const Sight sight(rig, left, right);
-  const BallSize believed = believed_size(size, loose);
+                         const BallSize& size, const BallFit& loose, double disparity_variance_px2) {
+  const double off_m2 = contradiction_m2(size, loose);
+  const double by_size_px = disparity_by_size_px(rig, left, right, size.radius_m);
+  const double off_px2 = off_m2 * by_size_px * by_size_px / (size.radius_m * size.radius_m);
+  const double told_sd_m = std::sqrt(size.radius_sd_m * size.radius_sd_m + off_m2);
+  const BallSize believed = {size.radius_m,
+                             std::clamp(told_sd_m, kExactSd * size.radius_m, kLooseSd * size.radius_m)};
+  const Sight sight(rig, left, right, disparity_variance_px2 + off_px2);
   SizedBall ball;
   ball << loose.ball_in_camera, loose.radius_m;
   Eigen::Matrix4d covariance;

@@ -24,14 +24,22 @@ struct BallFit {
 /// are matched.
 ///
 /// Generalised least squares over (X, Y, Z, R): three numbers an eye, each eye's with their covariance. The
-/// size is held to ten percent only, so that disparity and size can be seen to contradict each other. A whole
-/// outline's centre says nothing of its radius, and its ball is where the centres triangulate to. Of an
-/// outline that is seen in part, centre and radius are uncertain together, and what the other eye says of the
-/// radius helps to fix the centre.
+/// size is held to ten percent only, so that disparity and size can be seen to contradict each other. A
+/// whole outline's centre says nothing of its radius, and its ball is where the centres triangulate to. Of
+/// an outline that is seen in part, centre and radius are uncertain together, and what the other eye says
+/// of the radius helps to fix the centre.
 /// @param ball_radius_m > 0
-/// @return empty when the outlines' centres have no positive disparity
+/// @param disparity_variance_px2 of what the disparity may be off beyond the outlines' errors, which is the
+///   right eye's fault; 0 for a rig that is as believed
+/// @return empty when the outlines' centres have no positive disparity, though they should
 std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& left,
-                                const MeasuredOutline& right, double ball_radius_m);
+                                const MeasuredOutline& right, double ball_radius_m,
+                                double disparity_variance_px2 = 0.0);
+
+/// The disparity of balls of a size whose outlines are as large as these: f B b sqrt(1 + b^2) / R, b being
+/// the outlines' semi-minor axis at unit depth, their mean (sphere.h).
+double disparity_by_size_px(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+                            double ball_radius_m);
 
 /// How large balls are, and how well that is known.
 struct BallSize {
@@ -41,11 +49,13 @@ struct BallSize {
 
 /// The same ball by all that is known of its size: the outlines' size tells depth as well, f R / r.
 ///
-/// The size counts by its tolerance. Where it contradicts the disparity by more than three standard
-/// deviations, as that of a ball of another size does, it counts by how much it contradicts.
+/// The size counts by its tolerance. Where it contradicts the disparity by more than five standard
+/// deviations, the ball is of another size or the rig is not as believed: either is taken to be off by as
+/// much.
 /// @param loose fit_ball's, of the same outlines
+/// @param disparity_variance_px2 as fit_ball's
 /// @return `loose` itself where no ball of that size explains the outlines
 BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
-                         const BallSize& size, const BallFit& loose);
+                         const BallSize& size, const BallFit& loose, double disparity_variance_px2 = 0.0);
 
 }  // namespace stereobench::vision

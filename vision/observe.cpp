@@ -15,23 +15,20 @@
 #include "vision/pixel_noise.h"
 #include "vision/range_bearing.h"
 #include "vision/rig.h"
+#include "vision/rig_match.h"
 #include "vision/round_patch.h"
 #include "vision/scratch.h"
 #include "vision/sphere.h"
-#include "vision/stereo_match.h"
 
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;             // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;          // of an outline's area; what shows less of itself is not a ball
-constexpr double kLeastArcShare = 1.0 / 3.0;  // of an outline in each eye, to be trusted
-constexpr double kMostContradiction = 6.0;    // beyond it arcs are of two things
-constexpr double kVague_px = 0.05;            // sd of a disparity that contradicting arcs may have
-constexpr double kInFocus_px = 0.2;           // a blur below this is the pixels' own
-constexpr int kMostLooks = 3;                 // at a picture out of focus
-constexpr double kSameBlur = 0.1;             // relative
-constexpr double kSamePlace = 0.5;            // radii between the centres of two outlines that are one
+constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
+constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
+constexpr double kInFocus_px = 0.2;   // a blur below this is the pixels' own
+constexpr int kMostLooks = 3;         // at a picture out of focus
+constexpr double kSameBlur = 0.1;     // relative
+constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -139,32 +136,20 @@ void share_lamp(std::span<Found> eyes, const ObserverSettings& settings) {
   }
 }
 
-// Whether each eye sees enough of the outline.
-bool shows_enough(const OutlinePair& pair) {
-  return std::min(pair.left.arc_share, pair.right.arc_share) > kLeastArcShare;
-}
-
-// Whether the arcs of an outline are of two things, as far as they tell.
-bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
-  const double contradiction = std::max(pair.left.contradiction, pair.right.contradiction);
-  const double depth_m = pair.ball.ball_in_camera.z();
-  const double disparity_sd_px =
-      std::sqrt(pair.ball.covariance_m2(2, 2)) * rig.camera.focal_px * rig.baseline_m / (depth_m * depth_m);
-  return contradiction > kMostContradiction || (contradiction > 1.0 && disparity_sd_px > kVague_px);
-}
-
-BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const BallSize& size) {
-  const BallFit fit = fit_ball_of_size(rig, pair.left, pair.right, size, pair.ball);
+BallObservation measure(const OutlinePair& pair, const Matched& matched, const BallSize& size) {
+  const StereoRig& rig = matched.rig;
+  BallFit fit = fit_ball_of_size(rig, pair.left, pair.right, size, pair.ball, pair.disparity_variance_px2);
+  fit.covariance_m2(0, 0) += matched.eye_variance_m2;
   BallObservation ball;
   ball.colour = pair.left.colour;
   ball.left_px = pair.left.centre_px;
-  ball.right_px = pair.right.centre_px;
+  ball.right_px = pair.right_px;
   ball.left_radius_px = pair.left.radius_px;
-  ball.right_radius_px = pair.right.radius_px;
+  ball.right_radius_px = pair.right_radius_px;
   ball.ball_in_camera = fit.ball_in_camera;
   ball.range_bearing = range_bearing(ball.ball_in_camera, fit.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
-  if (!pair.sizes_agree || !shows_enough(pair) || contradicts_itself(pair, rig)) {
+  if (!pair.sizes_agree || !speaks(pair, rig)) {
     ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
     ball.occluded = !ball.truncated;
   }
@@ -173,6 +158,24 @@ BallObservation measure(const OutlinePair& pair, const StereoRig& rig, const Bal
 
 bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
   return a.colour != b.colour ? a.colour < b.colour : a.left_px.x() < b.left_px.x();
+}
+
+Look look_at(const StereoPair& pair, const StereoRig& rig, const ObserverSettings& settings,
+             const RigWatch& watch) {
+  if (!is_usable(rig))
+    throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
+  check_image(pair.left, rig.camera, "left");
+  check_image(pair.right, rig.camera, "right");
+  std::array<Found, 2> eyes = {find_in(pair.left, rig.camera, settings),
+                               find_in(pair.right, rig.camera, settings)};
+  share_lamp(eyes, settings);
+  const BallSize size = {settings.ball_radius_m, settings.ball_radius_sd_m};
+  const Matched matched = match_by_watch(eyes[0].outlines, eyes[1].outlines, rig, settings, watch);
+  Look look{{}, matched.watch};
+  look.balls.reserve(matched.pairs.size());
+  for (const OutlinePair& outlines : matched.pairs) look.balls.push_back(measure(outlines, matched, size));
+  std::sort(look.balls.begin(), look.balls.end(), by_colour_then_column);
+  return look;
 }
 
 }  // namespace
@@ -187,38 +190,29 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
                                      const ObserverSettings& settings) {
-  if (!is_usable(rig))
-    throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
-  check_image(pair.left, rig.camera, "left");
-  check_image(pair.right, rig.camera, "right");
-  std::array<Found, 2> eyes = {find_in(pair.left, rig.camera, settings),
-                               find_in(pair.right, rig.camera, settings)};
-  share_lamp(eyes, settings);
-  const auto pairs = match_outlines(eyes[0].outlines, eyes[1].outlines, rig, settings);
-  const BallSize size = {settings.ball_radius_m, settings.ball_radius_sd_m};
-  std::vector<BallObservation> balls;
-  balls.reserve(pairs.size());
-  for (const OutlinePair& outlines : pairs) balls.push_back(measure(outlines, rig, size));
-  std::sort(balls.begin(), balls.end(), by_colour_then_column);
-  return balls;
+  return look_at(pair, rig, settings, {}).balls;
 }
 
-std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
-                                     const ObserverSettings& settings) {
+Look observe(const StereoPair& pair, const Rectification& rectification, const ObserverSettings& settings,
+             const RigWatch& watch) {
   constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
-  if (rectification.is_nothing()) return observe(pair, rectification.rig(), settings);
+  if (rectification.is_nothing()) return look_at(pair, rectification.rig(), settings, watch);
   ObserverSettings of_straightened = settings;
   of_straightened.resampled = true;
-  std::vector<BallObservation> observations =
-      observe(rectification.apply(pair), rectification.rig(), of_straightened);
-  for (BallObservation& seen : observations) {
+  Look look = look_at(rectification.apply(pair), rectification.rig(), of_straightened, watch);
+  for (BallObservation& seen : look.balls) {
     const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
                        rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);
     seen.truncated = seen.truncated || !whole;
     seen.left_px = rectification.taken_px(seen.left_px, Eye::kLeft);
     seen.right_px = rectification.taken_px(seen.right_px, Eye::kRight);
   }
-  return observations;
+  return look;
+}
+
+std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
+                                     const ObserverSettings& settings) {
+  return observe(pair, rectification, settings, {}).balls;
 }
 
 }  // namespace stereobench::vision

@@ -8,19 +8,21 @@
 #include "vision/colour_table.h"
 #include "vision/outline_fit.h"
 #include "vision/rectify.h"
+#include "vision/rig_watch.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
 
 /// What the observer knows of the balls and of the camera before it looks.
 struct ObserverSettings {
-  double ball_radius_m = 0.05;  ///< that balls are made to
-  double ball_radius_sd_m =
-      0.0;                       ///< how exactly they are: standard deviation, at most the radius; 0: exactly
-  double noise_sd_levels = 0.0;  ///< per pixel and channel, in levels of 255; scales the covariances
-  double min_radius_px = 5.0;    ///< outlines of less than 0.98 of it are not measured
-  double min_depth_m = 0.15;     ///< nearer balls are not looked for
-  /// Whether the pictures were interpolated, as those that were straightened are: edges are then less alike.
+  double ball_radius_m = 0.05;    ///< that balls are made to
+  double ball_radius_sd_m = 0.0;  ///< how exactly: standard deviation, at most the radius; 0 is exactly
+  double noise_sd_levels = 0.0;   ///< per pixel and channel, in levels of 255; scales the covariances
+  double rows_within_px = 10.0;   ///< that a rig may be off by: 0.5 degrees about x are 8 px at f = 887 px
+  double min_radius_px = 5.0;     ///< outlines of less than 0.98 of it are not measured
+  double min_depth_m = 0.15;      ///< nearer balls are not looked for
+  /// Whether the pictures were interpolated, as those that were straightened are: edges are then less
+  /// alike.
   bool resampled = false;
   /// Colours that were learned (learned_palette.h), in place of kPalette's; must outlive the settings.
   const ColourTable* learned = nullptr;
@@ -36,8 +38,8 @@ inline constexpr double kMostHidden = 0.06;
 std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsics& camera,
                                            const ObserverSettings& settings);
 
-/// Finds every ball that both eyes see and measures range and bearing to it.
-/// Colour gives the identity (or its class), the outline's centre in each eye the position; eq. of sphere.h.
+/// Finds every ball that both eyes see and measures range and bearing to it. Colour gives the identity (or
+/// its class), the outline's centre in each eye the position; eq. of sphere.h.
 /// @param pair two CV_8UC3 images of the rig's size, BGR, linear light; row padding is fine
 /// @param rig the rig as it is believed to be
 ///
@@ -45,20 +47,34 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
 /// the model's from then on.
 ///
 /// Of a ball that is hidden or cut in part, at least a fifth of the outline must speak for it in each eye,
-/// and a third for it to be trusted. All balls are measured by their places in both eyes and by the size that
-/// balls have, as far as that is known (ball_fit.h), with the covariance that is left.
-/// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball, or of which
-///         little is seen, are included, flagged, and not to be trusted; empty when no ball is seen by both
-///         eyes
+/// and a third for it to be trusted. All balls are measured by their places in both eyes and by the size
+/// that balls have, as far as that is known (ball_fit.h), with the covariance that is left.
+/// @return the balls sorted by colour, then by column; those whose outlines do not fit one ball, or of
+///   which little is seen, are included, flagged, and not to be trusted; empty when no ball is seen by both
+///   eyes
 /// @throws std::invalid_argument when an image is empty, not CV_8UC3 or not of the rig's size, or when the
-/// rig
-///         or the settings are not positive and finite
+///   rig or the settings are not positive and finite
 std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& rig,
                                      const ObserverSettings& settings);
 
+/// What was seen, and what is known of the rig by then.
+struct Look {
+  std::vector<BallObservation> balls;
+  RigWatch watch;
+};
+
 /// The same in pictures as they were taken, of a rig with faults: finds and measures in rectified pictures.
-/// @return as above; centres are those of the pictures as taken
+///
+/// Rigs are off what is believed of them. Balls are matched within `rows_within_px`, by what this pair and
+/// those before it tell of the rig (rig_search.h, rig_watch.h): that is undone, and covariances hold what is
+/// not known of it.
+/// @param watch what pairs before have told of the rig
+/// @return balls as above, their centres those of the pictures as taken; the watch with this pair
 /// @throws std::invalid_argument as above
+Look observe(const StereoPair& pair, const Rectification& rectification, const ObserverSettings& settings,
+             const RigWatch& watch);
+
+/// The same of a pair alone.
 std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,
                                      const ObserverSettings& settings);
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "vision/rig.h"
+
 namespace stereobench::vision {
 namespace {
 
@@ -22,18 +24,40 @@ struct Misfit {
   double row = 0.0;
   bool sizes_agree = true;
   BallFit ball;
+  double disparity_variance_px2 = 0.0;
+  MeasuredOutline right;  // mended
   double total() const { return std::max(size, row); }
 };
 
-std::optional<Misfit> misfit(const MeasuredOutline& left, const MeasuredOutline& right, const StereoRig& rig,
-                             const ObserverSettings& settings) {
+// The outline that an eye would see of the same ball if it were turned a little: what is farther from the
+// principal point is larger, by the square root of the cube of the length of its ray, squared.
+MeasuredOutline moved(MeasuredOutline outline, const Eigen::Vector2d& to_px, const Intrinsics& camera) {
+  const double stretch2 =
+      std::sqrt(pixel_ray(camera, to_px).squaredNorm() / pixel_ray(camera, outline.centre_px).squaredNorm());
+  outline.centre_px = to_px;
+  outline.radius_px *= stretch2 * std::sqrt(stretch2);
+  return outline;
+}
+
+std::optional<Misfit> misfit(const MeasuredOutline& left, MeasuredOutline right, const StereoRig& rig,
+                             const ObserverSettings& settings, const RigBelief& belief) {
   if (left.colour != right.colour) return std::nullopt;
-  const auto ball = fit_ball(rig, left, right, settings.ball_radius_m);
+  Misfit result;
+  right = moved(right, belief.straight_px(rig.camera, right.centre_px), rig.camera);
+  const double by_size_px = disparity_by_size_px(rig, left, right, settings.ball_radius_m);
+  const Eigen::Vector2d variances = belief.variances_px2(rig.camera, right.centre_px, by_size_px);
+  result.disparity_variance_px2 = variances.y();
+  const Eigen::Vector2d apart = left.centre_px - right.centre_px;
+  if (std::abs(apart.y()) > settings.rows_within_px) return std::nullopt;
+  if (variances.y() > 0.0 &&
+      std::abs(apart.x() - by_size_px) > kGateSigmas * std::sqrt(variances.y()) + kSizeGate * by_size_px)
+    return std::nullopt;
+  const auto ball = fit_ball(rig, left, right, settings.ball_radius_m, result.disparity_variance_px2);
   if (!ball || ball->ball_in_camera.z() < settings.min_depth_m) return std::nullopt;
 
-  Misfit result;
   result.ball = *ball;
-  const double row_sd = std::sqrt(left.covariance_px2(1, 1) + right.covariance_px2(1, 1));
+  result.right = right;
+  const double row_sd = std::sqrt(left.covariance_px2(1, 1) + right.covariance_px2(1, 1) + variances.x());
   result.row = ball->row_misfit_px / (kRowGate_px + kGateSigmas * row_sd);
   const double radius = std::max(left.radius_px, right.radius_px);
   const double noise =
@@ -49,7 +73,7 @@ std::optional<Misfit> misfit(const MeasuredOutline& left, const MeasuredOutline&
 
 ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
                                           std::span<const MeasuredOutline> right, const StereoRig& rig,
-                                          const ObserverSettings& settings) {
+                                          const ObserverSettings& settings, const RigBelief& belief) {
   constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   ScratchVector<std::size_t> best_of_left(left.size(), kNobody);
   ScratchVector<std::size_t> best_of_right(right.size(), kNobody);
@@ -57,7 +81,7 @@ ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
   ScratchVector<Misfit> misfit_of_right(right.size());
   for (std::size_t l = 0; l < left.size(); ++l) {
     for (std::size_t r = 0; r < right.size(); ++r) {
-      const auto found = misfit(left[l], right[r], rig, settings);
+      const auto found = misfit(left[l], right[r], rig, settings, belief);
       if (!found) continue;
       if (best_of_left[l] == kNobody || found->total() < misfit_of_left[l].total()) {
         best_of_left[l] = r;
@@ -73,7 +97,9 @@ ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
   for (std::size_t l = 0; l < left.size(); ++l) {
     const std::size_t r = best_of_left[l];
     if (r == kNobody || best_of_right[r] != l) continue;
-    pairs.push_back({left[l], right[r], misfit_of_left[l].ball, misfit_of_left[l].sizes_agree});
+    const Misfit& best = misfit_of_left[l];
+    pairs.push_back({left[l], best.right, best.ball, best.sizes_agree, best.disparity_variance_px2,
+                     right[r].centre_px, right[r].radius_px});
   }
   return pairs;
 }

@@ -1,5 +1,7 @@
 #include "harness/detector/detector.h"
 
+#include <utility>
+
 #include "renderer/develop.h"
 #include "vision/observe.h"
 
@@ -32,16 +34,16 @@ Detector our_detector(const DetectorSetup& setup) {
   const vision::EyePair eyes = setup.eyes ? *setup.eyes : vision::eyes_of(setup.rig);
   std::optional<vision::ColourTable> learned;
   if (!setup.palette.empty()) learned = vision::table_of(setup.palette, levels_of(setup.encoding));
-  return [settings, camera, learned,
-          rectification = vision::Rectification(setup.rig, eyes)](const DetectorInput& input) {
-    if (learned) {  // which are found in levels as they are stored
-      vision::ObserverSettings with_colours = settings;
-      with_colours.learned = &*learned;
-      return vision::observe(input.pair, rectification, with_colours);
-    }
-    const vision::StereoPair light = {renderer::decode(input.pair.left, camera),
-                                      renderer::decode(input.pair.right, camera)};
-    return vision::observe(light, rectification, settings);
+  return [settings, camera, learned, rectification = vision::Rectification(setup.rig, eyes),
+          watch = vision::RigWatch{}](const DetectorInput& input) mutable {
+    vision::ObserverSettings with_colours = settings;
+    with_colours.learned = learned ? &*learned : nullptr;
+    vision::StereoPair pair = input.pair;
+    if (!learned)  // learned colours are found in levels as they are stored
+      pair = {renderer::decode(input.pair.left, camera), renderer::decode(input.pair.right, camera)};
+    vision::Look look = vision::observe(pair, rectification, with_colours, watch);
+    watch = look.watch;
+    return std::move(look.balls);
   };
 }
 

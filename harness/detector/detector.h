@@ -48,7 +48,8 @@ vision::Levels levels_of(worlds::Encoding encoding);
 /// What detectors are told of a scenario.
 DetectorSetup detector_setup(const worlds::Scenario& scenario);
 
-/// vision::observe, after the encoding and what is believed of the rig are undone.
+/// vision::observe, after the encoding and what is believed of the rig are undone. What the frames so far
+/// have told of the rig is kept from one to the next.
 Detector our_detector(const DetectorSetup& setup);
 
 }  // namespace stereobench::harness

@@ -61,6 +61,9 @@ class StereoSense {
     });
     const VisionTruth truth = {world_, scenario_.rig, pose, frame};
     score_ += score_observations(truth, observations);
+    const worlds::World& meant = scenario_.world;
+    score_.rig +=
+        check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
     on_look({index, frame, pair, observations, *late_s});
     return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
   }

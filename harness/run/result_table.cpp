@@ -20,10 +20,12 @@ std::string fraction(double value) {
 }
 
 std::string vision_line(const VisionScore& vision) {
-  return fmt::format(
-      "vision: recall {}, precision {}, {} misidentified, range rms {} mm, bearing rms {} mrad\n\n",
-      fraction(vision.recall()), fraction(vision.precision()), vision.misidentified,
-      format_number(1e3 * vision.range_rms_m()), format_number(1e3 * vision.bearing_rms_rad()));
+  std::string line =
+      fmt::format("vision: recall {}, precision {}, {} misidentified, range rms {} mm, bearing rms {} mrad\n",
+                  fraction(vision.recall()), fraction(vision.precision()), vision.misidentified,
+                  format_number(1e3 * vision.range_rms_m()), format_number(1e3 * vision.bearing_rms_rad()));
+  for (const std::string& warning : rig_warnings(vision.rig)) line += fmt::format("warning: {}\n", warning);
+  return line + "\n";
 }
 
 std::vector<std::string> row_of(const RunResult& result, const FilterResult& filter,

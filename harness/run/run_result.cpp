@@ -123,19 +123,21 @@ Json vision_json(const std::optional<VisionScore>& vision) {
             {"misidentified", nullptr},
             {"range_rms_m", nullptr},
             {"bearing_rms_rad", nullptr}};
-  return {{"recall", number(vision->recall())},
-          {"precision", number(vision->precision())},
-          {"misidentified", vision->misidentified},
-          {"range_rms_m", number(vision->range_rms_m())},
-          {"bearing_rms_rad", number(vision->bearing_rms_rad())},
-          {"disparity_rms_px", number(vision->disparity_rms_px())},
-          {"normalised_error", number(vision->mean_normalised_error())},
-          {"visible", vision->visible},
-          {"found", vision->found},
-          {"observations", vision->observations},
-          {"spurious", vision->spurious},
-          {"repeated", vision->repeated},
-          {"flagged", vision->flagged}};
+  Json json = {{"recall", number(vision->recall())},
+               {"precision", number(vision->precision())},
+               {"misidentified", vision->misidentified},
+               {"range_rms_m", number(vision->range_rms_m())},
+               {"bearing_rms_rad", number(vision->bearing_rms_rad())},
+               {"disparity_rms_px", number(vision->disparity_rms_px())},
+               {"normalised_error", number(vision->mean_normalised_error())},
+               {"visible", vision->visible},
+               {"found", vision->found},
+               {"observations", vision->observations},
+               {"spurious", vision->spurious},
+               {"repeated", vision->repeated},
+               {"flagged", vision->flagged}};
+  json.update(rig_json(vision->rig));
+  return json;
 }
 
 void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, const FilterScore& score,

@@ -39,6 +39,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedInnovation, sighting, squared_lengt
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Estimate, pose, covariance, landmarks, effective_particles, counters)
 }  // namespace stereobench::slam
 
+namespace stereobench::vision {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrinsics, width_px, height_px, focal_px, cx_px, cy_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultSums, information, evidence, squares)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RigWatch, rows, sizes, balls)
+}  // namespace stereobench::vision
+
 namespace stereobench::harness {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth, true_landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
@@ -49,9 +55,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, co
                                    association, failed, failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, smoothed_poses, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RigCheck, camera, baseline_m, watch)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
                                    repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
-                                   normalised_errors)
+                                   normalised_errors, rig)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
                                    radius_error_px, depth_m, whole)

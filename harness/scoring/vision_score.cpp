@@ -140,6 +140,7 @@ VisionScore& VisionScore::operator+=(const VisionScore& other) {
   append(bearing_errors_rad, other.bearing_errors_rad);
   append(disparity_errors_px, other.disparity_errors_px);
   append(normalised_errors, other.normalised_errors);
+  rig += other.rig;
   return *this;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/scoring/ball_outline.h"
+#include "harness/scoring/rig_check.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {
@@ -23,6 +24,8 @@ struct VisionScore {
   std::vector<double> bearing_errors_rad;
   std::vector<double> disparity_errors_px;
   std::vector<double> normalised_errors;  ///< e' R^-1 e / 2 with the covariance that SLAM is told
+
+  RigCheck rig;  ///< what the observations tell of the rig; filled by who knows what it is believed to be
 
   double recall() const;       ///< found / visible; NaN when nothing was visible
   double precision() const;    ///< right / observations; NaN when there is none
