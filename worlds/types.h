@@ -104,7 +104,7 @@ struct World {
   std::vector<Wall> walls;
   std::vector<MeshInstance> meshes;
   MeshLimits mesh_limits;
-  bool has_floor = true;  ///< false: nothing is seen where the floor would be
+  bool has_floor = true;         ///< false: nothing is seen where the floor would be
   TextureSearch texture_search;  ///< of meshes
   Material floor = Material::kTiles;
   SurfaceTexture floor_texture;                              ///< of kFile

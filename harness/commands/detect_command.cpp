@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/standard_streams.h"
 #include "harness/dataset/atomic_file.h"
 #include "harness/dataset/calibration_file.h"
 #include "harness/dataset/dataset_truth.h"
@@ -93,7 +94,7 @@ void check_size(const fs::path& file, const cv::Mat& picture, const vision::Intr
 /// Looks at pictures as the command line says.
 class Looker {
  public:
-  Looker(const DetectArguments& arguments, worlds::Encoding encoding) : arguments_(arguments) {
+  Looker(const DetectArguments& arguments, const fs::path& first_picture) : arguments_(arguments) {
     const fs::path& given = arguments.pictures[0];
     const fs::path beside = given / "calibration.yaml";
     const fs::path file = arguments.rig.empty() && fs::exists(beside) ? beside : arguments.rig;
@@ -104,11 +105,18 @@ class Looker {
     }
     read_ball_size(given);
     setup_.noise_sd_levels = arguments.noise_sd_levels;
-    setup_.encoding = encoding;
-    if (rig_) setup_.rig = *rig_;
-    if (!arguments.palette.empty()) learn(read_palette(arguments.palette));
+    if (arguments.palette.empty())
+      setup_.encoding = encoding_of(arguments.encoding, std::array{first_picture});
+    else
+      learn(read_palette(arguments.palette));
+    if (!rig_) return;
+    setup_.rig = *rig_;
+    detector_ = our_detector(setup_);
   }
 
+  worlds::Encoding encoding() const { return setup_.encoding; }
+
+  /// @param task of the frame after that of the last call: what pairs tell of the rig is kept for the next
   /// @return the task's line; its picture is drawn where that is asked for
   std::string look(const Task& task) const {
     return task.right.empty() ? look_at_one(task) : look_at_pair(task);
@@ -145,19 +153,18 @@ class Looker {
     const vision::StereoPair pair = {read_picture(task.left), read_picture(task.right)};
     check_size(task.left, pair.left, rig_->camera);
     check_size(task.right, pair.right, rig_->camera);
-    const Detector detector = our_detector(setup_);
-    const auto balls = detector({task.frame, 0, pair, *rig_});
-    if (balls.empty()) check_not_swapped(task, pair, detector);
+    const auto balls = detector_({task.frame, 0, pair, *rig_});
+    if (balls.empty()) check_not_swapped(task, pair);
     if (!arguments_.draw.empty()) write_drawing(task, draw_detection_picture(pair, balls));
     const std::array<std::string, 2> names = {task.left.filename().string(), task.right.filename().string()};
     return detections_line(task.frame, balls, names, names_);
   }
 
   /// No ball that both eyes see is no error, unless the other way round there are some.
-  void check_not_swapped(const Task& task, const vision::StereoPair& pair, const Detector& detector) const {
+  void check_not_swapped(const Task& task, const vision::StereoPair& pair) const {
     constexpr std::size_t kEnough = 2;  // one may match by chance
     const vision::StereoPair swapped = {pair.right, pair.left};
-    const std::size_t balls = detector({task.frame, 0, swapped, *rig_}).size();
+    const std::size_t balls = our_detector(setup_)({task.frame, 0, swapped, *rig_}).size();
     if (balls >= kEnough)
       throw std::runtime_error(
           fmt::format("{}: left and right are swapped: both eyes see no ball, and {} the other way round",
@@ -186,6 +193,7 @@ class Looker {
   std::optional<vision::ColourTable> table_;  ///< of learned colours
   std::vector<std::string> names_;            ///< theirs
   DetectorSetup setup_;
+  Detector detector_;  ///< where there is a rig
 };
 
 int serve() {
@@ -194,16 +202,12 @@ int serve() {
   return kPassed;
 }
 
-/// By what the first picture's file says, where it is left to that; a line says so where it matters.
-worlds::Encoding encoding_for(const DetectArguments& arguments, const std::vector<Task>& tasks) {
-  if (!arguments.palette.empty()) return worlds::Encoding::kLinear;  // the palette's own is taken
-  const std::array<fs::path, 1> first = {tasks.front().left};
-  const worlds::Encoding encoding = encoding_of(arguments.encoding, first);
-  if (arguments.encoding == "auto" && encoding == worlds::Encoding::kSrgb)
-    fmt::print(stderr,
-               "stereobench: pictures are read as sRGB, as {} says it is (--encoding linear: as light)\n",
-               first.front().string());
-  return encoding;
+/// Where it is left to the pictures, and matters, how they are read.
+void say_encoding(const DetectArguments& arguments, const Looker& looker, const fs::path& first_picture) {
+  if (arguments.palette.empty() && arguments.encoding == "auto" &&
+      looker.encoding() == worlds::Encoding::kSrgb)
+    note(fmt::format("pictures are read as sRGB, as {} says it is (--encoding linear: as light)",
+                     first_picture.string()));
 }
 
 int detect(const DetectArguments& arguments) {
@@ -212,11 +216,13 @@ int detect(const DetectArguments& arguments) {
     throw std::runtime_error("detect: expected LEFT, LEFT RIGHT or a folder; see --help");
   require_as_rendered(arguments.pictures.front());
   const std::vector<Task> tasks = tasks_of(arguments.pictures);
-  const Looker looker(arguments, encoding_for(arguments, tasks));
+  const fs::path& first_picture = tasks.front().left;
+  const Looker looker(arguments, first_picture);
   if (!arguments.draw.empty()) prepare_output_folder(arguments.draw);
   std::string lines;
   for (const Task& task : tasks) {
     const std::string line = looker.look(task) + "\n";
+    if (&task == &tasks.front()) say_encoding(arguments, looker, first_picture);
     if (arguments.out.empty()) fmt::print("{}", line);
     lines += line;
   }

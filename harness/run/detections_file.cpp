@@ -13,6 +13,7 @@
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/json_line.h"
 #include "harness/run/sightings.h"
+#include "harness/scoring/rig_check.h"
 
 namespace stereobench::harness {
 namespace {
@@ -44,6 +45,7 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
                               std::optional<worlds::Identity> identity) {
   const DatasetTruth truth = read_dataset_truth(folder);
   const BallGeometry geometry = {truth.believed_rig, truth.world.ball_radius_m()};
+  const vision::BallSize size = {truth.world.ball_radius_m(), truth.world.ball_radius_sd_m};
   const worlds::Identity told = identity.value_or(identity_by_colour(truth.world.balls));
   const std::vector<std::string> lines = lines_of(detections);
   for (LogStep& step : log.steps) {
@@ -63,6 +65,7 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
     try {
       const auto observations = read_detections(lines[i], frame, geometry);
       score += score_observations(seen, observations);
+      score.rig += check_rig(truth.believed_rig, size, observations);
       Sightings sightings =
           sightings_of(observations, balls_observed(seen, observations), truth.world.balls, told);
       step.measurements = std::move(sightings.measurements);

@@ -161,7 +161,7 @@ void check_marks(Bytes bytes) {
   }
   write(folder / "marks.json", text_of(bytes));
   read_or_complain([&] {
-    const auto marked = harness::read_marked_pixels(folder / "marks.json", worlds::Encoding::kLinear);
+    const auto marked = harness::read_marked_pixels(folder / "marks.json", "linear");
     expect(!marked.colours.empty(), "marks have a colour");
     for (const auto& [name, pixels] : marked.pixels) expect(!pixels.empty(), "a mark holds a pixel");
   });

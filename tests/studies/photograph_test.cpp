@@ -45,11 +45,13 @@ TEST(Photographs, ShowTheirWholeBalls) {
   EXPECT_GE(share(score.trusted, score.found), 0.88 - three_errors(0.88, score.found));
 }
 
-// Leaves, boxes and boards are of the same colours. Mutations: what is rougher than round trusted; outlines
+// Leaves, boxes and boards are of the same colours. Measured on 150 pictures: 0.19 a picture; three standard
+// errors of Poisson's. Mutations: what is rougher than round trusted; outlines
 // of which little is seen.
 TEST(Photographs, ShowNothingElseThatIsTrusted) {
   const PhotographScore& score = held_out();
-  EXPECT_LE(static_cast<double>(score.nothings_trusted) / static_cast<double>(score.pictures), 0.2);
+  const auto pictures = static_cast<double>(score.pictures);
+  EXPECT_LE(static_cast<double>(score.nothings_trusted) / pictures, 0.19 + 3.0 * std::sqrt(0.19 / pictures));
   EXPECT_LE(score.hidden_trusted, std::max(1L, score.hidden / 10)) << "of " << score.hidden;
 }
 

@@ -135,7 +135,7 @@ std::string name_of(const testing::TestParamInfo<Hider>& hider) {
   return hider.param == Hider::kBall ? "ByABall" : "ByTheBorder";
 }
 
-INSTANTIATE_TEST_SUITE_P(Noise, HiddenSlivers, testing::Values(Sliver{0.0, 0.00015}, Sliver{2.0, 0.0003}),
+INSTANTIATE_TEST_SUITE_P(Noise, HiddenSlivers, testing::Values(Sliver{0.0, 0.00025}, Sliver{2.0, 0.0003}),
                          [](const testing::TestParamInfo<Sliver>& sliver) {
                            return sliver.param.noise_levels > 0.0 ? "OfTwoLevels" : "Without";
                          });

@@ -141,7 +141,7 @@ TEST_F(EglOption, ADataSetIsNotFinishedByAnotherBackEnd) {
                                            "path.laps=0.02", "--out",     (scratch.path() / "data").string()};
   ASSERT_EQ(run_stereobench(render).exit_code, 0);
   expect_one_line(run_stereobench(with(render, {"--backend", "egl"})),
-                  "holds a data set of another scenario, seed, back end or version");
+                  "holds a data set of another backend;");
 }
 
 TEST(BackendOption, AnOracleIsRenderedByNone) {

@@ -250,17 +250,27 @@ double mean_range_ratio(const worlds::Scenario& scenario) {
   return sum / count;
 }
 
-// Range is f B / d: who believes in a baseline that is 2 % longer measures ranges that are 2 % longer.
-TEST(Rigs, VisionBelievesInTheBelievedOne) {
+/// A drive whose balls say nothing of the rig, as nobody knows how large they are.
+worlds::Scenario bend_of_unknown_sizes() {
   worlds::Scenario scenario = bend();
+  scenario.world.ball_radius_sd_m = 0.5 * scenario.world.ball_radius_m();
+  return scenario;
+}
+
+// Range is f B / d: who believes in a baseline that is 2 % longer measures ranges that are 2 % longer, unless
+// the sizes of balls tell that it is not.
+TEST(Rigs, VisionBelievesInTheBelievedOne) {
+  worlds::Scenario scenario = bend_of_unknown_sizes();
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
   scenario.believed_rig.baseline_m *= 1.02;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.02, 0.003);
+  scenario.world.ball_radius_sd_m = 0.0;
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
 }
 
 // About the vertical axis a turn of the right eye adds to the disparity: dZ / Z = -Z turn / B.
 TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
-  worlds::Scenario scenario = bend();
+  worlds::Scenario scenario = bend_of_unknown_sizes();
   scenario.rig.right_turn_rad.y() = 0.0005;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0 - 2.2 * 0.0005 / 0.12, 0.003);
   scenario.believed_rig = scenario.rig;

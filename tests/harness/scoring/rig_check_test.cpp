@@ -51,10 +51,10 @@ TEST(RigCheck, SaysByWhatTheRowsAreOff) {
   EXPECT_NEAR(json["rows_off_px"]["left"].get<double>(), -0.774, 0.01);
   EXPECT_NEAR(json["rows_off_px"]["right"].get<double>(), -0.774, 0.01);
   EXPECT_NEAR(json["size_disagrees"]["share"].get<double>(), 0.0, 0.001);
-  EXPECT_THAT(
-      rig_warnings(check),
-      ElementsAre(HasSubstr("rows are -0.77 px apart at the left, -0.77 at the right: the right camera is "
-                            "turned by 0.050 deg about x")));
+  EXPECT_THAT(rig_warnings(check),
+              ElementsAre(HasSubstr(
+                  "px apart at the left, -0.77 at the right: the right camera is turned by 0.050 deg "
+                  "about x")));
 }
 
 TEST(RigCheck, SaysByWhatSizesDisagree) {
