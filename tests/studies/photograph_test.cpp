@@ -33,8 +33,8 @@ double three_errors(double share, long of) {
   return 3.0 * std::sqrt(share * (1.0 - share) / static_cast<double>(of));
 }
 
-// Measured on 400 others: 0.96 found, 0.88 of these trusted. Mutations: no steps looked for at the circle
-// (0.66 trusted); pieces left alone; colours learned in 8 bits of light.
+// Measured on 150 pictures, these 30 among them: 0.955 found, 0.879 of these trusted. Not tried here, but by
+// the study: no steps looked for at the circle (0.73 trusted).
 TEST(Photographs, ShowTheirWholeBalls) {
   const PhotographScore& score = held_out();
   ASSERT_GT(score.whole, 60);
