@@ -19,22 +19,30 @@ if(STEREOBENCH_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
 endif()
 
-# stereobench_module(<name> LINKS <libraries...>): the library stereobench_<name>.
+# Headers that most sources read, parsed once for each target: a third of the time of a build. The preset
+# `dev` goes without, so that a source which forgets an #include is told there.
+set(STEREOBENCH_COMMON_HEADERS <algorithm> <cmath> <filesystem> <functional> <limits> <map> <memory> <optional> <set>
+    <span> <sstream> <stdexcept> <string> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
+
+# stereobench_module(<name> LINKS <libraries...> HEADERS <more headers to parse once...>): the library stereobench_<name>.
 function(stereobench_module name)
-  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   add_library(stereobench_${name} STATIC ${sources})
   target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
+  target_precompile_headers(stereobench_${name} PRIVATE ${STEREOBENCH_COMMON_HEADERS} ${ARG_HEADERS})
 endfunction()
 
-# stereobench_tests(<module> LABEL <unit|render|e2e>): the executable <module>_tests from tests/<module>/.
+# stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable <module>_tests from tests/<module>/.
 function(stereobench_tests module)
-  cmake_parse_arguments(ARG "" "LABEL" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/*.cpp)
   add_executable(${module}_tests ${sources})
   target_link_libraries(${module}_tests PRIVATE stereobench_${module} ${ARG_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${module}_tests PRIVATE STEREOBENCH_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                              STEREOBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  target_precompile_headers(${module}_tests PRIVATE ${STEREOBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>
+                            ${ARG_HEADERS})
   gtest_discover_tests(${module}_tests PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 120)
 endfunction()

@@ -1,5 +1,7 @@
 #include "renderer/ball_shader.h"
 
+#include <fmt/format.h>
+
 namespace stereobench::renderer {
 namespace {
 
@@ -108,8 +110,9 @@ std::string ball_vertex_shader() {
 }
 
 std::string ball_fragment_shader(BallPart part) {
-  if (part == BallPart::kFacet) return std::string(kFragmentHead) + kFacetTest + kDepth + kFacet;
-  return std::string(kFragmentHead) + (part == BallPart::kCore ? kCoreTest : kRimTest) + kDepth + kColour;
+  if (part == BallPart::kFacet) return fmt::format("{}{}{}{}", kFragmentHead, kFacetTest, kDepth, kFacet);
+  return fmt::format("{}{}{}{}", kFragmentHead, part == BallPart::kCore ? kCoreTest : kRimTest, kDepth,
+                     kColour);
 }
 
 }  // namespace stereobench::renderer
