@@ -58,8 +58,23 @@ std::vector<std::string> scene_seeds() {
           std::string("\x20\x20\x0C\x08\x40\x50\x28\x0A\x05\x81\x60\x10\x14\xC8\x02", 15)};
 }
 
+/// TGA files of 4 x 2 pixels, which OpenCV does not write: colours as they are, packed, and of a palette.
+std::vector<std::string> tga_seeds() {
+  const std::string size("\0\0\0\0\4\0\2\0", 8);
+  const std::string plain = std::string("\0\0\2\0\0\0\0\0", 8) + size + std::string("\x18\0", 2);
+  const std::string packed = std::string("\0\0\xA\0\0\0\0\0", 8) + size + std::string("\x18\x20", 2);
+  const std::string palette = std::string("\0\1\1\0\0\2\0\x18", 8) + size + std::string("\x8\0", 2);
+  return {plain + "abcdefghijklmnopqrstuvwx",
+          packed +
+              "\x83"
+              "abc"
+              "\x83"
+              "def",
+          palette + "abcdef" + std::string("\0\1\1\0\1\0\0\1", 8)};
+}
+
 std::vector<std::string> picture_seeds() {
-  std::vector<std::string> seeds;
+  std::vector<std::string> seeds = tga_seeds();
   const cv::Mat picture = drawn(Bytes(reinterpret_cast<const std::uint8_t*>("\x30\x20\x0C\x08\x20"), 5), 0);
   cv::Mat small, grey;
   cv::resize(picture, small, {24, 16});
