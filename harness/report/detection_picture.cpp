@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/report/canvas.h"
+#include "renderer/develop.h"
 #include "vision/observe.h"
 
 namespace stereobench::harness {
@@ -170,6 +171,12 @@ void draw_eye(Canvas& canvas, const Box& box, double scale, std::span<const Ring
 }
 
 }  // namespace
+
+vision::StereoPair for_the_eye(const vision::StereoPair& pair, const worlds::CameraSensor& camera) {
+  if (camera.encoding != worlds::Encoding::kLinear) return pair;
+  const worlds::CameraSensor screen{.encoding = worlds::Encoding::kSrgb};
+  return {renderer::develop(pair.left, screen, 0, 0), renderer::develop(pair.right, screen, 0, 0)};
+}
 
 std::string draw_detection_picture(const vision::StereoPair& pair,
                                    std::span<const vision::BallObservation> observations, int max_width_px) {

@@ -6,8 +6,13 @@
 
 #include "vision/outline_fit.h"
 #include "vision/types.h"
+#include "worlds/camera_sensor.h"
 
 namespace stereobench::harness {
+
+/// The pair as screens show it rightly: light that a camera stores as it is becomes sRGB (IEC 61966-2-1).
+/// @param pair two CV_8UC3 images, as `camera` stores them
+vision::StereoPair for_the_eye(const vision::StereoPair& pair, const worlds::CameraSensor& camera);
 
 /// Draws the observed balls' outlines, centres, colour index and range on both eyes' pictures, side by side.
 /// Observations that are not to be trusted are dashed and say why.

@@ -64,7 +64,9 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   listeners.on_progress = on_progress;
   listeners.on_look = [&](const Look& look) {
     if (is_snapshot_step(look.step, task.snapshots, task.scenario->path.size()))
-      drive.snapshots.push_back({look.step, draw_detection_picture(look.pair, look.observations)});
+      drive.snapshots.push_back(
+          {look.step,
+           draw_detection_picture(for_the_eye(look.pair, task.scenario->camera), look.observations)});
   };
   drive.recording = record(*task.scenario, task.seed, listeners, task.backend, task.detector);
   drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),

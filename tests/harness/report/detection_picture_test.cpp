@@ -56,6 +56,16 @@ TEST(ReportDetections, WidePairsAreScaledDownWithTheirRings) {
   }
 }
 
+// IEC 61966-2-1: 100 / 255 of light is level 168. Catches: pictures as dark as their light; light that is
+// encoded twice.
+TEST(ReportDetections, LightIsEncodedForTheEyeOnce) {
+  const vision::StereoPair light = grey_pair(64, 48);
+  EXPECT_EQ(for_the_eye(light, {}).left.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
+  EXPECT_EQ(for_the_eye(light, {}).right.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
+  const worlds::CameraSensor encoding{.noise_sd_levels = 2.0, .encoding = worlds::Encoding::kSrgb};
+  EXPECT_EQ(for_the_eye(light, encoding).left.at<cv::Vec3b>(5, 5), cv::Vec3b(100, 100, 100));
+}
+
 // Catches: flags that are not looked at.
 TEST(ReportDetections, FlaggedBallsAreDashed) {
   const auto ink = [](bool truncated, bool occluded) {
