@@ -58,19 +58,23 @@ std::vector<std::string> scene_seeds() {
           std::string("\x20\x20\x0C\x08\x40\x50\x28\x0A\x05\x81\x60\x10\x14\xC8\x02", 15)};
 }
 
-/// TGA files of 4 x 2 pixels, which OpenCV does not write: colours as they are, packed, and of a palette.
+/// A TGA file of 4 x 2 pixels, which OpenCV does not write.
+std::string tga(char kind, char bits, char palette_colours, const std::string& pixels) {
+  std::string file(18, '\0');
+  file[1] = palette_colours > 0 ? 1 : 0;
+  file[2] = kind;
+  file[5] = palette_colours;
+  file[7] = 24;
+  file[12] = 4;
+  file[14] = 2;
+  file[16] = bits;
+  return file += pixels;
+}
+
+/// Colours as they are, packed runs of them, and two of a palette.
 std::vector<std::string> tga_seeds() {
-  const std::string size("\0\0\0\0\4\0\2\0", 8);
-  const std::string plain = std::string("\0\0\2\0\0\0\0\0", 8) + size + std::string("\x18\0", 2);
-  const std::string packed = std::string("\0\0\xA\0\0\0\0\0", 8) + size + std::string("\x18\x20", 2);
-  const std::string palette = std::string("\0\1\1\0\0\2\0\x18", 8) + size + std::string("\x8\0", 2);
-  return {plain + "abcdefghijklmnopqrstuvwx",
-          packed +
-              "\x83"
-              "abc"
-              "\x83"
-              "def",
-          palette + "abcdef" + std::string("\0\1\1\0\1\0\0\1", 8)};
+  return {tga(2, 24, 0, "abcdefghijklmnopqrstuvwx"), tga(10, 24, 0, "\203abc\203def"),
+          tga(1, 8, 2, std::string("abcdef\0\1\1\0\1\0\0\1", 14))};
 }
 
 std::vector<std::string> picture_seeds() {

@@ -3,6 +3,7 @@
 /// multiply-add does, which the rasteriser uses where the CPU has it.
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "renderer/backend.h"
@@ -43,7 +44,7 @@ TEST_P(Determinism, SameBytesRunToRunForAnyThreadsVectorsAndCaches) {
 // Mutation: no allowance of a level: a hundred pixels of a million are off by one.
 TEST_P(Determinism, SameIdsAndColoursWithinALevelOnCpusWithoutFusedMultiplyAdd) {
   const std::string everything =
-      std::string("GALLIUM_OVERRIDE_CPU_CAPS=sse2 ") + kLesserGlibc + " " + kLesserOpenCv;
+      fmt::format("GALLIUM_OVERRIDE_CPU_CAPS=sse2 {} {}", kLesserGlibc, kLesserOpenCv);
   const auto usual = frames("");
   for (const char* environment : {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "GALLIUM_OVERRIDE_CPU_CAPS=sse2",
                                   kLesserGlibc, everything.c_str()}) {

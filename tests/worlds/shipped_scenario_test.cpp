@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "slam/measurement.h"
@@ -19,7 +20,7 @@ namespace stereobench::worlds {
 namespace {
 
 Scenario shipped(const std::string& name) {
-  return read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml");
+  return read_scenario(fmt::format("{}/assets/scenarios/{}.yaml", STEREOBENCH_SOURCE_DIR, name));
 }
 
 /// The least clearance between the drive and any ball's surface.

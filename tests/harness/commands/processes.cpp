@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,7 +63,7 @@ bool comes_true_in_time(const std::function<bool()>& condition) {
 }
 
 pid_t start_stereobench(const std::string& command) {
-  const std::string whole = std::string("exec '") + STEREOBENCH_PROGRAM + "' " + command;
+  const std::string whole = fmt::format("exec '{}' {}", STEREOBENCH_PROGRAM, command);
   const pid_t process = ::fork();
   if (process == 0) {
     ::execl("/bin/sh", "sh", "-c", whole.c_str(), nullptr);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,7 +42,7 @@ Outcome run_stereobench(const std::vector<std::string>& arguments, Environment e
 }
 
 std::string scenario_path(const std::string& name) {
-  return std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml";
+  return fmt::format("{}/assets/scenarios/{}.yaml", STEREOBENCH_SOURCE_DIR, name);
 }
 
 ScratchFolder::ScratchFolder() {

@@ -58,12 +58,11 @@ TEST(StandardStreams, ErrorsThatNobodyTakesKeepTheirExitCode) {
 TEST(StandardStreams, ThatAreClosedAreNoDetectorsPipes) {
   for (const char* closed : {"<&-", "<&- >&-"}) {
     const ScratchFolder scratch;
-    const Outcome outcome = run_in_shell(
-        fmt::format("run '{}' --set path.laps=0.06 --set gates=[] --seeds 0 --filters dead_reckoning "
-                    "--detector '{}' --out "
-                    "'{}' {}",
-                    scenario_path("ball_circle"), std::string(STEREOBENCH_PROGRAM) + " detect --serve",
-                    (scratch.path() / "out").string(), closed));
+    const Outcome outcome = run_in_shell(fmt::format(
+        "run '{}' --set path.laps=0.06 --set gates=[] --seeds 0 --filters dead_reckoning "
+        "--detector '{} detect --serve' --out "
+        "'{}' {}",
+        scenario_path("ball_circle"), STEREOBENCH_PROGRAM, (scratch.path() / "out").string(), closed));
     EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/run.json")) << outcome.err;
     if (std::string(closed) == "<&-") {
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
