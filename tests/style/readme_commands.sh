@@ -1,9 +1,10 @@
 #!/bin/bash
-# Runs the commands of a README: what it tells people to type must work.
+# Runs the commands of the README and of the guide: what they tell people to type must work.
 # usage: readme_commands.sh ROOT PROGRAM
-# Takes the lines of ```sh blocks in ROOT/README.md. `stereobench ...` is run with PROGRAM, in order, in a temporary
-# folder that has ROOT's assets; `scripts/...` and `.ci/run` install and build, so they must only exist and be
-# executable. Any other command than those listed below is a breach: it would not be checked.
+# Takes the lines of ```sh blocks in ROOT/README.md and ROOT/docs/guide/*.md. `stereobench ...` is run with PROGRAM, in
+# order, in a temporary folder that has ROOT's assets: a new one for each document, so that a page works by itself.
+# `scripts/...` and `.ci/run` install and build, so they must only exist and be executable. Any other command than those
+# listed below is a breach: it would not be checked.
 set -euo pipefail
 root=$(cd "$1" && pwd)
 program=$2
@@ -11,30 +12,52 @@ program=$2
 
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
-for entry in "$root"/*; do
-  case "${entry##*/}" in out | build) ;; *) ln -s "$entry" "$place/" ;; esac
-done
-cd "$place"
+breaches=0
+breach() {
+  echo "$document: $1"
+  breaches=1
+}
+
+fresh_folder() {
+  rm -rf "$place/here" && mkdir "$place/here" && cd "$place/here"
+  local entry
+  for entry in "$root"/*; do
+    case "${entry##*/}" in out | build) ;; *) ln -s "$entry" . ;; esac
+  done
+}
 
 commands() { # one a line: continued lines joined, prompts, comments and blank lines left out
-  awk '/^ *```/ { inside = !inside && $0 ~ /^ *```sh *$/; next } inside' "$root/README.md" |
+  awk '/^ *```/ { inside = !inside && $0 ~ /^ *```sh *$/; next } inside' "$root/$document" |
     sed -e ':join' -e '/\\$/{N;s/\\\n */ /;b join' -e '}' -e 's/^ *\$ //' -e 's/ #.*//' -e '/^ *#/d' -e '/^ *$/d'
 }
 
-count=0
-breaches=0
-while IFS= read -r command; do
-  count=$((count + 1))
+try() {
+  local command=$1 first arguments
   read -r first arguments <<<"$command"
   case "$first" in
     stereobench | build/release/harness/stereobench)
       echo "+ $command"
-      bash -euc "\"\$0\" $arguments" "$program" </dev/null || { echo "README.md: failed: $command"; breaches=1; } ;;
+      bash -euc "\"\$0\" $arguments" "$program" </dev/null || breach "failed: $command" ;;
     scripts/* | .ci/run | ./scripts/*)
-      [ -x "$root/$first" ] || { echo "README.md: no such program: $first"; breaches=1; } ;;
+      [ -x "$root/$first" ] || breach "no such program: $first" ;;
     git | cd | cmake | ctest | sudo | apt-get | export | ls | cat) ;;
-    *) echo "README.md: not checked by tests/style/readme_commands.sh: $command"; breaches=1 ;;
+    *) breach "not checked by tests/style/readme_commands.sh: $command" ;;
   esac
-done < <(commands)
-[ "$count" -gt 0 ] || { echo "README.md: no command in a \`\`\`sh block"; breaches=1; }
+}
+
+check() {
+  document=$1
+  local count=0 command
+  fresh_folder
+  while IFS= read -r command; do
+    count=$((count + 1))
+    try "$command"
+  done < <(commands)
+  [ "$count" -gt 0 ] || [ "$document" != README.md ] || breach "no command in a \`\`\`sh block"
+}
+
+check README.md
+for page in "$root"/docs/guide/*.md; do
+  [ ! -f "$page" ] || check "docs/guide/${page##*/}"
+done
 exit $breaches

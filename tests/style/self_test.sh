@@ -8,7 +8,7 @@ trap 'rm -rf "$place"' EXIT
 clean_repository() {
   rm -rf "$place/repo" && mkdir -p "$place/repo" && cd "$place/repo"
   git init -q
-  mkdir slam vision harness scripts
+  mkdir -p slam vision harness scripts docs/guide
   cp "$here/../../.clang-format" .
   printf '/build/\n/out/\n' >.gitignore
   printf '#include "slam/b.h"\n\nint one();\n' >slam/a.h
@@ -16,6 +16,7 @@ clean_repository() {
   printf '#include "slam/a.h"\n#include "vision/b.h"\n' >harness/c.cpp
   printf '#!/bin/bash\n' >scripts/demo.sh && chmod +x scripts/demo.sh
   printf '```sh\nscripts/demo.sh\n$ stereobench run a \\\n    --out out/b  # comment\n```\n```text\nfoo\n```\n' >README.md
+  printf '# First Steps\n\n```sh\nstereobench run a --out out/b\n```\n' >docs/guide/first.md
 }
 
 failures=0
@@ -33,8 +34,8 @@ expect() { # expect red|green RULE: what was done
   failures=1
 }
 
-# A program that works when it is given `run a --out out/b`.
-printf '#!/bin/bash\n[ "$*" = "run a --out out/b" ]\n' >"$place/program" && chmod +x "$place/program"
+# A program that works once in a folder, when it is given `run a --out out/b`.
+printf '#!/bin/bash\n[ "$*" = "run a --out out/b" ] && mkdir done\n' >"$place/program" && chmod +x "$place/program"
 
 clean_repository
 for rule in format layers arithmetic sizes products readme; do expect green "$rule" "a clean repository"; done
@@ -60,6 +61,9 @@ clean_repository && printf '/build/\n' >.gitignore && expect red products "out i
 clean_repository && rm scripts/demo.sh && expect red readme "a script that does not exist"
 clean_repository && sed -i 's/run a/run c/' README.md && expect red readme "a command that fails"
 clean_repository && sed -i 's/^scripts\/demo.sh/frobnicate/' README.md && expect red readme "a command nobody checks"
+clean_repository && sed -i 's/run a/run c/' docs/guide/first.md && expect red readme "a command of the guide that fails"
+clean_repository && sed -i 's/^stereobench/frobnicate/' docs/guide/first.md && expect red readme "one nobody checks"
+clean_repository && rm -r docs && expect green readme "no guide"
 clean_repository && rm README.md && expect red readme "no README"
 clean_repository && printf 'text\n' >README.md && expect red readme "no commands"
 exit $failures
