@@ -268,8 +268,8 @@ void add_detect_command(CLI::App& program, Action& action) {
   command->add_flag("--serve", arguments->serve,
                     "be a detector's program: read the protocol's lines from stdin, answer on stdout");
   command->footer(
-      "Writes a line of JSON a pair or picture (README, \"Your own detector\"): of pairs range and bearing\n"
-      "with covariance, of single pictures centres, radii and colours.\n\n"
+      "Writes a line of JSON a pair or picture (docs/guide/detectors.md): of pairs range and bearing with\n"
+      "covariance, of single pictures centres, radii and colours.\n\n"
       "Example: stereobench detect left.png right.png --rig calibration.yaml --draw out/drawn");
   command->callback([arguments, &action] { action = [arguments] { return detect(*arguments); }; });
 }

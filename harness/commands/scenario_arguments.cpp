@@ -23,7 +23,7 @@ void add_eyes_options(CLI::App& command, ScenarioArguments& arguments) {
   command
       .add_option("--detector", arguments.detector,
                   "a program that finds the balls, e.g. 'python3 my_detector.py': it is shown frames and "
-                  "answers in lines of JSON (README)")
+                  "answers in lines of JSON (docs/guide/detectors.md)")
       ->type_name("COMMAND");
   command
       .add_option("--detector-timeout-s", arguments.detector_timeout_s,
