@@ -1,6 +1,6 @@
 #!/bin/bash
 # Checks one rule of the house on the files that git tracks.
-# usage: check.sh format|layers|arithmetic|sizes|products [ROOT]
+# usage: check.sh format|layers|arithmetic|sizes|products|documents [ROOT]
 # Prints each breach and exits 1 when there is one; exits 77 (skipped) where there is no git checkout.
 set -euo pipefail
 rule=$1
@@ -80,6 +80,46 @@ check_products() {
   for file in build/x out/x; do
     git check-ignore -q --no-index "$file" || breach ".gitignore: does not ignore ${file%x}"
   done
+}
+
+# The anchors of a document's headings, as GitHub makes them.
+anchors() {
+  sed -n -E '/^ *```/,/^ *```/d; s/^#+ +//p' "$1" | tr '[:upper:]' '[:lower:]' | sed -E 's/[^a-z0-9 _-]//g; s/ /-/g'
+}
+
+# Where the links of a document lead. Code and pictures of other sites are left out.
+links() {
+  sed -E '/^ *```/,/^ *```/d; s/`[^`]*`//g' "$1" | grep -o -E '\]\([^) ]+\)' | sed -E 's/^\]\(|\)$//g' |
+    grep -v -E '^[a-z]+:' || true
+}
+
+check_links() {
+  local file=$1 link target
+  while read -r link; do
+    target=${link%%#*}
+    target=${target:+$(dirname "$file")/$target}
+    target=${target:-$file}
+    if [ ! -e "$target" ]; then
+      breach "$file: leads nowhere: $link"
+    elif [[ $link == *'#'* ]] && ! anchors "$target" | grep -q -x -F -- "${link#*#}"; then
+      breach "$file: no such heading: $link"
+    fi
+  done < <(links "$file")
+}
+
+# Documents can be read in any editor, and lead where they say; so do texts that name a document. Tables and code
+# may be wider.
+check_documents() {
+  local file place
+  while read -r file; do
+    while read -r place; do
+      breach "$file:$place: wider than 160 characters; wrap at 120"
+    done < <(awk '/^ *```/ { code = !code } !code && !/^(\||    )/ && length > 160 { print NR }' "$file")
+    check_links "$file"
+  done < <(tracked '*.md')
+  while IFS=: read -r file place; do
+    [ -f "$place" ] || breach "$file: names a document that does not exist: $place"
+  done < <(tracked . ':!tests/style/self_test.sh' | xargs -r -d '\n' grep -H -I -o -E '\bdocs/[a-z_/]+\.md\b' | sort -u)
 }
 
 "check_$rule"

@@ -17,6 +17,7 @@ clean_repository() {
   printf '#!/bin/bash\n' >scripts/demo.sh && chmod +x scripts/demo.sh
   printf '```sh\nscripts/demo.sh\n$ stereobench run a \\\n    --out out/b  # comment\n```\n```text\nfoo\n```\n' >README.md
   printf '# First Steps\n\n```sh\nstereobench run a --out out/b\n```\n' >docs/guide/first.md
+  printf '\n[one](docs/guide/first.md#first-steps), [two](slam/), `[0](x)`\n| %0200d |\n\n    %0200d\n' 0 0 >>README.md
 }
 
 failures=0
@@ -38,7 +39,7 @@ expect() { # expect red|green RULE: what was done
 printf '#!/bin/bash\n[ "$*" = "run a --out out/b" ] && mkdir done\n' >"$place/program" && chmod +x "$place/program"
 
 clean_repository
-for rule in format layers arithmetic sizes products readme; do expect green "$rule" "a clean repository"; done
+for rule in format layers arithmetic sizes products documents readme; do expect green "$rule" "a clean repository"; done
 
 clean_repository && printf 'int  one( );\n' >slam/a.h && expect red format "two blanks"
 clean_repository && printf '#include "slam/b.h"\n#include "slam/a.h"\n' >vision/a.cpp && expect red format "unsorted includes"
@@ -57,6 +58,13 @@ clean_repository && seq 350 | sed 's/^/\/\/ /' >slam/a.h && expect green sizes "
 clean_repository && mkdir build && touch build/a && expect red products "a tracked file in build"
 clean_repository && printf '\x7fELF\x02\x01' >slam/tool && expect red products "a tracked program"
 clean_repository && printf '/build/\n' >.gitignore && expect red products "out is not ignored"
+
+clean_repository && printf '%0161d\n' 0 >>README.md && expect red documents "a line of 161 characters"
+clean_repository && sed -i 's/first.md#/last.md#/' README.md && expect red documents "a link to no file"
+clean_repository && sed -i 's/^# First/# Other/' docs/guide/first.md && expect red documents "a link to no heading"
+clean_repository && printf '[one](#two)\n' >>docs/guide/first.md && expect red documents "the same on its own page"
+clean_repository && printf '[one](first.md)\n' >>docs/guide/first.md && expect green documents "a link from a folder"
+clean_repository && printf '// see docs/lost.md\n' >>slam/b.h && expect red documents "a text that names a lost document"
 
 clean_repository && rm scripts/demo.sh && expect red readme "a script that does not exist"
 clean_repository && sed -i 's/run a/run c/' README.md && expect red readme "a command that fails"
