@@ -35,12 +35,11 @@ cv::v_int32x4 light_between(const Weights& weights, const std::uint8_t* pixel, s
   cv::v_int16x8 neighbours, rest;
   cv::v_zip(between, cv::v_rotate_right<3>(between), neighbours, rest);
   const cv::v_int32x4 light = cv::v_dotprod(neighbours, cv::v_load_aligned(weights.in_turns[right]));
+  static_assert(kWays * kWays == 1 << 10);
   return (light + cv::v_setall_s32(kWays * kWays / 2)) >> 10;
 }
 
-constexpr int kWeightOfFour = 4 * kWays * kWays;
 constexpr int kMiddleStep = 1 << 15;  // light of 16 bits is told from the middle: products are signed
-static_assert(kWeightOfFour == 1 << 12);
 
 /// Blue, green and red between two neighbours of one row, from the middle, times the weights of both.
 cv::v_int32x4 weighed(const std::uint16_t* pixel, const cv::v_int16x8& in_turns) {
@@ -52,60 +51,55 @@ cv::v_int32x4 weighed(const std::uint16_t* pixel, const cv::v_int16x8& in_turns)
 }
 
 /// The same between four pixels, not rounded: 1024 times the light; the fourth number is anything.
-cv::v_int32x4 fine_light_between(const Weights& weights, const std::uint16_t* pixel, std::size_t step,
-                                 unsigned fraction) {
+cv::v_int32x4 light_between(const Weights& weights, const std::uint16_t* pixel, std::size_t step,
+                            unsigned fraction) {
   const unsigned right = fraction % kWays, down = fraction / kWays;
   const cv::v_int16x8 in_turns = cv::v_load_aligned(weights.in_turns[right]);
   return weighed(pixel, cv::v_mul_wrap(in_turns, cv::v_load_aligned(weights.first[down]))) +
          weighed(pixel + step, cv::v_mul_wrap(in_turns, cv::v_load_aligned(weights.second[down])));
 }
 
+/// How the mean of four lights is taken of their sum: by how many bits the sum is larger, and what it is told
+/// from.
+template <class Level>
+struct Mean;
+template <>
+struct Mean<std::uint8_t> {
+  static constexpr int kBits = 2;
+  static constexpr int kMiddle = 0;
+};
+template <>
+struct Mean<std::uint16_t> {
+  static constexpr int kBits = 12;
+  static constexpr int kMiddle = kMiddleStep << kBits;
+};
+
 }  // namespace
 
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint8_t* bent,
-                  int width) {
-  static_assert(kWays * kWays == 1 << 10);
+template <class Level>
+void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, Level* bent, int width) {
   static const Weights weights;
-  const std::size_t step = straight.pixels.step[0];
-  const std::uint8_t* origin = straight.pixels.data - static_cast<std::ptrdiff_t>(step) * straight.first_row;
+  constexpr int kBits = Mean<Level>::kBits;
+  const std::size_t step = straight.pixels.step1();
+  const auto* origin = straight.pixels.ptr<Level>() - static_cast<std::ptrdiff_t>(step) * straight.first_row;
   const auto at = [&](const cv::Vec2s& place) {
     return origin + step * static_cast<std::size_t>(place[1]) + 3 * place[0];
   };
   for (int u = 0; u < width; ++u) {
-    const std::uint8_t* soon = at(places[1].pixels[std::min(2 * u + kPlacesAhead, 2 * width - 1)]);
+    const Level* soon = at(places[1].pixels[std::min(2 * u + kPlacesAhead, 2 * width - 1)]);
     __builtin_prefetch(soon);
     __builtin_prefetch(soon + step);
-    cv::v_int32x4 sum = cv::v_setall_s32(2);
+    cv::v_int32x4 sum = cv::v_setall_s32(Mean<Level>::kMiddle + (1 << (kBits - 1)));
     for (const LightPlaces& row : places)
       for (int k = 2 * u; k < 2 * u + 2; ++k)
         sum += light_between(weights, at(row.pixels[k]), step, row.fractions[k]);
     int levels[4];
-    cv::v_store(levels, sum >> 2);
-    for (int c = 0; c < 3; ++c) *bent++ = static_cast<std::uint8_t>(levels[c]);
+    cv::v_store(levels, sum >> kBits);
+    for (int c = 0; c < 3; ++c) *bent++ = static_cast<Level>(levels[c]);
   }
 }
 
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint16_t* bent,
-                  int width) {
-  static const Weights weights;
-  const std::size_t step = straight.pixels.step1();
-  const std::uint16_t* origin =
-      straight.pixels.ptr<std::uint16_t>() - static_cast<std::ptrdiff_t>(step) * straight.first_row;
-  const auto at = [&](const cv::Vec2s& place) {
-    return origin + step * static_cast<std::size_t>(place[1]) + 3 * place[0];
-  };
-  for (int u = 0; u < width; ++u) {
-    const std::uint16_t* soon = at(places[1].pixels[std::min(2 * u + kPlacesAhead, 2 * width - 1)]);
-    __builtin_prefetch(soon);
-    __builtin_prefetch(soon + step);
-    cv::v_int32x4 sum = cv::v_setall_s32(kWeightOfFour * kMiddleStep + kWeightOfFour / 2);
-    for (const LightPlaces& row : places)
-      for (int k = 2 * u; k < 2 * u + 2; ++k)
-        sum += fine_light_between(weights, at(row.pixels[k]), step, row.fractions[k]);
-    int steps[4];
-    cv::v_store(steps, sum >> 12);
-    for (int c = 0; c < 3; ++c) *bent++ = static_cast<std::uint16_t>(steps[c]);
-  }
-}
+template void gather_light(const LightPlaces (&)[2], const StraightRows&, std::uint8_t*, int);
+template void gather_light(const LightPlaces (&)[2], const StraightRows&, std::uint16_t*, int);
 
 }  // namespace stereobench::renderer

@@ -23,17 +23,14 @@ struct LightPlaces {
   const std::uint16_t* fractions;  ///< of the ways to the next column and row
 };
 
-/// For each pixel the mean light of two places each in two rows of places, each between four pixels: to the
-/// byte what cv::remap makes of the places (INTER_LINEAR) and cv::resize of that (INTER_AREA).
-/// @param straight CV_8UC3, with two columns to the right of every place
+/// For each pixel the mean light of two places each in two rows of places, each between four pixels. Of 8
+/// bits it is to the byte what cv::remap makes of the places (INTER_LINEAR) and cv::resize of that
+/// (INTER_AREA); of 16 bits it is rounded once.
+/// @tparam Level std::uint8_t or std::uint16_t
+/// @param straight CV_8UC3 or CV_16UC3, with two columns to the right of every place
 /// @param bent `width` times blue, green, red
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint8_t* bent,
-                  int width);
-
-/// The same of 16 bits, rounded once.
-/// @param straight CV_16UC3, with two columns to the right of every place
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, std::uint16_t* bent,
-                  int width);
+template <class Level>
+void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, Level* bent, int width);
 
 /// For each place its pixel.
 template <class Pixel>

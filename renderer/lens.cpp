@@ -13,14 +13,15 @@
 #include "renderer/gather.h"
 #include "renderer/readback.h"
 #include "vision/distortion.h"
+#include "vision/pinhole_rig.h"
 #include "vision/rig.h"
 
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kOversampling = 2;   // gather_light gathers four places a pixel
-constexpr int kMargin_px = 2;      // for the interpolation at the border
-constexpr int kLargest_px = 8192;  // of the pinhole's picture
+constexpr int kOversampling = vision::kPinholeDensity;
+static_assert(kOversampling == 2);  // gather_light gathers four places a pixel
+constexpr int kMargin_px = 2;       // for the interpolation at the border
 
 /// Where a row of a grid of `density` by `density` places a pixel looks in the pinhole's picture.
 void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int density, int row,
@@ -63,22 +64,11 @@ std::vector<cv::Range> rows_of(const cv::Mat& places) {
 }  // namespace
 
 vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
-  const auto seen = vision::directions_seen(rig.distortion, rig.camera);
-  if (!seen) throw std::invalid_argument("Lens: the lens folds its picture");
-  vision::StereoRig pinhole = rig;
-  pinhole.distortion = {};
-  vision::Intrinsics& camera = pinhole.camera;
-  camera.focal_px = kOversampling * rig.camera.focal_px;
-  const Eigen::Vector2d first = (camera.focal_px * seen->min()).array().floor() - kMargin_px;
-  const Eigen::Vector2d last = (camera.focal_px * seen->max()).array().ceil() + kMargin_px;
-  const Eigen::Vector2d size = last - first;
-  if (!(size.maxCoeff() < kLargest_px))
+  const auto pinhole = vision::pinhole_rig(rig);
+  if (!pinhole) throw std::invalid_argument("Lens: the lens folds its picture");
+  if (!vision::can_be_drawn(pinhole->camera))
     throw std::invalid_argument("Lens: it sees more than a pinhole camera can draw");
-  camera.cx_px = -first.x();
-  camera.cy_px = -first.y();
-  camera.width_px = static_cast<int>(size.x()) + 1;
-  camera.height_px = static_cast<int>(size.y()) + 1;
-  return pinhole;
+  return *pinhole;
 }
 
 Lens::Lens(const vision::StereoRig& rig)

@@ -9,7 +9,7 @@ std::shared_ptr<const worlds::TriangleTree> solid_of(const std::vector<Triangle>
   std::vector<worlds::TriangleCorners> corners;
   corners.reserve(triangles.size());
   for (const Triangle& t : triangles) corners.push_back({t.corners[0], t.corners[1], t.corners[2]});
-  return std::make_shared<const worlds::TriangleTree>(std::move(corners));
+  return std::make_shared<const worlds::TriangleTree>(corners);
 }
 
 }  // namespace

@@ -12,32 +12,32 @@ namespace {
 
 constexpr int kBandRows = 32;  // what is read at once stays in the processor's cache
 
-void split_row(const std::uint8_t* pixels, std::uint8_t* colour, std::uint8_t* id, int count) {
-  int i = 0;
-  for (; i + cv::v_uint8x16::nlanes <= count; i += cv::v_uint8x16::nlanes) {
-    cv::v_uint8x16 blue, green, red, identity;
-    cv::v_load_deinterleave(pixels + 4 * i, blue, green, red, identity);
-    cv::v_store_interleave(colour + 3 * i, blue, green, red);
-    cv::v_store(id + i, identity);
-  }
-  for (; i < count; ++i) {
-    std::copy_n(pixels + 4 * i, 3, colour + 3 * i);
-    id[i] = pixels[4 * i + 3];
-  }
+void store_identities(std::uint8_t* id, const cv::v_uint8x16& identities) {
+  cv::v_store(id, identities);
 }
 
-/// The same of numbers of 16 bits; an identity is 257 times itself there.
-void split_row(const std::uint16_t* pixels, std::uint16_t* colour, std::uint8_t* id, int count) {
+/// In numbers of 16 bits an identity is 257 times itself.
+void store_identities(std::uint8_t* id, const cv::v_uint16x8& identities) {
+  cv::v_pack_store(id, identities >> 8);
+}
+
+/// @tparam Lanes numbers of the pixels that are looked at together
+template <class Lanes>
+void split_row(const cv::Mat& pixels, EyeFrame& frame, int row) {
+  using Number = typename Lanes::lane_type;
+  const auto* from = pixels.ptr<Number>(row);
+  auto* colour = frame.colour.ptr<Number>(row);
+  std::uint8_t* id = frame.ball_id.ptr(row);
   int i = 0;
-  for (; i + cv::v_uint16x8::nlanes <= count; i += cv::v_uint16x8::nlanes) {
-    cv::v_uint16x8 blue, green, red, identity;
-    cv::v_load_deinterleave(pixels + 4 * i, blue, green, red, identity);
+  for (; i + Lanes::nlanes <= pixels.cols; i += Lanes::nlanes) {
+    Lanes blue, green, red, identities;
+    cv::v_load_deinterleave(from + 4 * i, blue, green, red, identities);
     cv::v_store_interleave(colour + 3 * i, blue, green, red);
-    cv::v_pack_store(id + i, identity >> 8);
+    store_identities(id + i, identities);
   }
-  for (; i < count; ++i) {
-    std::copy_n(pixels + 4 * i, 3, colour + 3 * i);
-    id[i] = static_cast<std::uint8_t>(pixels[4 * i + 3] >> 8U);
+  for (; i < pixels.cols; ++i) {
+    std::copy_n(from + 4 * i, 3, colour + 3 * i);
+    id[i] = static_cast<std::uint8_t>(from[4 * i + 3] >> (8 * sizeof(Number) - 8));
   }
 }
 
@@ -58,10 +58,9 @@ void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame) {
   frame.ball_id.create(pixels.size(), CV_8UC1);
   for (int row = 0; row < pixels.rows; ++row) {
     if (is_fine)
-      split_row(pixels.ptr<std::uint16_t>(row), frame.colour.ptr<std::uint16_t>(row), frame.ball_id.ptr(row),
-                pixels.cols);
+      split_row<cv::v_uint16x8>(pixels, frame, row);
     else
-      split_row(pixels.ptr(row), frame.colour.ptr(row), frame.ball_id.ptr(row), pixels.cols);
+      split_row<cv::v_uint8x16>(pixels, frame, row);
   }
 }
 

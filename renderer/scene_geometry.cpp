@@ -109,8 +109,8 @@ int SceneGeometry::first_flat(const Sightline& sight, double from, double before
   const auto enters = [&](int facet) { return facet == but_for ? kNever : enter(facet, sight); };
   const double floor = enters(kFloorFacet);
   const bool on_floor = floor >= from && floor < before;
-  const BoxTree::Met met = tree_.first(sight, from, on_floor ? floor : before,
-                                       [&](int thing) { return enters(kFirstWallFacet + thing); });
+  const worlds::BoxTree::Met met = tree_.first(sight, from, on_floor ? floor : before,
+                                               [&](int thing) { return enters(kFirstWallFacet + thing); });
   return met.thing >= 0 ? kFirstWallFacet + met.thing : on_floor ? kFloorFacet : kNoFacet;
 }
 

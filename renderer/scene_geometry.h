@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "renderer/box_tree.h"
 #include "renderer/facets.h"
 #include "renderer/sightline.h"
+#include "worlds/box_tree.h"
 
 namespace stereobench::renderer {
 
@@ -62,7 +62,7 @@ class SceneGeometry {
 
   std::vector<worlds::Ball> balls_;
   std::vector<Flat> flats_;  // the floor, walls, triangles
-  BoxTree tree_;             // of all flats but the floor
+  worlds::BoxTree tree_;     // of all flats but the floor
 };
 
 }  // namespace stereobench::renderer

@@ -2,14 +2,11 @@
 #pragma once
 
 #include "renderer/eye_view.h"
+#include "worlds/box_tree.h"
 
 namespace stereobench::renderer {
 
-/// The points origin + t direction, t > 0.
-struct Sightline {
-  Eigen::Vector3d origin_m;
-  Eigen::Vector3d direction;
-};
+using worlds::Sightline;
 
 /// The sightlines of an eye's pixels; t is planar depth.
 class Sightlines {

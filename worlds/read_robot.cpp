@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "vision/distortion.h"
+#include "vision/pinhole_rig.h"
 #include "worlds/oracle.h"
 #include "worlds/scenario_parts.h"
 
@@ -112,6 +113,20 @@ vision::StereoRig read_rig(const YamlValue& value) {
   rig.pitch_down_rad = 0.0;
   read_rig_parts(map, rig);
   return rig;
+}
+
+void check_lens(const YamlValue& value, const vision::StereoRig& rig) {
+  if (rig.distortion == vision::Distortion{}) return;
+  const vision::Intrinsics pinhole = vision::pinhole_rig(rig).value().camera;
+  if (vision::can_be_drawn(pinhole)) return;
+  vision::Distortion bent = rig.distortion;
+  bent.pixel_aspect = 1.0;
+  const YamlMap map(value, rig_keys());
+  map.at(bent == vision::Distortion{} ? "pixel_aspect" : "distortion")
+      .refuse(fmt::format("expected fewer pixels, or a lens that looks less far aside: drawn straight, with "
+                          "{} pixels for one, its picture has {} x {}, and {} each way is the most",
+                          vision::kPinholeDensity, pinhole.width_px, pinhole.height_px,
+                          vision::kLargestPinhole_px));
 }
 
 const KeyGroup& believed_rig_keys() {

@@ -62,7 +62,10 @@ void read_run(const YamlMap& map, Scenario& scenario) {
 
 void read_eyes(const YamlMap& map, Scenario& scenario) {
   const bool stereo = scenario.sensor == SensorKind::kStereo;
-  if (const auto rig = stereo ? map.at("rig") : map.find("rig")) scenario.rig = read_rig(*rig);
+  if (const auto rig = stereo ? map.at("rig") : map.find("rig")) {
+    scenario.rig = read_rig(*rig);
+    if (stereo) check_lens(*rig, scenario.rig);
+  }
   const auto believed = map.find("believed_rig");
   scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);

@@ -53,6 +53,10 @@ GroundTruth read_path(const YamlValue& value, const Layout* layout, const std::f
 /// `rig:` the cameras and how they sit on the robot.
 vision::StereoRig read_rig(const YamlValue& value);
 
+/// Refuses a lens through which more is seen than can be drawn.
+/// @param value of `rig:`, which the rig was read from
+void check_lens(const YamlValue& value, const vision::StereoRig& rig);
+
 /// `believed_rig:` what vision takes the rig for, where it is wrong.
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/run/run_result.h"
 #include "renderer/backend.h"
 #include "worlds/scenario.h"
 
@@ -100,7 +101,7 @@ void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshSh
 }
 
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend) {
-  return scenario.sensor == worlds::SensorKind::kStereo ? renderer::name_of(backend) : "none";
+  return scenario.sensor == worlds::SensorKind::kStereo ? renderer::name_of(backend) : kNoBackend;
 }
 
 }  // namespace stereobench::harness

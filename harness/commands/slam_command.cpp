@@ -129,7 +129,7 @@ int run_slam(SlamArguments arguments) {
   }
   prepare_output_folder(out);
   const auto drives = replay_seeds(recorded.log, arguments);
-  RunResult result = assemble(name, "none", drives, Seeds::kFilters);
+  RunResult result = assemble(name, kNoBackend, drives, Seeds::kFilters);
   if (vision) result.detector = "file";
   result.vision = std::move(vision);
   result.recorded = recorded.facts;

@@ -27,6 +27,9 @@ constexpr const char* kUnfinished = "dataset.unfinished.json";
 /// The finished data set's key that lists the frames it has pictures of.
 constexpr const char* kFrames = "frames";
 
+/// And the one that says how coarse their motion blur is.
+constexpr const char* kBlur = "blur";
+
 /// The markers that there are.
 std::vector<std::filesystem::path> markers_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> markers;
@@ -83,7 +86,7 @@ void require_same_rendering(const std::filesystem::path& folder, const nlohmann:
   if (!std::filesystem::exists(folder / kFinishedDataset) && !holds_files(folder)) return;
   for (const std::filesystem::path& marker : markers_in(folder)) {
     nlohmann::json told = read_marker(marker);
-    for (const char* outcome : {kFiles, kFrames}) told.erase(outcome);
+    for (const char* outcome : {kFiles, kFrames, kBlur}) told.erase(outcome);
     const auto differing = differing_keys(told, parse_line(identity.dump()));
     if (!differing.empty())
       throw std::runtime_error(
@@ -137,7 +140,8 @@ void RenderedDataset::write(const Look& look) const {
 }
 
 void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig& rig,
-                             const vision::StereoRig& believed_rig, const MeasurementLog& log) const {
+                             const vision::StereoRig& believed_rig, const MeasurementLog& log,
+                             const CoarseBlur& blur) const {
   if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
   write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(believed_rig));
   write_file_atomically(folder_ / "true_calibration.yaml", calibration_yaml(rig));
@@ -147,6 +151,7 @@ void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig
   nlohmann::ordered_json marker = identity_;
   const std::vector<std::string> names = product_names(folder_);
   marker[kFrames] = frames_among(names);
+  marker[kBlur] = blur_json(blur);
   marker[kFiles] = file_list(folder_, names);
   write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
   std::filesystem::remove(folder_ / kUnfinished);

@@ -22,7 +22,7 @@ namespace stereobench::harness {
 ///     odometry.csv observations.csv landmarks.csv groundtruth.csv instants.csv   what `stereobench slam`
 ///     reads
 ///     dataset.json            written last: where it is, the folder is complete; what was rendered, which
-///                             frames there are, and size and SHA-256 of each file
+///                             frames there are, how coarse their blur is, and size and SHA-256 of each file
 ///
 /// Frames are named by their step; groundtruth.csv has one line for each.
 class RenderedDataset {
@@ -45,8 +45,9 @@ class RenderedDataset {
   void write(const Look& look) const;
 
   /// Writes calibration (as it is believed, and as it is), balls and the log, and last of all dataset.json.
+  /// @param blur of all its pictures
   void finish(const worlds::World& world, const vision::StereoRig& rig, const vision::StereoRig& believed_rig,
-              const MeasurementLog& log) const;
+              const MeasurementLog& log, const CoarseBlur& blur) const;
 
  private:
   void begin() const;

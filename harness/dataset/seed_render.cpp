@@ -44,7 +44,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   if (!draws.empty()) write_file_atomically(task.folder / "draws.jsonl", draws);
   write_file_atomically(task.folder / "frames.csv", frames_csv(scenario, task.seed, task.frames));
   rendered.blur = recording.blur;
-  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log);
+  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log, recording.blur);
   return rendered;
 }
 

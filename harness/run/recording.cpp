@@ -115,18 +115,6 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
 
 }  // namespace
 
-void CoarseBlur::add(double step_px) {
-  constexpr double kSmooth_px = 1.0;
-  if (step_px > kSmooth_px) ++pictures;
-  most_step_px = std::max(most_step_px, step_px);
-}
-
-CoarseBlur& CoarseBlur::operator+=(const CoarseBlur& other) {
-  pictures += other.pictures;
-  most_step_px = std::max(most_step_px, other.most_step_px);
-  return *this;
-}
-
 Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector) {
   Recording recording;

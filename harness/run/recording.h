@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/detector/detector.h"
+#include "harness/run/coarse_blur.h"
 #include "harness/scoring/vision_score.h"
 #include "harness/types.h"
 #include "renderer/types.h"
@@ -35,15 +36,6 @@ struct Listeners {
   std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
   std::function<void(const Look&)> on_look = [](const Look&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
-};
-
-/// Pictures whose motion blur is coarser than a pixel: shutter.most_samples is too few for them.
-struct CoarseBlur {
-  long pictures = 0;        ///< pairs
-  double most_step_px = 0;  ///< of all pairs that are blurred, see ExposedFrame
-
-  void add(double step_px);
-  CoarseBlur& operator+=(const CoarseBlur& other);
 };
 
 /// What one seed's drive gave.

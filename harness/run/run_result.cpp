@@ -116,6 +116,12 @@ Json comparisons_json(const std::vector<Comparison>& comparisons) {
   return list;
 }
 
+Json renderer_json(const RunResult& result) {
+  Json nothing = blur_json({});
+  for (Json& value : nothing) value = nullptr;
+  return {{"backend", result.backend}, {"blur", result.blur ? blur_json(*result.blur) : nothing}};
+}
+
 Json vision_json(const std::optional<VisionScore>& vision) {
   if (!vision)
     return {{"recall", nullptr},
@@ -163,6 +169,7 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
   if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
   RunResult result{.name = name, .backend = backend, .batch = {.filter = "batch"}};
   result.detector = drives.front().recording.detector;
+  if (backend != kNoBackend) result.blur.emplace();
   for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
   for (const SeedDrive& drive : drives) {
     if (drive.runs.size() != result.filters.size())
@@ -170,6 +177,7 @@ RunResult assemble(const std::string& name, const std::string& backend, std::spa
     result.seeds.push_back(drive.seed);
     if (drive.recording.vision && !result.vision) result.vision.emplace();
     if (drive.recording.vision) *result.vision += *drive.recording.vision;
+    if (result.blur) *result.blur += drive.recording.blur;
     result.start_is_true = result.start_is_true && drive.recording.log.start_is_true;
     result.identities_known = result.identities_known && knows_identities(drive.recording.log);
     for (std::size_t i = 0; i < drive.runs.size(); ++i) {
@@ -193,7 +201,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   Json filters = Json::object();
   for (const FilterResult& filter : result.filters) filters[filter.filter] = filter_json(result, filter);
   Json json = {{"schema", kSchema},           {"scenario", result.name},
-               {"seeds", result.seeds},       {"renderer", {{"backend", result.backend}}},
+               {"seeds", result.seeds},       {"renderer", renderer_json(result)},
                {"detector", result.detector}, {"vision", vision_json(result.vision)}};
   if (result.made_from) json["made_from"] = provenance_json(*result.made_from);
   if (result.recorded) json["log"] = log_json(*result.recorded, result.assumed, result.start_is_true);

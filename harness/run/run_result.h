@@ -18,6 +18,9 @@
 
 namespace stereobench::harness {
 
+/// What renders where nothing does.
+inline constexpr const char* kNoBackend = "none";
+
 /// The filter that the others are compared with.
 inline constexpr const char* kBaseline = "dead_reckoning";
 
@@ -41,9 +44,10 @@ struct Comparison {
 struct RunResult {
   std::string name;  ///< of the scenario or the log
   std::vector<std::uint64_t> seeds;
-  std::string backend;                ///< what rendered, e.g. "osmesa", or "none"
+  std::string backend;                ///< what rendered, e.g. "osmesa", or kNoBackend
   std::string detector = "none";      ///< who looked at the pictures; see Recording
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
+  std::optional<CoarseBlur> blur;     ///< of all pictures; empty where none were rendered
   std::vector<FilterResult> filters;
   bool identities_known = true;         ///< by every sighting
   std::vector<Comparison> comparisons;  ///< each filter with those before it, dead reckoning aside

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,10 +15,12 @@
 
 #include "renderer/png_picture.h"
 #include "tests/renderer/odd_png.h"
+#include "tests/renderer/picture_complaint.h"
 
 namespace stereobench::renderer {
 namespace {
 
+using test::complaint;
 using testing::StartsWith;
 
 using File = std::vector<std::uint8_t>;
@@ -42,15 +43,6 @@ cv::Mat by_opencv(const File& file) {
   if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1.0 / 257.0);
   if (picture.channels() == 4) cv::cvtColor(picture, picture, cv::COLOR_BGRA2BGR);
   return picture;
-}
-
-std::string complaint(const File& file, int longest_px = std::numeric_limits<int>::max()) {
-  try {
-    decode_picture(file, longest_px);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 File bytes_of(const std::string& text) {

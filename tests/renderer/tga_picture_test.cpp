@@ -1,5 +1,4 @@
 /// TGA files of every kind, written here.
-#include <limits>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -7,9 +6,12 @@
 
 #include "renderer/picture_reader.h"
 #include "slam/random.h"
+#include "tests/renderer/picture_complaint.h"
 
 namespace stereobench::renderer {
 namespace {
+
+using test::complaint;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -126,15 +128,6 @@ std::vector<Made> every_kind() {
     kinds.push_back({.kind = Kind::kGrey, .bits = 8, .packed = packed});
   }
   return kinds;
-}
-
-std::string complaint(const Bytes& file, int longest_px = std::numeric_limits<int>::max()) {
-  try {
-    decode_picture(file, longest_px);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 // Mutations tried: the unused palette taken for pixels; packets that end with their row; rows from the top.

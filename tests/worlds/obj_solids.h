@@ -26,7 +26,7 @@ inline std::shared_ptr<const TriangleTree> read_obj(const std::string& file) {
     for (std::size_t i = 2; i < face.size(); ++i) triangles.push_back({face[0], face[i - 1], face[i]});
   }
   if (triangles.empty()) throw std::runtime_error(file + ": no faces");
-  return std::make_shared<const TriangleTree>(std::move(triangles));
+  return std::make_shared<const TriangleTree>(triangles);
 }
 
 inline std::shared_ptr<const TriangleTree> obj_solid(const World&, const MeshInstance& mesh) {

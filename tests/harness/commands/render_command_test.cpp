@@ -99,6 +99,21 @@ TEST(RenderCommand, SaysWhichFramesThereAre) {
   EXPECT_LT(there.size(), 7U);
 }
 
+// What is said while it runs is gone later. Mutations: the warning alone; blur among what tells renderings
+// apart, so that none is ever complete.
+TEST(RenderCommand, KeepsHowCoarseItsBlurIs) {
+  const ScratchFolder scratch;
+  const std::vector<std::string> coarse = {"--frames",           "1..2",  "--set",
+                                           "shutter.open_s=0.5", "--set", "shutter.most_samples=8"};
+  const Outcome outcome = render_to(scratch.path(), coarse);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: the blur of 2 pairs is drawn in steps of more than a pixel"));
+  const nlohmann::json blur = marker_of(scratch.path())["blur"];
+  EXPECT_EQ(blur["coarse_pairs"], 2);
+  EXPECT_THAT(outcome.err, HasSubstr(fmt::format("up to {:.1f} px", blur["most_step_px"].get<double>())));
+  EXPECT_THAT(render_to(scratch.path(), coarse).out, HasSubstr("is complete and is left as it is"));
+}
+
 // Mutation: `render` whose own detector looks all the same.
 TEST(RenderCommand, WritesWhatAnotherDetectorSees) {
   const ScratchFolder scratch;

@@ -93,7 +93,7 @@ TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   EXPECT_EQ(folder.read("left/000000.png"), left);
   EXPECT_NE(folder.read("right_depth/000000.pfm"), depth);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
-  again.finish({}, kRig, kRig, kOneStep);
+  again.finish({}, kRig, kRig, kOneStep, {});
   EXPECT_EQ(nlohmann::json::parse(folder.read("dataset.json"))["seed"], 1);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
 }
@@ -104,7 +104,7 @@ TEST(RenderedDataset, FindsWhatIsNotAsItWasWritten) {
   const TestFolder folder;
   const auto finish = [&](const RenderedDataset& dataset) {
     for (const std::size_t step : {0U, 1U}) write_look(dataset, step, 10 + static_cast<int>(step));
-    dataset.finish({}, kRig, kRig, kOneStep);
+    dataset.finish({}, kRig, kRig, kOneStep, {});
   };
   finish(RenderedDataset(folder.path(), kOne));
   const std::string marker = folder.read("dataset.json");
@@ -135,7 +135,7 @@ TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
   write_look(dataset, 0, 10);
   folder.write("notes.csv", "mine");
   folder.write("left/notes.txt", "mine");
-  dataset.finish({}, kRig, kRig, kOneStep);
+  dataset.finish({}, kRig, kRig, kOneStep, {});
   EXPECT_THAT(folder.read("dataset.json"), testing::Not(HasSubstr("notes")));
   auto marker = nlohmann::json::parse(folder.read("dataset.json"));
   marker["files"]["../victim"] = {{"bytes", 1}, {"sha256", ""}};
@@ -151,7 +151,7 @@ TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   write_look(dataset, 0, 10);
   const auto take_up = [&] { RenderedDataset(folder.path(), {{"seed", 2}}); };
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("a data set of another seed; choose")));
-  dataset.finish({}, kRig, kRig, kOneStep);
+  dataset.finish({}, kRig, kRig, kOneStep, {});
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
 }
 

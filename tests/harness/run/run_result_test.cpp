@@ -52,9 +52,22 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   EXPECT_EQ(keys_of(json),
             (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector", "vision", "bound",
                                    "smoothing_bound", "batch", "filters", "comparisons"}));
-  EXPECT_EQ(keys_of(json["renderer"]), std::set<std::string>{"backend"});
+  EXPECT_EQ(keys_of(json["renderer"]), (std::set<std::string>{"backend", "blur"}));
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
+}
+
+// Mutations: the first seed alone; steps summed; blur of pictures that nobody rendered.
+TEST(RunResult, JsonSaysHowCoarseTheBlurOfAllSeedsIs) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  drives[0].recording.blur = {.pictures = 2, .most_step_px = 1.5};
+  drives[1].recording.blur = {.pictures = 3, .most_step_px = 2.5};
+  const auto blur = run_json(assemble("name", "osmesa", drives))["renderer"]["blur"];
+  EXPECT_EQ(blur["coarse_pairs"], 5);
+  EXPECT_EQ(blur["most_step_px"], 2.5);
+  const auto without = run_json(assemble("name", kNoBackend, drives))["renderer"]["blur"];
+  EXPECT_EQ(keys_of(without), keys_of(blur));
+  for (const auto& value : without) EXPECT_TRUE(value.is_null());
 }
 
 // Mutation: the ratio upside down.

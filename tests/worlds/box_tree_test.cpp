@@ -1,22 +1,16 @@
 /// What a line meets first, against asking everything.
-#include "renderer/box_tree.h"
+#include "worlds/box_tree.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "slam/random.h"
-#include "tests/renderer/random_scene.h"
+#include "tests/worlds/triangles.h"
 
-namespace stereobench::renderer {
+namespace stereobench::worlds {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-Eigen::Vector3d random_point(slam::RandomStream& random, double reach) {
-  return {test::between(random, -reach, reach), test::between(random, -reach, reach),
-          test::between(random, -reach, reach)};
-}
 
 /// A disc that faces along an axis.
 struct Disc {
@@ -46,12 +40,12 @@ TEST(BoxTree, MeetsFirstWhatALineEntersFirst) {
     std::vector<Eigen::AlignedBox3d> boxes;
     for (std::uint64_t i = 0; i < seed * 5; ++i) {
       discs.push_back(
-          {random_point(random, 5.0), static_cast<Eigen::Index>(i % 3), test::between(random, 0.01, 1.5)});
+          {random_in_box(random, 5.0), static_cast<Eigen::Index>(i % 3), 0.01 + 1.49 * random.uniform()});
       boxes.push_back(discs.back().box());
     }
     const BoxTree tree(boxes);
     for (int i = 0; i < 200; ++i) {
-      Sightline line{random_point(random, 6.0), random_point(random, 1.0)};
+      Sightline line{random_in_box(random, 6.0), random_in_box(random, 1.0)};
       if (i % 5 == 0) line.direction[i % 3] = 0.0;
       if (i % 7 == 0 && !discs.empty()) line.direction = discs[0].centre - line.origin_m;
       const double from = i % 2 == 0 ? 0.0 : 0.7, before = i % 3 == 0 ? 4.0 : kNever;
@@ -71,4 +65,4 @@ TEST(BoxTree, MeetsFirstWhatALineEntersFirst) {
 }
 
 }  // namespace
-}  // namespace stereobench::renderer
+}  // namespace stereobench::worlds
