@@ -114,8 +114,9 @@ class Looker {
     if (!rig_) return;
     const double half_a_picture = 0.5 * rig_->camera.height_px;
     if (setup_.rows_within_px > half_a_picture)
-      throw std::runtime_error(fmt::format("--rows-within-px: expected at most half a picture, {:g} (got {:g})",
-                                           half_a_picture, setup_.rows_within_px));
+      throw std::runtime_error(
+          fmt::format("--rows-within-px: expected at most half a picture, {:g} (got {:g})", half_a_picture,
+                      setup_.rows_within_px));
     setup_.rig = *rig_;
     detector_ = our_detector(setup_);
   }
@@ -257,8 +258,9 @@ void add_detect_command(CLI::App& program, Action& action) {
                    "how exactly they are (default: as the folder's data set says, or a tenth of the radius)")
       ->check(CLI::Range(0.0, 1e6));
   command
-      ->add_option("--rows-within-px", arguments->rows_within_px,
-                   "that the rig may be off by: balls are matched within so many rows, at most half a picture")
+      ->add_option(
+          "--rows-within-px", arguments->rows_within_px,
+          "that the rig may be off by: balls are matched within so many rows, at most half a picture")
       ->check(CLI::Range(0.1, 1e4))
       ->capture_default_str();
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
