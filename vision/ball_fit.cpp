@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "vision/outline_model.h"
+#include "vision/rig.h"
 #include "vision/sphere.h"
 
 namespace stereobench::vision {
@@ -17,6 +18,16 @@ constexpr int kSteps = 4;           // from where the centres triangulate to
 constexpr int kFurtherSteps = 2;    // from the loose fit
 constexpr double kBelieved = 25.0;  // squared contradiction of size and disparity, in variances
 
+// What a fault of the right eye adds to its outline's covariance. A turn about y that moves an outline also
+// stretches it, by the cube of the root of its ray's length: else a stretch of a tenth of a pixel would pass
+// for a disparity that is off by dozens.
+Eigen::Matrix3d noise_by_fault_px2(const Intrinsics& camera, const MeasuredOutline& outline,
+                                   double disparity_variance_px2) {
+  const Eigen::Vector3d ray = pixel_ray(camera, outline.centre_px);
+  const double stretch = 1.5 * outline.radius_px * ray.x() / (camera.focal_px * ray.squaredNorm());
+  return disparity_variance_px2 * Eigen::Vector3d(1.0, 0.0, stretch * stretch).asDiagonal().toDenseMatrix();
+}
+
 // Two outlines of one ball, as the eyes measured them.
 class Sight {
  public:
@@ -27,8 +38,7 @@ class Sight {
         left_(as_vector(left)),
         right_(as_vector(right)),
         left_noise_(left.covariance_px2),
-        right_noise_(right.covariance_px2 +
-                     Eigen::Matrix3d(Eigen::Vector3d(disparity_variance_px2, 0.0, 0.0).asDiagonal())) {}
+        right_noise_(right.covariance_px2 + noise_by_fault_px2(rig.camera, right, disparity_variance_px2)) {}
 
   // One step towards the ball that explains both.
   // @param size of a ball before it is looked at

@@ -46,6 +46,8 @@ void check_settings(const ObserverSettings& settings) {
   const double tolerance_m = settings.ball_radius_sd_m;
   if (!std::isfinite(tolerance_m) || tolerance_m < 0.0 || tolerance_m > settings.ball_radius_m)
     throw std::invalid_argument("observer settings: expected a tolerance of at most the ball radius");
+  if (!positive(settings.rows_within_px))
+    throw std::invalid_argument("observer settings: expected positive rows that the rig may be off by");
   if (!std::isfinite(settings.noise_sd_levels) || settings.noise_sd_levels < 0.0)
     throw std::invalid_argument("observer settings: expected an image noise of at least 0 levels");
 }

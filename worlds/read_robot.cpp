@@ -23,6 +23,8 @@ constexpr Interval kPitch_deg = {-80.0, 80.0};
 constexpr Interval kTurn_deg = {-45.0, 45.0};
 constexpr Interval kLens = {-100.0, 100.0};
 constexpr Interval kAspect = {0.5, 2.0};
+constexpr double kLeastRows_px = 0.1;
+constexpr Interval kRows_px = {kLeastRows_px, 2048.0};
 
 /// Refuses a camera without a lens that looks further aside than any may, by what is written of its shape.
 void check_field(const YamlMap& map, const vision::StereoRig& rig) {
@@ -150,6 +152,9 @@ const KeyGroup& believed_rig_keys() {
               .otherwise_as("rig.distortion"),
           number("pixel_aspect", kAspect, "A pixel's width over its height: fy / fx; focal_px is fx.")
               .otherwise_as("rig.pixel_aspect"),
+          number("rows_within_px", kRows_px,
+                 "Rows that the rig may be off by: balls are matched within so many; at most half a picture.")
+              .otherwise("10"),
       }};
   return keys;
 }
@@ -162,6 +167,12 @@ vision::StereoRig read_believed_rig(const YamlValue& value, const vision::Stereo
   rig.height_m = map.number("height_m", rig.height_m);
   read_rig_parts(map, rig);
   return rig;
+}
+
+double read_rows_within_px(const YamlValue& value, const vision::Intrinsics& camera, double otherwise_px) {
+  const YamlMap map(value, believed_rig_keys());
+  const auto rows = map.find("rows_within_px");
+  return rows ? rows->number({kLeastRows_px, 0.5 * camera.height_px}) : otherwise_px;
 }
 
 const KeyGroup& odometry_noise_keys() {

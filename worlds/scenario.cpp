@@ -68,6 +68,8 @@ void read_eyes(const YamlMap& map, Scenario& scenario) {
   }
   const auto believed = map.find("believed_rig");
   scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
+  if (believed)
+    scenario.rows_within_px = read_rows_within_px(*believed, scenario.rig.camera, scenario.rows_within_px);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
   if (const auto detector = map.find("detector")) {

@@ -173,6 +173,7 @@ struct Scenario {
   Randomisation randomise;          ///< what else each seed draws anew
   vision::StereoRig rig;            ///< as it is
   vision::StereoRig believed_rig;   ///< as vision takes it to be
+  double rows_within_px = 10.0;     ///< that this may be off by: vision matches balls within so many rows
   GroundTruth path;
   slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
   slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told

@@ -36,6 +36,7 @@ struct DetectArguments {
   fs::path palette;  ///< of learned colours; empty: our own
   std::optional<double> ball_radius_m;
   std::optional<double> ball_radius_sd_m;
+  double rows_within_px = vision::ObserverSettings{}.rows_within_px;
   double noise_sd_levels = 2.0;
   std::string encoding = "auto";
   fs::path out;   ///< empty: stdout
@@ -104,12 +105,18 @@ class Looker {
       setup_.eyes = calibration.eyes;
     }
     read_ball_size(given);
+    setup_.rows_within_px = arguments.rows_within_px;
     setup_.noise_sd_levels = arguments.noise_sd_levels;
     if (arguments.palette.empty())
       setup_.encoding = encoding_of(arguments.encoding, std::array{first_picture});
     else
       learn(read_palette(arguments.palette));
     if (!rig_) return;
+    const double half_a_picture = 0.5 * rig_->camera.height_px;
+    if (setup_.rows_within_px > half_a_picture)
+      throw std::runtime_error(
+          fmt::format("--rows-within-px: expected at most half a picture, {:g} (got {:g})", half_a_picture,
+                      setup_.rows_within_px));
     setup_.rig = *rig_;
     detector_ = our_detector(setup_);
   }
@@ -250,6 +257,12 @@ void add_detect_command(CLI::App& program, Action& action) {
       ->add_option("--ball-radius-sd-m", arguments->ball_radius_sd_m,
                    "how exactly they are (default: as the folder's data set says, or a tenth of the radius)")
       ->check(CLI::Range(0.0, 1e6));
+  command
+      ->add_option(
+          "--rows-within-px", arguments->rows_within_px,
+          "that the rig may be off by: balls are matched within so many rows, at most half a picture")
+      ->check(CLI::Range(0.1, 1e4))
+      ->capture_default_str();
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();

@@ -20,6 +20,7 @@ DetectorSetup detector_setup(const worlds::Scenario& scenario) {
   return {.rig = scenario.believed_rig,
           .ball_radius_m = scenario.world.ball_radius_m(),
           .ball_radius_sd_m = scenario.world.ball_radius_sd_m,
+          .rows_within_px = scenario.rows_within_px,
           .noise_sd_levels = renderer::noise_sd_levels(scenario.camera, kTypicalLevel),
           .encoding = scenario.camera.encoding,
           .gamma = scenario.camera.gamma};
@@ -29,6 +30,7 @@ Detector our_detector(const DetectorSetup& setup) {
   vision::ObserverSettings settings;
   settings.ball_radius_m = setup.ball_radius_m;
   settings.ball_radius_sd_m = setup.ball_radius_sd_m;
+  settings.rows_within_px = setup.rows_within_px;
   settings.noise_sd_levels = setup.noise_sd_levels;
   const worlds::CameraSensor camera{.encoding = setup.encoding, .gamma = setup.gamma};
   const vision::EyePair eyes = setup.eyes ? *setup.eyes : vision::eyes_of(setup.rig);

@@ -36,6 +36,7 @@ struct DetectorSetup {
   std::optional<vision::EyePair> eyes;  ///< of a rig of two different cameras; ours alone knows of them
   double ball_radius_m = 0.05;          ///< that balls are made to
   double ball_radius_sd_m = 0.0;        ///< how exactly they are; 0: exactly
+  double rows_within_px = 10.0;         ///< that the rig may be off by
   double noise_sd_levels = 0.0;         ///< of a grey pixel, in levels of 255
   worlds::Encoding encoding = worlds::Encoding::kLinear;
   double gamma = 2.2;                          ///< of Encoding::kGamma

@@ -81,6 +81,7 @@ std::string setup_line(const DetectorSetup& setup) {
                {"rig", rig_json(setup.rig)},
                {"ball_radius_m", setup.ball_radius_m},
                {"ball_radius_sd_m", setup.ball_radius_sd_m},
+               {"rows_within_px", setup.rows_within_px},
                {"palette_rgb", std::move(palette)},
                {"noise_sd_levels", setup.noise_sd_levels},
                {"encoding", kEncodings[static_cast<std::size_t>(setup.encoding)]}};
@@ -91,13 +92,14 @@ std::string setup_line(const DetectorSetup& setup) {
 DetectorSetup read_setup(const std::string& line) {
   const nlohmann::json json = parse_line(line);
   const JsonValue value(json, "");
-  value.allow({"protocol", "version", "rig", "ball_radius_m", "ball_radius_sd_m", "palette_rgb",
-               "noise_sd_levels", "encoding", "gamma"});
+  value.allow({"protocol", "version", "rig", "ball_radius_m", "ball_radius_sd_m", "rows_within_px",
+               "palette_rgb", "noise_sd_levels", "encoding", "gamma"});
   if (value.at("protocol").text() != kProtocol) value.at("protocol").refuse(kProtocol);
   value.at("version").integer(kVersion, kVersion);
   DetectorSetup setup{.rig = read_rig(value.at("rig")),
                       .ball_radius_m = value.at("ball_radius_m").number(kLeast, kMost),
                       .ball_radius_sd_m = value.at("ball_radius_sd_m").number(0.0, kMost),
+                      .rows_within_px = value.at("rows_within_px").number(kLeast, kMost),
                       .noise_sd_levels = value.at("noise_sd_levels").number(0.0, kMost),
                       .encoding = read_encoding(value.at("encoding"))};
   if (setup.encoding == worlds::Encoding::kGamma) setup.gamma = value.at("gamma").number(kLeast, kMost);

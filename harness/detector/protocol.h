@@ -2,8 +2,8 @@
 /// frame.
 ///
 ///     {"protocol": "stereobench-detector", "version": 1, "rig": {"width_px": 1024, ...},
-///      "ball_radius_m": 0.06, "ball_radius_sd_m": 0.001, "palette_rgb": [[229, 0, 0], ...],
-///      "noise_sd_levels": 2.0, "encoding": "linear"}
+///      "ball_radius_m": 0.06, "ball_radius_sd_m": 0.001, "rows_within_px": 10.0,
+///      "palette_rgb": [[229, 0, 0], ...], "noise_sd_levels": 2.0, "encoding": "linear"}
 ///     {"frame": 0, "stamp_ns": 0, "left": "/tmp/.../000000_left.png", "right": "/tmp/.../000000_right.png"}
 ///
 /// It answers each frame, and nothing else, with a line as in detection_lines.h.

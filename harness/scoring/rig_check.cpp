@@ -57,8 +57,7 @@ std::string size_warning(const RigCheck& check, const vision::RigBelief& belief)
       "disparities of {:.0f} px are {:.1f} % larger than the sizes of balls say: the baseline is {:.4f} m in "
       "place "
       "of {:.4f}, and the right camera is turned by {:.3f} deg about y beyond what is believed, or balls are "
-      "of "
-      "another size; calibrate the rig",
+      "of another size, or lenses bend otherwise than believed; calibrate the rig",
       kUsualDisparity_px, 100.0 * share_of(check.camera, belief), check.baseline_m * (1.0 + belief.fault[3]),
       check.baseline_m, kDegrees * belief.fault[1]);
 }

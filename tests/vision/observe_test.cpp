@@ -265,6 +265,8 @@ TEST(Observe, RefusesRigsAndSettingsThatAreNoNumbers) {
   const cv::Mat image(rig.camera.height_px, rig.camera.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
   EXPECT_THROW(observe({image, image}, rig, {-0.05}), std::invalid_argument);
   EXPECT_THROW(observe({image, image}, rig, {0.05, std::nan("")}), std::invalid_argument);
+  for (const double rows_px : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(observe({image, image}, rig, {.rows_within_px = rows_px}), std::invalid_argument);
   rig.baseline_m = 0.0;
   EXPECT_THROW(observe({image, image}, rig, {}), std::invalid_argument);
 }

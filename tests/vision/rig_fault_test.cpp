@@ -106,6 +106,24 @@ INSTANTIATE_TEST_SUITE_P(Faults, OfThisRig,
                                          Fault{{0.0, 0.0, 0.5}}, Fault{{0.0, 0.0, 0.0}, 0.03},
                                          Fault{{0.0, 0.0, 0.0}, -0.03}, Fault{{0.5, -0.5, 0.5}, -0.03}));
 
+// Rows are looked for as far as is told, and no farther: a turn of 0.5 degrees about x moves them by
+// 0.0087 f. Mutation: the search within ten rows, whatever is told.
+TEST(RowsWithin, LimitsWhatAnOutlineIsMatchedWith) {
+  const Sequence& seen = sequence();
+  StereoRig believed = seen.rig;
+  believed.right_turn_rad.x() = 0.5 * kDegree;
+  const double off_px = believed.right_turn_rad.x() * believed.camera.focal_px;
+  const Rectification rectification(believed);
+  for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
+    const auto balls = [&](double rows_px) {
+      const ObserverSettings settings{.noise_sd_levels = 2.0, .rows_within_px = rows_px};
+      return observe(seen.pairs[i], rectification, settings).size();
+    };
+    EXPECT_EQ(balls(1.3 * off_px), seen.scenes[i].balls.size()) << i;
+    EXPECT_EQ(balls(0.7 * off_px), 0U) << i;
+  }
+}
+
 // Law: a rig that is as believed is left as it is, to the bit: nothing was learnt that would matter.
 TEST(RigWithoutFault, IsBelievedIn) {
   const Outcome outcome = drive_with({Eigen::Vector3d::Zero()});

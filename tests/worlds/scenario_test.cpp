@@ -206,6 +206,11 @@ TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
   EXPECT_EQ(scenario.rig.camera.focal_px, read_small().believed_rig.camera.focal_px);
 }
 
+TEST(Scenario, SaysByHowManyRowsTheRigMayBeOff) {
+  EXPECT_EQ(read_small({"believed_rig={rows_within_px: 6}"}).rows_within_px, 6.0);
+  EXPECT_EQ(read_small({"believed_rig={focal_px: 505}"}).rows_within_px, read_small().rows_within_px);
+}
+
 TEST(Scenario, DrivesSmoothPaths) {
   EXPECT_NEAR(
       length_m(read_small({"path={kind: figure_eight, radius_m: 1, speed_mps: 1, step_s: 0.1}"}).path),

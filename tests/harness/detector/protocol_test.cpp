@@ -19,6 +19,7 @@ DetectorSetup odd_setup() {
       .k1 = -0.1 / 3.0, .k2 = 0.01, .p1 = 1e-3, .p2 = -2e-3, .k3 = 1e-5, .pixel_aspect = 1.1};
   setup.ball_radius_m = 0.07 / 3.0;
   setup.ball_radius_sd_m = 0.001 / 7.0;
+  setup.rows_within_px = 20.0 / 3.0;
   setup.noise_sd_levels = 2.0 / 7.0;
   setup.encoding = worlds::Encoding::kGamma;
   setup.gamma = 1.9;
@@ -36,6 +37,7 @@ TEST(Protocol, SetupIsReadBackExactly) {
   EXPECT_EQ(read.rig.distortion, setup.rig.distortion);
   EXPECT_EQ(read.ball_radius_m, setup.ball_radius_m);
   EXPECT_EQ(read.ball_radius_sd_m, setup.ball_radius_sd_m);
+  EXPECT_EQ(read.rows_within_px, setup.rows_within_px);
   EXPECT_EQ(read.noise_sd_levels, setup.noise_sd_levels);
   EXPECT_EQ(read.encoding, setup.encoding);
   EXPECT_EQ(read.gamma, setup.gamma);
