@@ -165,7 +165,9 @@ struct LongWall {
 class LongWalls : public testing::TestWithParam<LongWall> {};
 
 // Walls along a street, across the view and far away, and the horizon behind them: seen are 0.09 to 0.18
-// levels where 3.6 to 8.3 are without smoothing. Edges whose ends were in single precision passed as well:
+// levels where 3.6 to 8.3 are without smoothing. Mutation: depths compared by a relative tolerance alone,
+// which the far end of a street cannot keep (0.82 levels of 5.8, and 102 pixels far off, beside the wall of
+// 300 m; the others pass). Edges whose ends are in single precision pass all of them:
 // SurfaceEdges.OfAWallEndWhereItDoes tells those.
 TEST_P(LongWalls, HaveSmoothEdgesAsShortOnesHave) {
   vision::StereoRig rig = test::small_rig();
@@ -187,7 +189,8 @@ INSTANTIATE_TEST_SUITE_P(
                     LongWall{{-2000.0, 1.3}, {2000.0, 0.7}}, LongWall{{-9000.0, 0.8}, {9000.0, 0.7}},
                     LongWall{{1.2, -700.0}, {1.7, 900.0}}, LongWall{{3.0, -5000.0}, {13.0, 6000.0}},
                     LongWall{{700.0, -6000.0}, {900.0, 6000.0}, 90.0},
-                    LongWall{{-6000.0, 2.0}, {6000.0, 1.0}, 40.0}));
+                    LongWall{{-6000.0, 2.0}, {6000.0, 1.0}, 40.0},
+                    LongWall{{-6000.0, 0.4}, {9000.0, 0.3}, 300.0}));
 
 class AlmostThroughCentres : public testing::TestWithParam<double> {};
 

@@ -85,7 +85,7 @@ TEST(RoundPatch, IsOneAcrossASeam) {
   EXPECT_LT(found[0].hidden_fraction, 0.06);
 }
 
-// Boxes and ovals are not balls. Mutation: roundness not asked for.
+// Boxes and leaves are not balls: a circle follows little of their edges.
 TEST(RoundPatch, IsNoBoxAndNoLeaf) {
   const ColourTable table = blue_table();
   cv::Mat picture(120, 160, CV_8UC3, kGround);
@@ -94,6 +94,19 @@ TEST(RoundPatch, IsNoBoxAndNoLeaf) {
   cv::GaussianBlur(picture, picture, {}, 0.7);
   for (const MeasuredOutline& outline : find_round_patches(picture, table, 5.0))
     EXPECT_GT(outline.hidden_fraction, 0.06) << outline.centre_px.transpose() << ", " << outline.radius_px;
+}
+
+// All of an oval's edge is seen, and what betrays it is how far it is from a circle. Mutation: roughness not
+// asked for.
+TEST(RoundPatch, IsNoFatOval) {
+  const ColourTable table = blue_table();
+  for (const int shorter : {24, 26, 28, 30}) {
+    cv::Mat picture(120, 160, CV_8UC3, kGround);
+    cv::ellipse(picture, {80, 60}, {34, shorter}, 20.0, 0.0, 360.0, kBlue, cv::FILLED, cv::LINE_AA);
+    cv::GaussianBlur(picture, picture, {}, 0.7);
+    for (const MeasuredOutline& outline : find_round_patches(picture, table, 5.0))
+      EXPECT_GT(outline.hidden_fraction, 0.06) << shorter << ": " << outline.radius_px;
+  }
 }
 
 }  // namespace

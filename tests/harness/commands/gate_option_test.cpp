@@ -16,14 +16,20 @@ std::string limit(const std::string& metric, const std::string& at_most) {
   return "gates=[{metric: " + metric + ", at_most: " + at_most + "}]";
 }
 
-// Mutations: a sweep that does not look at its scenario's gates, that looks at the first cell's alone, or
-// that passes where one is broken.
+// Mutations: a sweep that looks at the first cell's gates alone, that passes where one is broken, that
+// keeps quiet of it, or that asks whether there are such numbers only once all is run.
 TEST(SweepGates, AreThoseOfTheScenarioForEachCell) {
   const ScratchFolder scratch;
-  const auto sweep = [&](const std::string& at_most) {
-    return run_stereobench({"sweep", scenario_path("open_field"), "--seeds", "0", "--particles", "5",
-                            "--filters", "dead_reckoning", "--vary", "odometry_noise.v_constant_mps=0,5",
-                            "--out", scratch.path().string(), "--set", limit(kDeadReckoning, at_most)});
+  const auto sweep = [&](const std::string& at_most, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"sweep",       scenario_path("open_field"),
+                                      "--seeds",     "0",
+                                      "--particles", "5",
+                                      "--filters",   "dead_reckoning",
+                                      "--vary",      "odometry_noise.v_constant_mps=0,5",
+                                      "--out",       scratch.path().string(),
+                                      "--set",       limit(kDeadReckoning, at_most)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_stereobench(words);
   };
   const Outcome kept = sweep("1e6");
   EXPECT_EQ(kept.exit_code, 0) << kept.err;
@@ -33,10 +39,12 @@ TEST(SweepGates, AreThoseOfTheScenarioForEachCell) {
   EXPECT_THAT(broken.out,
               HasSubstr("gate broken: odometry_noise.v_constant_mps = 5: " + std::string(kDeadReckoning)));
   EXPECT_THAT(broken.out, testing::Not(HasSubstr("v_constant_mps = 0: filters")));
-  EXPECT_EQ(run_stereobench({"sweep", scenario_path("open_field"), "--vary", "particles=1", "--set",
-                             limit("vision.beauty", "1"), "--out", scratch.path().string()})
-                .exit_code,
-            2);
+  EXPECT_THAT(sweep("10", {"--quiet"}).err, HasSubstr("gate broken: ")) << "nobody would hear of it";
+  const Outcome unknown =
+      run_stereobench({"sweep", scenario_path("open_field"), "--vary", "particles=1", "--set",
+                       limit("vision.beauty", "1"), "--out", scratch.path().string()});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("gate 'vision.beauty': the result has no such number"));
 }
 
 // Mutation: the option read and forgotten.
