@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kSameSize = 0.1;  // relative, of the radii of one ball's outlines
 constexpr double kSameSize_px = 0.5;
-constexpr double kDisparity = 0.1;       // relative: a wrong baseline, and a size that is known to a tenth
-constexpr double kCommonTrend_px = 2.0;  // a turn about y moves rows by so much in the corners
+constexpr double kDisparity = 0.1;          // relative: a wrong baseline, and a size that is known to a tenth
+constexpr double kTurnAboutY_rad = 0.0113;  // 0.65 degrees: it moves columns by so much of the focal length
+constexpr double kCommonTrend_px = 2.0;     // a turn about y moves rows by so much in the corners
 constexpr std::size_t kMostCandidates = 60;  // 1770 pairs of them are tried
 
 // Two outlines that may be one ball.
@@ -37,7 +38,8 @@ ScratchVector<Candidate> candidates_of(std::span<const MeasuredOutline> left,
       if (std::abs(a.radius_px - b.radius_px) > kSameSize_px + kSameSize * std::max(a.radius_px, b.radius_px))
         continue;
       const double by_size_px = disparity_by_size_px(rig, a, b, settings.ball_radius_m);
-      if (std::abs(apart.x() - by_size_px) > settings.rows_within_px + kDisparity * by_size_px) continue;
+      const double columns_within_px = kTurnAboutY_rad * rig.camera.focal_px + kDisparity * by_size_px;
+      if (std::abs(apart.x() - by_size_px) > columns_within_px) continue;
       const Eigen::Vector2d ray = pixel_ray(rig.camera, b.centre_px).head<2>();
       candidates.push_back(
           {l, r, apart.y(), rig.camera.focal_px * Eigen::Vector2d(-(1.0 + ray.y() * ray.y()), ray.x())});

@@ -35,7 +35,7 @@ class BoxTree {
 
   /// What a line enters first.
   struct Met {
-    int thing = -1;  ///< its number, which is the index of its box; none
+    int thing = -1;  ///< its number: the index of its box, or what renumber() made of it; -1: none
     double at = 0.0;
   };
   /// @param from,before the stretch of the line that is looked at

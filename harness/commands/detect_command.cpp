@@ -36,7 +36,7 @@ struct DetectArguments {
   fs::path palette;  ///< of learned colours; empty: our own
   std::optional<double> ball_radius_m;
   std::optional<double> ball_radius_sd_m;
-  double rows_within_px = vision::ObserverSettings{}.rows_within_px;
+  std::optional<double> rows_within_px;
   double noise_sd_levels = 2.0;
   std::string encoding = "auto";
   fs::path out;   ///< empty: stdout
@@ -105,18 +105,14 @@ class Looker {
       setup_.eyes = calibration.eyes;
     }
     read_ball_size(given);
-    setup_.rows_within_px = arguments.rows_within_px;
+    if (const auto told = read_rows_within_px(given)) setup_.rows_within_px = *told;
     setup_.noise_sd_levels = arguments.noise_sd_levels;
     if (arguments.palette.empty())
       setup_.encoding = encoding_of(arguments.encoding, std::array{first_picture});
     else
       learn(read_palette(arguments.palette));
     if (!rig_) return;
-    const double half_a_picture = 0.5 * rig_->camera.height_px;
-    if (setup_.rows_within_px > half_a_picture)
-      throw std::runtime_error(
-          fmt::format("--rows-within-px: expected at most half a picture, {:g} (got {:g})", half_a_picture,
-                      setup_.rows_within_px));
+    take_rows_within();
     setup_.rig = *rig_;
     detector_ = our_detector(setup_);
   }
@@ -146,6 +142,16 @@ class Looker {
     if (setup_.ball_radius_sd_m > setup_.ball_radius_m)
       throw std::runtime_error(fmt::format("--ball-radius-sd-m: expected at most the radius, {:g} (got {:g})",
                                            setup_.ball_radius_m, setup_.ball_radius_sd_m));
+  }
+
+  void take_rows_within() {
+    if (!arguments_.rows_within_px) return;
+    const double half_a_picture_px = 0.5 * rig_->camera.height_px;
+    setup_.rows_within_px = *arguments_.rows_within_px;
+    if (setup_.rows_within_px > half_a_picture_px)
+      throw std::runtime_error(
+          fmt::format("--rows-within-px: expected at most half a picture, {:g} (got {:g})", half_a_picture_px,
+                      setup_.rows_within_px));
   }
 
   void learn(const PaletteFile& palette) {
@@ -260,9 +266,9 @@ void add_detect_command(CLI::App& program, Action& action) {
   command
       ->add_option(
           "--rows-within-px", arguments->rows_within_px,
-          "that the rig may be off by: balls are matched within so many rows, at most half a picture")
-      ->check(CLI::Range(0.1, 1e4))
-      ->capture_default_str();
+          "that the rig may be off by: balls are matched within so many rows, at most half a picture\n"
+          "(default: as the folder's data set says, or 10)")
+      ->check(CLI::Range(0.1, 1e4));
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();

@@ -16,6 +16,7 @@
 #include "harness/run/interruption.h"
 #include "harness/run/provenance.h"
 #include "renderer/backend.h"
+#include "vision/observe.h"
 #include "worlds/scenario.h"
 
 namespace stereobench::harness {
@@ -49,6 +50,8 @@ nlohmann::ordered_json identity_of(const RenderArguments& arguments, const world
       {"files_sha256", hashes_of_named_files(asked.scenario, asked.overrides)}};
   identity[kBallSize] = {{"radius_m", scenario.world.ball_radius_m()},
                          {"radius_sd_m", scenario.world.ball_radius_sd_m}};
+  if (scenario.rows_within_px != vision::ObserverSettings{}.rows_within_px)
+    identity[kRowsWithin] = scenario.rows_within_px;
   for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
   if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
   return identity;

@@ -82,14 +82,13 @@ void warn_of_crossings(std::span<const worlds::Crossing> crossings) {
 }
 
 void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur) {
-  if (blur.pictures == 0) return;
+  if (blur.pairs == 0) return;
   const int most = std::max(shutter.samples, shutter.most_samples);
   fmt::print(
       stderr,
       "stereobench: warning: the blur of {} pair{} is drawn in steps of more than a pixel, up to {:.1f} "
       "px: shutter.most_samples is {}, and {:.0f} would do\n",
-      blur.pictures, blur.pictures == 1 ? "" : "s", blur.most_step_px, most,
-      std::ceil(blur.most_step_px * most));
+      blur.pairs, blur.pairs == 1 ? "" : "s", blur.most_step_px, most, std::ceil(blur.most_step_px * most));
 }
 
 void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshShelf& meshes) {

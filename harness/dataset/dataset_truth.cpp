@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -59,17 +60,14 @@ std::vector<worlds::Ball> balls_in(const fs::path& file) {
   return balls;
 }
 
-/// What dataset.json says of the size that balls are made to.
-void read_ball_size(const fs::path& marker, worlds::World& world) {
-  constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
+/// What dataset.json says under a key, where there is one.
+void read_finished(const fs::path& folder, const char* key,
+                   const std::function<void(const JsonValue&)>& read) {
+  const fs::path marker = folder / kFinishedDataset;
   if (!fs::exists(marker)) return;
   try {
     const nlohmann::json json = parse_line(read_text(marker));
-    const auto size = json.find(kBallSize);
-    if (size == json.end()) return;
-    const JsonValue value(*size, kBallSize);
-    world.usual_radius_m = value.at("radius_m").number(kLeast_m, kMost_m);
-    world.ball_radius_sd_m = value.at("radius_sd_m").number(0.0, *world.usual_radius_m);
+    if (const auto found = json.find(key); found != json.end()) read(JsonValue(*found, key));
   } catch (const BadLine& bad) {
     throw std::runtime_error(fmt::format("{}: {}", marker.string(), bad.what()));
   }
@@ -80,8 +78,18 @@ void read_ball_size(const fs::path& marker, worlds::World& world) {
 worlds::World read_balls(const fs::path& folder) {
   worlds::World world;
   world.balls = balls_in(folder / "balls.csv");
-  read_ball_size(folder / kFinishedDataset, world);
+  read_finished(folder, kBallSize, [&](const JsonValue& value) {
+    constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
+    world.usual_radius_m = value.at("radius_m").number(kLeast_m, kMost_m);
+    world.ball_radius_sd_m = value.at("radius_sd_m").number(0.0, *world.usual_radius_m);
+  });
   return world;
+}
+
+std::optional<double> read_rows_within_px(const fs::path& folder) {
+  std::optional<double> rows_px;
+  read_finished(folder, kRowsWithin, [&](const JsonValue& value) { rows_px = value.number(0.1, 1e4); });
+  return rows_px;
 }
 
 DatasetTruth read_dataset_truth(const fs::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "renderer/types.h"
@@ -32,5 +33,9 @@ renderer::StereoFrame read_ball_ids(const std::filesystem::path& folder, std::si
 /// to; where it says nothing, as those of older versions, all balls are exactly of one size.
 /// @throws std::runtime_error, one line, as above
 worlds::World read_balls(const std::filesystem::path& folder);
+
+/// By how many rows the rig may be off, as dataset.json says; empty where it says nothing.
+/// @throws std::runtime_error, one line, as above
+std::optional<double> read_rows_within_px(const std::filesystem::path& folder);
 
 }  // namespace stereobench::harness

@@ -14,6 +14,8 @@ inline constexpr const char* kFinishedDataset = "dataset.json";
 
 /// Its key that says what size balls are made to.
 inline constexpr const char* kBallSize = "balls";
+/// Where dataset.json says by how many rows vision was told that the rig may be off.
+inline constexpr const char* kRowsWithin = "rows_within_px";
 inline constexpr const char* kFiles = "files";
 
 /// The files of a data set that `render` writes, by their place in the folder, sorted. Others that lie there

@@ -60,8 +60,8 @@ worlds::Encoding encoding_of(const std::string& asked, std::span<const fs::path>
 }
 
 bool is_picture_name(const fs::path& file) {
-  constexpr std::array<std::string_view, 9> kExtensions = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
-                                                           ".tiff", ".ppm", ".pgm",  ".pnm"};
+  constexpr std::array<std::string_view, 10> kExtensions = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
+                                                            ".tiff", ".ppm", ".pgm",  ".pnm", ".tga"};
   std::string extension = file.extension().string();
   for (char& letter : extension)
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');

@@ -16,7 +16,7 @@
 
 namespace stereobench::harness {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pictures, most_step_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pairs, most_step_px)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt, blur)
 
 namespace {

@@ -99,9 +99,9 @@ DetectorSetup read_setup(const std::string& line) {
   DetectorSetup setup{.rig = read_rig(value.at("rig")),
                       .ball_radius_m = value.at("ball_radius_m").number(kLeast, kMost),
                       .ball_radius_sd_m = value.at("ball_radius_sd_m").number(0.0, kMost),
-                      .rows_within_px = value.at("rows_within_px").number(kLeast, kMost),
                       .noise_sd_levels = value.at("noise_sd_levels").number(0.0, kMost),
                       .encoding = read_encoding(value.at("encoding"))};
+  if (const auto rows = value.find("rows_within_px")) setup.rows_within_px = rows->number(kLeast, kMost);
   if (setup.encoding == worlds::Encoding::kGamma) setup.gamma = value.at("gamma").number(kLeast, kMost);
   return setup;
 }

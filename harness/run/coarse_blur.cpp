@@ -8,18 +8,18 @@ namespace stereobench::harness {
 
 void CoarseBlur::add(double step_px) {
   constexpr double kSmooth_px = 1.0;
-  if (step_px > kSmooth_px) ++pictures;
+  if (step_px > kSmooth_px) ++pairs;
   most_step_px = std::max(most_step_px, step_px);
 }
 
 CoarseBlur& CoarseBlur::operator+=(const CoarseBlur& other) {
-  pictures += other.pictures;
+  pairs += other.pairs;
   most_step_px = std::max(most_step_px, other.most_step_px);
   return *this;
 }
 
 nlohmann::ordered_json blur_json(const CoarseBlur& blur) {
-  return {{"coarse_pairs", blur.pictures}, {"most_step_px", blur.most_step_px}};
+  return {{"coarse_pairs", blur.pairs}, {"most_step_px", blur.most_step_px}};
 }
 
 }  // namespace stereobench::harness

@@ -5,9 +5,9 @@
 
 namespace stereobench::harness {
 
-/// Pictures whose motion blur is coarser than a pixel: shutter.most_samples is too few for them.
+/// Pairs whose motion blur is coarser than a pixel: shutter.most_samples is too few for them.
 struct CoarseBlur {
-  long pictures = 0;        ///< pairs
+  long pairs = 0;           ///< that are so
   double most_step_px = 0;  ///< of all pairs that are blurred, see ExposedFrame
 
   void add(double step_px);

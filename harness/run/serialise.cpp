@@ -63,7 +63,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
                                    radius_error_px, depth_m, whole)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pictures, most_step_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pairs, most_step_px)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, blur, timing)
 
 namespace {

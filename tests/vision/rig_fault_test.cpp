@@ -124,6 +124,17 @@ TEST(RowsWithin, LimitsWhatAnOutlineIsMatchedWith) {
   }
 }
 
+// Few rows say nothing of columns, which a turn about y moves by 0.0087 f. Mutation: columns within as many
+// pixels as rows.
+TEST(RowsWithin, LimitsNoColumns) {
+  const Sequence& seen = sequence();
+  StereoRig believed = seen.rig;
+  believed.right_turn_rad = {0.05 * kDegree, 0.5 * kDegree, 0.0};
+  const Rectification rectification(believed);
+  const ObserverSettings settings{.noise_sd_levels = 2.0, .rows_within_px = 2.0};
+  EXPECT_EQ(observe(seen.pairs[0], rectification, settings).size(), seen.scenes[0].balls.size());
+}
+
 // Law: a rig that is as believed is left as it is, to the bit: nothing was learnt that would matter.
 TEST(RigWithoutFault, IsBelievedIn) {
   const Outcome outcome = drive_with({Eigen::Vector3d::Zero()});

@@ -46,15 +46,23 @@ nlohmann::json run_json_of(const ScratchFolder& scratch) {
 TEST(DetectorProgram, OursThroughTheProtocolGivesTheSameBytes) {
   const ScratchFolder scratch;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> arguments = {
-        "run",         scenario_path("ball_circle"),
-        "--set",       "path.laps=0.12",
-        "--set",       "camera={noise_sd_levels: 3, encoding: gamma, gamma: 1.8}",
-        "--set",       "believed_rig={baseline_m: 0.121, pitch_down_deg: 0.3}",
-        "--set",       "gates=[]",
-        "--seeds",     "0..1",
-        "--particles", "20",
-        "--out",       (scratch.path() / out).string()};
+    std::vector<std::string> arguments = {"run",
+                                          scenario_path("ball_circle"),
+                                          "--set",
+                                          "path.laps=0.12",
+                                          "--set",
+                                          "camera={noise_sd_levels: 3, encoding: gamma, gamma: 1.8}",
+                                          "--set",
+                                          "believed_rig={baseline_m: 0.121, pitch_down_deg: 0.3, "
+                                          "right_turn_deg: [1.2, 0, 0], rows_within_px: 25}",
+                                          "--set",
+                                          "gates=[]",
+                                          "--seeds",
+                                          "0..1",
+                                          "--particles",
+                                          "20",
+                                          "--out",
+                                          (scratch.path() / out).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_stereobench(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "harness/detector/json_line.h"
 
@@ -43,6 +44,13 @@ TEST(Protocol, SetupIsReadBackExactly) {
   EXPECT_EQ(read.gamma, setup.gamma);
   for (const auto encoding : {worlds::Encoding::kLinear, worlds::Encoding::kSrgb})
     EXPECT_EQ(read_setup(setup_line({.encoding = encoding})).encoding, encoding);
+}
+
+// Law: those who speak the first version need not say by how many rows a rig may be off.
+TEST(Protocol, RowsAreTenWhereNothingIsSaidOfThem) {
+  nlohmann::json line = nlohmann::json::parse(setup_line({}));
+  line.erase("rows_within_px");
+  EXPECT_EQ(read_setup(line.dump()).rows_within_px, 10.0);
 }
 
 TEST(Protocol, SetupHasThePaletteAndAVersion) {

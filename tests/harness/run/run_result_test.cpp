@@ -60,8 +60,8 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
 // Mutations: the first seed alone; steps summed; blur of pictures that nobody rendered.
 TEST(RunResult, JsonSaysHowCoarseTheBlurOfAllSeedsIs) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
-  drives[0].recording.blur = {.pictures = 2, .most_step_px = 1.5};
-  drives[1].recording.blur = {.pictures = 3, .most_step_px = 2.5};
+  drives[0].recording.blur = {.pairs = 2, .most_step_px = 1.5};
+  drives[1].recording.blur = {.pairs = 3, .most_step_px = 2.5};
   const auto blur = run_json(assemble("name", "osmesa", drives))["renderer"]["blur"];
   EXPECT_EQ(blur["coarse_pairs"], 5);
   EXPECT_EQ(blur["most_step_px"], 2.5);
