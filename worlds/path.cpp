@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -196,7 +195,8 @@ slam::Pose pose_near(const GroundTruth& path, std::size_t index, double offset_s
       for (const Control& control : path[i].controls) follow(control, 1.0);
   } else {
     for (std::size_t i = index; i > 0 && left_s > 0.0; --i)
-      for (const Control& control : path[i].controls | std::views::reverse) follow(control, -1.0);
+      std::for_each(path[i].controls.rbegin(), path[i].controls.rend(),
+                    [&](const Control& control) { follow(control, -1.0); });
   }
   return pose;
 }
