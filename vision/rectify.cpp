@@ -81,7 +81,7 @@ Rectification::Rectification(const StereoRig& rig, const EyePair& eyes) : eyes_(
     cv::Mat places(rectified_.camera.height_px, rectified_.camera.width_px, CV_32FC2);
     for (int row = 0; row < places.rows; ++row) {
       for (int column = 0; column < places.cols; ++column) {
-        const Eigen::Vector2f at = taken_px(Eigen::Vector2d(column, row), eye).cast<float>();
+        const Eigen::Vector2f at = pixel_for(Eigen::Vector2d(column, row), eye).cast<float>();
         places.at<cv::Vec2f>(row, column) = {at.x(), at.y()};
       }
     }
@@ -94,21 +94,35 @@ StereoPair Rectification::apply(const StereoPair& pair) const {
   return {rectified_picture(pair.left, Eye::kLeft), rectified_picture(pair.right, Eye::kRight)};
 }
 
-Eigen::Vector2d Rectification::taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const {
-  constexpr double kNowhere_px = -1e4;
-  const EyeCamera& camera = eyes_[index_of(eye)];
+Eigen::Vector2d Rectification::direction_of(const Eigen::Vector2d& rectified_px, Eye eye) const {
+  constexpr double kLeastAhead = 1e-6;  // what is behind the eye is as far aside as can be
   const Eigen::Vector3d ray = pixel_ray(rectified_.camera, rectified_px);
-  const Eigen::Vector3d direction = camera.rectified_from_eye.transpose() * ray;
-  const bool seen = direction.z() > 0.0 &&
-                    seen_[index_of(eye)].contains(direction.hnormalized());  // beyond, lenses may fold
-  return seen ? image_point(camera, ray) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
+  const Eigen::Vector3d direction = eyes_[index_of(eye)].rectified_from_eye.transpose() * ray;
+  return direction.head<2>() / std::max(direction.z(), kLeastAhead);
+}
+
+Eigen::Vector2d Rectification::taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const {
+  const EyeCamera& taken_by = eyes_[index_of(eye)];
+  const Eigen::AlignedBox2d& seen = seen_[index_of(eye)];
+  const Eigen::Vector2d direction = direction_of(rectified_px, eye);
+  const Eigen::Vector2d nearest = direction.cwiseMax(seen.min()).cwiseMin(seen.max());
+  const Eigen::Vector2d beyond = direction - nearest;  // where lenses may fold
+  return project(taken_by.camera, distort(taken_by.lens, nearest).homogeneous()) +
+         taken_by.camera.focal_px * Eigen::Vector2d(beyond.x(), taken_by.lens.pixel_aspect * beyond.y());
+}
+
+Eigen::Vector2d Rectification::pixel_for(const Eigen::Vector2d& rectified_px, Eye eye) const {
+  constexpr double kNowhere_px = -1e4;
+  const bool seen = seen_[index_of(eye)].contains(direction_of(rectified_px, eye));
+  return seen ? taken_px(rectified_px, eye) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
 }
 
 bool Rectification::shows(const Eigen::Vector2d& centre_px, double radius_px, Eye eye) const {
   constexpr int kPoints = 32;
   for (int i = 0; i < kPoints; ++i) {
     const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / kPoints);
-    if (!is_inside(eyes_[index_of(eye)].camera, taken_px(centre_px + radius_px * Eigen::Vector2d(c, s), eye)))
+    if (!is_inside(eyes_[index_of(eye)].camera,
+                   pixel_for(centre_px + radius_px * Eigen::Vector2d(c, s), eye)))
       return false;
   }
   return true;

@@ -38,7 +38,8 @@ class Rectification {
   StereoPair apply(const StereoPair& pair) const;
 
   /// Where a pixel of a rectified picture is in the picture as it was taken.
-  /// @return a place outside of that picture for what the eye has not seen
+  /// @return for what the eye has not seen a place outside of that picture: straight on from its border,
+  ///   since lenses may fold there
   Eigen::Vector2d taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const;
 
   /// Whether the eye has seen all within a circle of a rectified picture.
@@ -46,6 +47,10 @@ class Rectification {
 
  private:
   cv::Mat rectified_picture(const cv::Mat& taken, Eye eye) const;
+  /// Where a pixel of a rectified picture looks, in the eye's own frame at a depth of 1.
+  Eigen::Vector2d direction_of(const Eigen::Vector2d& rectified_px, Eye eye) const;
+  /// taken_px, or nowhere near the picture for what the eye has not seen.
+  Eigen::Vector2d pixel_for(const Eigen::Vector2d& rectified_px, Eye eye) const;
 
   EyePair eyes_;
   StereoRig rectified_;

@@ -50,6 +50,24 @@ TEST(Rectification, TakesPointsToWhereTheyWereTaken) {
 }
 
 // A picture whose levels say where each pixel is.
+// Law: without a lens that bends, a place beyond the picture is where the pinhole has it; with one, places
+// leave the picture without a jump. Mutation: one place for all that is not seen.
+TEST(Rectification, GoesStraightOnBeyondThePicture) {
+  StereoRig rig = faulty_rig();
+  const Rectification bent(rig);
+  rig.distortion = {};
+  const Rectification straight(rig);
+  for (int i = -400; i < 800; ++i) {
+    const Eigen::Vector2d at(i, 0.4 * i), next(i + 1.0, 0.4 * i);
+    const Eigen::Vector3d ray = pixel_ray(straight.rig().camera, at);
+    const EyeCamera right = eyes_of(rig)[1];
+    EXPECT_LT((straight.taken_px(at, Eye::kRight) - image_point(right, ray)).norm(), 1e-9) << i;
+    const double step_px = bent.taken_px(next, Eye::kRight).x() - bent.taken_px(at, Eye::kRight).x();
+    EXPECT_GT(step_px, 0.0) << i;
+    EXPECT_LT(step_px, 2.0) << i;
+  }
+}
+
 TEST(Rectification, MovesLightAsItMovesPoints) {
   const StereoRig rig = faulty_rig();
   const Rectification rectification(rig);
