@@ -19,7 +19,7 @@ if(STEREOBENCH_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
 endif()
 
-# Headers that most sources read, parsed once for each target: a third of the time of a build. The preset
+# Headers that most sources read, parsed once for each target. The preset
 # `dev` goes without, so that a source which forgets an #include is told there.
 set(STEREOBENCH_COMMON_HEADERS <algorithm> <cmath> <filesystem> <functional> <limits> <map> <memory> <optional> <set>
     <span> <sstream> <stdexcept> <string> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
