@@ -50,21 +50,21 @@ class StereoSense {
     const worlds::Shutter& shutter = scenario_.shutter;
     const std::optional<double> late_s = lateness_s(shutter, seed_, index);
     if (!late_s) return {};
-    const auto [frame, blur_step_px] = watch.time(
+    const ExposedFrame exposed = watch.time(
         "render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, *late_s); });
-    blur_.add(blur_step_px);
+    blur_.add(exposed.blur_step_px);
     const vision::StereoPair pair =
-        watch.time("expose", [&] { return renderer::expose(frame, scenario_.camera, seed_, index); });
+        watch.time("expose", [&] { return renderer::expose(exposed.frame, scenario_.camera, seed_, index); });
     const std::int64_t stamp_ns = scenario_.path[index].stamp_ns;
     const auto observations = watch.time("observe", [&] {
       return detector_({index, stamp_ns, pair, scenario_.believed_rig});
     });
-    const VisionTruth truth = {world_, scenario_.rig, pose, frame};
+    const VisionTruth truth = {world_, scenario_.rig, pose, exposed.frame};
     score_ += score_observations(truth, observations);
     const worlds::World& meant = scenario_.world;
     score_.rig +=
         check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_look({index, frame, pair, observations, *late_s});
+    on_look({index, exposed.frame, pair, observations, *late_s});
     return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
   }
 
