@@ -19,12 +19,13 @@ if(STEREOBENCH_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
 endif()
 
-# Headers that most sources read, parsed once for each target. The preset
-# `dev` goes without, so that a source which forgets an #include is told there.
+# Headers that most sources read, parsed once for each target. The preset `dev` goes without: it tells of a
+# source that forgets an #include.
 set(STEREOBENCH_COMMON_HEADERS <algorithm> <cmath> <filesystem> <functional> <limits> <map> <memory> <optional> <set>
     <span> <sstream> <stdexcept> <string> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 
-# stereobench_module(<name> LINKS <libraries...> HEADERS <more headers to parse once...>): the library stereobench_<name>.
+# stereobench_module(<name> LINKS <libraries...> HEADERS <more headers to parse once...>): the library
+# stereobench_<name>.
 function(stereobench_module name)
   cmake_parse_arguments(ARG "" "" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -34,7 +35,8 @@ function(stereobench_module name)
   target_precompile_headers(stereobench_${name} PRIVATE ${STEREOBENCH_COMMON_HEADERS} ${ARG_HEADERS})
 endfunction()
 
-# stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable <module>_tests from tests/<module>/.
+# stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable
+# <module>_tests from tests/<module>/.
 function(stereobench_tests module)
   cmake_parse_arguments(ARG "" "LABEL" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/*.cpp)
