@@ -29,7 +29,7 @@ void jitter(double by_m, std::uint64_t seed, World& world) {
   }
   for (MeshInstance& mesh : world.meshes) {
     if (mesh.carried_ball == slam::kUnknown) continue;
-    mesh.position_m.head<2>() = world.balls[static_cast<std::size_t>(mesh.carried_ball)].centre_m.head<2>();
+    mesh.position_m.head<2>() = world.balls.at(static_cast<std::size_t>(mesh.carried_ball)).centre_m.head<2>();
   }
 }
 
