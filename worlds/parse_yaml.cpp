@@ -10,11 +10,15 @@
 namespace stereobench::worlds {
 namespace {
 
-/// Measures the nesting of a document while it is parsed, and ends the parsing where it is too deep. No node
-/// exists by then.
+/// Measures the nesting of a document while it is parsed, and ends the parsing where it is too deep, or would
+/// never end. No node exists by then.
 class NestingLimit : public YAML::EventHandler {
  public:
-  void OnDocumentStart(const YAML::Mark&) override {
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // Before a stray separator the parser finds one empty document after another, and never ends.
+    if (mark.pos == begun_at_)
+      throw YAML::ParserException(mark, "a ',', ']' or '}' outside of any list or map");
+    begun_at_ = mark.pos;
     open_.clear();
     heights_.clear();
   }
@@ -63,6 +67,7 @@ class NestingLimit : public YAML::EventHandler {
     if (!open_.empty()) open_.back().height = std::max(open_.back().height, height);
   }
 
+  int begun_at_ = -1;  ///< the last document, in characters
   std::vector<Group> open_;
   std::map<YAML::anchor_t, int> heights_;  ///< of finished nodes by anchor; nodes without one share an entry
 };

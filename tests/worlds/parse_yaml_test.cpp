@@ -58,6 +58,15 @@ INSTANTIATE_TEST_SUITE_P(
                             }}),
     [](const auto& test) { return test.param.kind; });
 
+// Found by fuzzing: the parser stands still there. Mutation: no look at where documents begin (the test does
+// not end).
+TEST(ParseYaml, RefusesASeparatorOutsideOfAnyList) {
+  for (const char* text : {",", ", 1]\na: 1", "--- ,", "%YAML:1.0\n,---\na: 1"})
+    EXPECT_THAT(complaint_about(text), testing::HasSubstr("outside of any list or map")) << text;
+  EXPECT_EQ(parse_yaml("a: 1\n---\nb: ~\n---\n---\nc: 1").size(), 4U);
+  EXPECT_EQ(parse_yaml("").size(), 0U);
+}
+
 // Mutation: an alias within its own anchor let through (whoever walks the node never ends).
 TEST(ParseYaml, RefusesAnAliasWithinWhatItStandsFor) {
   EXPECT_THAT(complaint_about("a: &a [1, *a]"), testing::HasSubstr("within what it stands for"));
