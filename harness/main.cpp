@@ -11,9 +11,9 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/standard_streams.h"
-#include "harness/run/interruption.h"
-#include "harness/run/process_pool.h"
-#include "worlds/advice.h"
+#include "harness/process/interruption.h"
+#include "harness/process/process_pool.h"
+#include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
 namespace {

@@ -71,7 +71,7 @@ struct FilterRun {
   std::string failure;                          ///< why, and at which step; empty when it did not fail
 };
 
-/// The least covariances that estimates over a log can have (slam/posterior_bound.h).
+/// The least covariances that estimates over a log can have (slam/reference/posterior_bound.h).
 struct BoundRun {
   std::vector<Eigen::Matrix3d> poses;           ///< of (x, y, heading), one a step, given the log up to it
   std::vector<Eigen::Matrix3d> smoothed_poses;  ///< the same, given the whole log

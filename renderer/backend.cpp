@@ -7,10 +7,10 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include "renderer/gl.h"
+#include "renderer/gl/gl.h"
 #include "renderer/renderer.h"
 #include "vision/palette.h"
-#include "vision/sphere.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::renderer {
 namespace {

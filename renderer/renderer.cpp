@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/ball_painter.h"
-#include "renderer/edge_smoother.h"
-#include "renderer/idle_code.h"
-#include "renderer/lens.h"
-#include "renderer/readback.h"
-#include "renderer/surface_painter.h"
-#include "renderer/surface_textures.h"
+#include "renderer/balls/ball_painter.h"
+#include "renderer/camera/lens.h"
+#include "renderer/camera/readback.h"
+#include "renderer/gl/idle_code.h"
+#include "renderer/surfaces/edge_smoother.h"
+#include "renderer/surfaces/surface_painter.h"
+#include "renderer/surfaces/surface_textures.h"
 #include "vision/palette.h"
 
 namespace stereobench::renderer {

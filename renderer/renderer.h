@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "renderer/sight.h"
+#include "renderer/truth/id_buffer.h"
 #include "renderer/types.h"
 #include "slam/types.h"
 #include "vision/types.h"

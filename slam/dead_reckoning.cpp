@@ -1,7 +1,7 @@
 #include "slam/dead_reckoning.h"
 
-#include "slam/measurement.h"
-#include "slam/motion.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::slam {
 

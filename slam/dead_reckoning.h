@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "slam/decisions.h"
-#include "slam/linearised.h"
+#include "slam/association/decisions.h"
+#include "slam/models/linearised.h"
 #include "slam/update_report.h"
 
 namespace stereobench::slam {

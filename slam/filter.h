@@ -6,11 +6,11 @@
 #include <string>
 #include <variant>
 
-#include "slam/block_slam.h"
+#include "slam/association/decisions.h"
+#include "slam/block/block_slam.h"
 #include "slam/dead_reckoning.h"
-#include "slam/decisions.h"
-#include "slam/ekf_slam.h"
-#include "slam/fast_slam.h"
+#include "slam/ekf/ekf_slam.h"
+#include "slam/fastslam/fast_slam.h"
 #include "slam/filter_config.h"
 #include "slam/filter_names.h"
 #include "slam/types.h"

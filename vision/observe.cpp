@@ -10,15 +10,15 @@
 
 #include <fmt/core.h>
 
-#include "vision/blobs.h"
-#include "vision/outline_fit.h"
+#include "vision/camera/rig.h"
+#include "vision/colour/blobs.h"
+#include "vision/outline/outline_fit.h"
+#include "vision/outline/round_patch.h"
 #include "vision/pixel_noise.h"
-#include "vision/range_bearing.h"
-#include "vision/rig.h"
-#include "vision/rig_match.h"
-#include "vision/round_patch.h"
 #include "vision/scratch.h"
-#include "vision/sphere.h"
+#include "vision/stereo/range_bearing.h"
+#include "vision/stereo/rig_match.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::vision {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "slam/elementary.h"
+#include "slam/math/elementary.h"
 
 namespace stereobench::vision {
 

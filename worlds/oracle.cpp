@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "slam/elementary.h"
-#include "slam/measurement.h"
-#include "slam/motion.h"
+#include "slam/math/elementary.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::worlds {
 namespace {

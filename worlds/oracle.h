@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "slam/types.h"
 #include "worlds/types.h"
 

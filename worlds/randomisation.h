@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "worlds/looks.h"
+#include "worlds/materials.h"
 
 namespace stereobench::worlds {
 

@@ -17,7 +17,7 @@
 #include "slam/types.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
-#include "worlds/looks.h"
+#include "worlds/materials.h"
 #include "worlds/randomisation.h"
 
 namespace stereobench::worlds {

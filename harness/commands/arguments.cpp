@@ -12,8 +12,8 @@
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
 #include "slam/filter_names.h"
-#include "worlds/advice.h"
-#include "worlds/seeds.h"
+#include "worlds/scenario/seeds.h"
+#include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
 namespace {

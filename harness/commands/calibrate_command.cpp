@@ -4,16 +4,16 @@
 
 #include <fmt/format.h>
 
-#include "harness/calibration/calibration_result.h"
-#include "harness/calibration/galleries.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
-#include "harness/dataset/atomic_file.h"
+#include "harness/detector_noise/calibration_result.h"
+#include "harness/detector_noise/galleries.h"
+#include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "vision/observe.h"
-#include "worlds/gallery.h"
-#include "worlds/seeds.h"
+#include "worlds/generate/calibration_scene.h"
+#include "worlds/scenario/seeds.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "harness/board/calibration_report.h"
-#include "harness/board/calibration_warnings.h"
-#include "harness/board/rig_calibration.h"
-#include "harness/board/rig_picture.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/talk.h"
-#include "harness/dataset/atomic_file.h"
-#include "harness/dataset/calibration_file.h"
-#include "harness/dataset/picture_reader.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/picture_reader.h"
+#include "harness/rig_calibration/calibration_report.h"
+#include "harness/rig_calibration/calibration_warnings.h"
+#include "harness/rig_calibration/rig_calibration.h"
+#include "harness/rig_calibration/rig_picture.h"
 
 namespace stereobench::harness {
 namespace {

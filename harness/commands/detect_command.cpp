@@ -10,17 +10,17 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/standard_streams.h"
-#include "harness/dataset/atomic_file.h"
-#include "harness/dataset/calibration_file.h"
 #include "harness/dataset/dataset_truth.h"
-#include "harness/dataset/file_list.h"
 #include "harness/dataset/palette_file.h"
-#include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/detector.h"
 #include "harness/detector/serve.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/file_list.h"
+#include "harness/io/picture_reader.h"
 #include "harness/report/detection_picture.h"
-#include "renderer/develop.h"
+#include "renderer/camera/sensor_model.h"
 #include "vision/observe.h"
 
 namespace stereobench::harness {

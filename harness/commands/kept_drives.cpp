@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/standard_streams.h"
-#include "harness/dataset/atomic_file.h"
-#include "harness/dataset/sha256.h"
-#include "harness/run/interruption.h"
-#include "harness/run/process_pool.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/sha256.h"
+#include "harness/process/interruption.h"
+#include "harness/process/process_pool.h"
 #include "renderer/backend.h"
-#include "worlds/write_scenario.h"
+#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::harness {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/commands/scenario_arguments.h"
-#include "harness/dataset/answer_store.h"
+#include "harness/io/answer_store.h"
 #include "harness/run/provenance.h"
 #include "harness/run/seed_drive.h"
 

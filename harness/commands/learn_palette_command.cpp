@@ -6,11 +6,11 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/talk.h"
-#include "harness/dataset/atomic_file.h"
 #include "harness/dataset/colour_marks.h"
 #include "harness/dataset/palette_file.h"
 #include "harness/detector/detector.h"
-#include "harness/report/text_table.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/text_table.h"
 
 namespace stereobench::harness {
 namespace {

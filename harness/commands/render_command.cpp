@@ -9,15 +9,15 @@
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/standard_streams.h"
-#include "harness/dataset/file_list.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/seed_render.h"
 #include "harness/dataset/truth_limits.h"
-#include "harness/run/interruption.h"
+#include "harness/io/file_list.h"
+#include "harness/process/interruption.h"
 #include "harness/run/provenance.h"
 #include "renderer/backend.h"
 #include "vision/observe.h"
-#include "worlds/scenario.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "harness/run/run_result.h"
 #include "renderer/backend.h"
-#include "worlds/scenario.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "harness/commands/arguments.h"
-#include "harness/run/recording.h"
-#include "renderer/mesh_shelf.h"
+#include "harness/drive/recording.h"
+#include "renderer/surfaces/mesh_cache.h"
+#include "worlds/drive/wall_crossings.h"
 #include "worlds/types.h"
-#include "worlds/wall_crossings.h"
 
 namespace stereobench::harness {
 

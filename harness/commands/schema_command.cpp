@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
-#include "harness/commands/scenario_schema.h"
-#include "harness/dataset/atomic_file.h"
+#include "harness/io/atomic_file.h"
+#include "harness/reference/scenario_schema.h"
 
 namespace stereobench::harness {
 

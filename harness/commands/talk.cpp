@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/run/progress.h"
+#include "harness/process/progress.h"
 
 namespace stereobench::harness {
 namespace {

@@ -10,13 +10,13 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
-#include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
+#include "harness/io/atomic_file.h"
 #include "harness/report/plan_picture.h"
-#include "renderer/mesh_shelf.h"
-#include "worlds/path.h"
-#include "worlds/scenario.h"
-#include "worlds/write_scenario.h"
+#include "renderer/surfaces/mesh_cache.h"
+#include "worlds/drive/path.h"
+#include "worlds/scenario/scenario.h"
+#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::harness {
 namespace {

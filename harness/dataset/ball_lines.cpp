@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "renderer/facets.h"
+#include "renderer/surfaces/facets.h"
 
 namespace stereobench::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "renderer/ball_truth.h"
+#include "renderer/truth/ball_truth.h"
 
 namespace stereobench::harness {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "harness/dataset/picture_reader.h"
-#include "harness/dataset/text_file.h"
-#include "harness/detector/json_line.h"
+#include "harness/io/json_line.h"
+#include "harness/io/picture_reader.h"
+#include "harness/io/text_file.h"
 
 namespace stereobench::harness {
 namespace {

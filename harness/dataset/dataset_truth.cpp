@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/calibration_file.h"
-#include "harness/dataset/file_list.h"
-#include "harness/dataset/number_table.h"
-#include "harness/dataset/picture_reader.h"
-#include "harness/dataset/text_file.h"
-#include "harness/detector/json_line.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/file_list.h"
+#include "harness/io/json_line.h"
+#include "harness/io/number_table.h"
+#include "harness/io/picture_reader.h"
+#include "harness/io/text_file.h"
 
 namespace stereobench::harness {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "worlds/randomise.h"
+#include "worlds/generate/randomise.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/measurement_log_writer.h"
-#include "harness/run/shutter.h"
-#include "worlds/path.h"
+#include "harness/drive/shutter.h"
+#include "harness/logs/measurement_log_writer.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 

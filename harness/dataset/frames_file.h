@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "harness/run/frame_choice.h"
+#include "harness/drive/frame_choice.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/dataset/text_file.h"
-#include "harness/detector/json_line.h"
+#include "harness/io/json_line.h"
+#include "harness/io/text_file.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vision/learned_palette.h"
+#include "vision/colour/learned_palette.h"
 #include "worlds/camera_sensor.h"
 
 namespace stereobench::harness {

@@ -9,14 +9,14 @@
 #include <fmt/ranges.h>
 #include <opencv2/core.hpp>
 
-#include "harness/dataset/atomic_file.h"
-#include "harness/dataset/calibration_file.h"
-#include "harness/dataset/file_list.h"
-#include "harness/dataset/measurement_log_writer.h"
-#include "harness/dataset/picture_file.h"
-#include "harness/dataset/text_file.h"
-#include "harness/detector/json_line.h"
-#include "worlds/paint.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/file_list.h"
+#include "harness/io/json_line.h"
+#include "harness/io/picture_file.h"
+#include "harness/io/text_file.h"
+#include "harness/logs/measurement_log_writer.h"
+#include "worlds/generate/paint.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/run/recording.h"
+#include "harness/drive/recording.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {

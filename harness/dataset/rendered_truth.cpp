@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/atomic_file.h"
 #include "harness/dataset/ball_lines.h"
-#include "harness/dataset/picture_file.h"
 #include "harness/dataset/truth_limits.h"
 #include "harness/dataset/truth_pictures.h"
-#include "renderer/ball_truth.h"
-#include "renderer/bent_sight.h"
-#include "renderer/lens.h"
-#include "worlds/path.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/picture_file.h"
+#include "renderer/camera/lens.h"
+#include "renderer/truth/ball_truth.h"
+#include "renderer/truth/distorted_ids.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "harness/dataset/truth_request.h"
-#include "harness/run/recording.h"
-#include "harness/run/shutter.h"
-#include "renderer/eye_truth.h"
+#include "harness/drive/recording.h"
+#include "harness/drive/shutter.h"
 #include "renderer/renderer.h"
-#include "renderer/scene_geometry.h"
+#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/scene_geometry.h"
 
 namespace stereobench::harness {
 

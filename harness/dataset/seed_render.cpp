@@ -4,15 +4,15 @@
 #include <functional>
 #include <optional>
 
-#include "harness/dataset/atomic_file.h"
 #include "harness/dataset/draws_file.h"
 #include "harness/dataset/frames_file.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/rendered_truth.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
-#include "harness/run/recording.h"
-#include "worlds/scenario.h"
+#include "harness/drive/recording.h"
+#include "harness/io/atomic_file.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/progress.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 

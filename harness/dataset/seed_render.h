@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/dataset/truth_request.h"
-#include "harness/run/frame_choice.h"
-#include "harness/run/recording.h"
+#include "harness/drive/frame_choice.h"
+#include "harness/drive/recording.h"
 #include "renderer/types.h"
 #include "worlds/types.h"
 

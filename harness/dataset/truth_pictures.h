@@ -2,7 +2,7 @@
 /// readers that speak of red, green and blue find x, y and z.
 #pragma once
 
-#include "renderer/correspondence.h"
+#include "renderer/truth/correspondence.h"
 
 namespace stereobench::harness {
 

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "harness/detector/json_line.h"
-#include "slam/elementary.h"
+#include "harness/io/json_line.h"
+#include "slam/math/elementary.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
 #include "vision/palette.h"
-#include "vision/range_bearing.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "vision/stereo/range_bearing.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::harness {
 namespace {

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "vision/outline_fit.h"
+#include "vision/outline/outline_fit.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "renderer/develop.h"
+#include "renderer/camera/sensor_model.h"
 #include "vision/observe.h"
 
 namespace stereobench::harness {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "vision/eye_pair.h"
-#include "vision/learned_palette.h"
+#include "vision/camera/eye_pair.h"
+#include "vision/colour/learned_palette.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
 #include "worlds/types.h"

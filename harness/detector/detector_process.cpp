@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 
 #include "harness/detector/detection_lines.h"
-#include "harness/detector/json_line.h"
 #include "harness/detector/protocol.h"
-#include "renderer/png_picture.h"
+#include "harness/io/json_line.h"
+#include "renderer/pictures/png_picture.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "harness/detector/detector.h"
-#include "harness/detector/supervised_process.h"
-#include "harness/run/process_pool.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/supervised_process.h"
 
 namespace stereobench::harness {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "harness/detector/json_line.h"
+#include "harness/io/json_line.h"
 #include "vision/palette.h"
 
 namespace stereobench::harness {

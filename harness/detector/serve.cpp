@@ -4,9 +4,9 @@
 #include <ostream>
 #include <string>
 
-#include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/protocol.h"
+#include "harness/io/picture_reader.h"
 
 namespace stereobench::harness {
 

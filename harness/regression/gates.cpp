@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/text_table.h"
-#include "worlds/advice.h"
+#include "harness/io/text_table.h"
+#include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
 namespace {

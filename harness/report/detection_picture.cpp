@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/report/canvas.h"
-#include "renderer/develop.h"
+#include "renderer/camera/sensor_model.h"
 #include "vision/observe.h"
 
 namespace stereobench::harness {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "vision/outline_fit.h"
+#include "vision/outline/outline_fit.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
 

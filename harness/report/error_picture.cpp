@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "harness/io/text_table.h"
 #include "harness/report/axes.h"
 #include "harness/report/curves.h"
 #include "harness/report/legend.h"
-#include "harness/report/text_table.h"
 
 namespace stereobench::harness {
 namespace {

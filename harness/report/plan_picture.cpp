@@ -8,8 +8,8 @@
 
 #include "harness/report/plan_sheet.h"
 #include "vision/palette.h"
-#include "worlds/path.h"
-#include "worlds/sight.h"
+#include "worlds/drive/path.h"
+#include "worlds/visibility/visibility.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "renderer/mesh_surfaces.h"
+#include "renderer/surfaces/mesh_surfaces.h"
+#include "worlds/drive/wall_crossings.h"
 #include "worlds/types.h"
-#include "worlds/wall_crossings.h"
 
 namespace stereobench::harness {
 

@@ -11,9 +11,9 @@
 
 #include "harness/dataset/dataset_truth.h"
 #include "harness/detector/detection_lines.h"
-#include "harness/detector/json_line.h"
-#include "harness/run/sightings.h"
-#include "harness/scoring/rig_check.h"
+#include "harness/drive/sightings.h"
+#include "harness/io/json_line.h"
+#include "harness/vision_scoring/rig_check.h"
 
 namespace stereobench::harness {
 namespace {

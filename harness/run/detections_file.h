@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "harness/scoring/vision_score.h"
 #include "harness/types.h"
+#include "harness/vision_scoring/vision_score.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "harness/dataset/sha256.h"
+#include "harness/io/sha256.h"
 
 namespace stereobench::harness {
 namespace {

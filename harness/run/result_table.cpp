@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/text_table.h"
+#include "harness/io/text_table.h"
 #include "harness/run/consistency_report.h"
 
 namespace stereobench::harness {

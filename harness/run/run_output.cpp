@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/atomic_file.h"
+#include "harness/io/atomic_file.h"
 #include "harness/report/error_picture.h"
 #include "harness/report/map_picture.h"
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {

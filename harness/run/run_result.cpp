@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "harness/run/consistency_report.h"
-#include "harness/run/json_numbers.h"
 #include "harness/scoring/association_score.h"
+#include "harness/statistics/json_numbers.h"
 
 namespace stereobench::harness {
 namespace {

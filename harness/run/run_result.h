@@ -9,12 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/dataset/log_facts.h"
+#include "harness/logs/log_facts.h"
 #include "harness/run/provenance.h"
 #include "harness/run/seed_drive.h"
-#include "harness/scoring/paired.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/score.h"
+#include "harness/statistics/paired.h"
 
 namespace stereobench::harness {
 

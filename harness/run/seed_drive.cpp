@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "harness/dataset/answer_store.h"
+#include "harness/io/answer_store.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/progress.h"
+#include "harness/process/stopwatch.h"
 #include "harness/report/detection_picture.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
 #include "harness/run/serialise.h"
-#include "harness/run/stopwatch.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
 #include "worlds/oracle.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/recording.h"
+#include "harness/drive/recording.h"
 #include "harness/types.h"
 #include "slam/filter.h"
 #include "worlds/types.h"

@@ -1,31 +1,7 @@
 #include "harness/run/serialise.h"
 
-#include <Eigen/Core>
-#include <nlohmann/json.hpp>
-
-namespace nlohmann {
-
-/// Matrices as flat arrays in Eigen's order of storage.
-template <int Rows, int Cols>
-struct adl_serializer<Eigen::Matrix<double, Rows, Cols>> {
-  using Matrix = Eigen::Matrix<double, Rows, Cols>;
-  static void to_json(json& j, const Matrix& m) { j = std::vector<double>(m.data(), m.data() + m.size()); }
-  static void from_json(const json& j, Matrix& m) {
-    for (Eigen::Index i = 0; i < m.size(); ++i) m.data()[i] = j.at(static_cast<std::size_t>(i)).get<double>();
-  }
-};
-
-template <typename Value>
-struct adl_serializer<std::optional<Value>> {
-  static void to_json(json& j, const std::optional<Value>& value) {
-    j = value ? json(*value) : json(nullptr);
-  }
-  static void from_json(const json& j, std::optional<Value>& value) {
-    value = j.is_null() ? std::nullopt : std::optional<Value>(j.get<Value>());
-  }
-};
-
-}  // namespace nlohmann
+#include "harness/io/cbor.h"
+#include "harness/vision_scoring/vision_score_json.h"
 
 namespace stereobench::slam {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pose, x_m, y_m, heading_rad)
@@ -39,12 +15,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedInnovation, sighting, squared_lengt
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Estimate, pose, covariance, landmarks, effective_particles, counters)
 }  // namespace stereobench::slam
 
-namespace stereobench::vision {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrinsics, width_px, height_px, focal_px, cx_px, cy_px)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultSums, information, evidence, squares)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RigWatch, rows, sizes, balls)
-}  // namespace stereobench::vision
-
 namespace stereobench::harness {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogStep, stamp_ns, odometry, measurements, truth, true_landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
@@ -55,30 +25,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterRun, filter, particles, seed, poses, co
                                    association, failed, failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, poses, smoothed_poses, landmarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(References, bound, batch)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RigCheck, camera, baseline_m, watch)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VisionScore, visible, found, observations, right, misidentified, spurious,
-                                   repeated, flagged, range_errors_m, bearing_errors_rad, disparity_errors_px,
-                                   normalised_errors, rig)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
-                                   radius_error_px, depth_m, whole)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pairs, most_step_px)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, log, detector, vision, blur, timing)
-
-namespace {
-
-std::string bytes_of(const nlohmann::json& json) {
-  std::string bytes;
-  nlohmann::json::to_cbor(json, bytes);
-  return bytes;
-}
-
-nlohmann::json json_of(std::string_view bytes) {
-  return nlohmann::json::from_cbor(bytes.begin(), bytes.end());
-}
-
-}  // namespace
 
 std::string to_bytes(const SeedDrive& drive) {
   nlohmann::json snapshots = nlohmann::json::array();
@@ -112,14 +60,6 @@ std::string to_bytes(const std::vector<FilterRun>& runs) {
 
 std::vector<FilterRun> filter_runs_from_bytes(std::string_view bytes) {
   return json_of(bytes).get<std::vector<FilterRun>>();
-}
-
-std::string to_bytes(const CalibrationTake& take) {
-  return bytes_of(take);
-}
-
-CalibrationTake calibration_take_from_bytes(std::string_view bytes) {
-  return json_of(bytes).get<CalibrationTake>();
 }
 
 }  // namespace stereobench::harness

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/calibration/sample.h"
 #include "harness/run/seed_drive.h"
 
 namespace stereobench::harness {
@@ -19,9 +18,5 @@ SeedDrive seed_drive_from_bytes(std::string_view bytes);
 /// Filter runs as bytes, and back.
 std::string to_bytes(const std::vector<FilterRun>& runs);
 std::vector<FilterRun> filter_runs_from_bytes(std::string_view bytes);
-
-/// What a gallery gave as bytes, and back.
-std::string to_bytes(const CalibrationTake& take);
-CalibrationTake calibration_take_from_bytes(std::string_view bytes);
 
 }  // namespace stereobench::harness

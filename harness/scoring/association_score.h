@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/types.h"
-#include "slam/decisions.h"
+#include "slam/association/decisions.h"
 
 namespace stereobench::harness {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 

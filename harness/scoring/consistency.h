@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "harness/scoring/chi_square.h"
+#include "harness/statistics/chi_square.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {

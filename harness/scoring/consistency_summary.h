@@ -7,7 +7,7 @@
 #include "harness/scoring/coverage.h"
 #include "harness/scoring/innovations.h"
 #include "harness/scoring/particle_set.h"
-#include "harness/scoring/statistics.h"
+#include "harness/statistics/statistics.h"
 
 namespace stereobench::harness {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "harness/scoring/chi_square.h"
-#include "harness/scoring/statistics.h"
+#include "harness/statistics/chi_square.h"
+#include "harness/statistics/statistics.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/scoring/trajectory.h"
-#include "slam/elementary.h"
+#include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 

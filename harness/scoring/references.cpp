@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "harness/scoring/sighted_landmark.h"
-#include "slam/batch.h"
-#include "slam/posterior_bound.h"
+#include "slam/reference/batch.h"
+#include "slam/reference/posterior_bound.h"
 
 namespace stereobench::harness {
 namespace {

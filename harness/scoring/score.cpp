@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 

@@ -9,8 +9,8 @@
 #include "harness/scoring/consistency.h"
 #include "harness/scoring/consistency_summary.h"
 #include "harness/scoring/landmark_map.h"
-#include "harness/scoring/statistics.h"
 #include "harness/scoring/trajectory.h"
+#include "harness/statistics/statistics.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "slam/measurement.h"
+#include "slam/models/measurement.h"
 
 namespace stereobench::harness {
 

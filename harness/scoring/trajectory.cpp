@@ -4,8 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "slam/elementary.h"
-#include "slam/motion.h"
+#include "slam/math/elementary.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 

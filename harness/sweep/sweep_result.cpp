@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/io/text_table.h"
 #include "harness/report/sweep_picture.h"
-#include "harness/report/text_table.h"
 
 namespace stereobench::harness {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/run/run_result.h"
-#include "harness/scoring/statistics.h"
+#include "harness/statistics/statistics.h"
 #include "harness/sweep/grid.h"
 
 namespace stereobench::harness {

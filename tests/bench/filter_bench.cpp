@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "slam/filter.h"
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench {
 namespace {

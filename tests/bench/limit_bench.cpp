@@ -6,9 +6,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "renderer/ball_outline.h"
-#include "renderer/edge_smoother.h"
-#include "renderer/surface_polygons.h"
+#include "renderer/balls/ball_outline.h"
+#include "renderer/surfaces/edge_smoother.h"
+#include "renderer/surfaces/surface_polygons.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/ray_cast_limit.h"
 

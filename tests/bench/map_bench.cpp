@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "slam/filter.h"
-#include "slam/measurement.h"
+#include "slam/models/measurement.h"
 
 namespace stereobench {
 namespace {

@@ -68,7 +68,7 @@ Floats mix(Floats a, Floats b, Floats t) {
              mix(random(x ^ next_y), random(next_x ^ next_y), weight.x), weight.y);
 }
 
-// The three below are those of renderer/material_shader.cpp, which says what they are.
+// The three below are those of renderer/surfaces/material_shader.cpp, which says what they are.
 [[gnu::always_inline]] inline Floats noise(Pair x, Pair footprint) {
   const Floats fade = unit(1.4F - 1.4F * max(footprint.x, footprint.y));
   if (!any(fade > 0.0F)) return all(0.0F);
@@ -184,7 +184,7 @@ void paint(const LimitSurface& surface, Tile& tile) {
             static_cast<float>(tile.first_row + row));
 }
 
-/// The two below are those of renderer/ball_shader.cpp.
+/// The two below are those of renderer/balls/ball_shader.cpp.
 Floats covered_area(Floats x, Floats y, Floats outside, Floats curvature) {
   const Floats a = max(x, y), b = max(min(x, y), all(1e-6F));
   const auto left_of = [&](Floats depth) { return max(0.5F * (a + b) - depth, all(0.0F)); };

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "worlds/scenario.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench {
 

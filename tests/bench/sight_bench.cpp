@@ -7,10 +7,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "worlds/layout.h"
-#include "worlds/path.h"
-#include "worlds/sight.h"
-#include "worlds/solids.h"
+#include "worlds/drive/path.h"
+#include "worlds/generate/layout.h"
+#include "worlds/visibility/occluders.h"
+#include "worlds/visibility/visibility.h"
 
 namespace stereobench {
 namespace {

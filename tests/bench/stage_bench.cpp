@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/backend.h"
-#include "renderer/expose.h"
+#include "renderer/camera/expose.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/textured_scene.h"
 #include "vision/observe.h"

@@ -1,8 +1,8 @@
 /// What truth costs beyond a frame's own, and what smoothing edges does, for both eyes.
-#include "renderer/ball_truth.h"
-#include "renderer/correspondence.h"
-#include "renderer/edge_smoother.h"
-#include "renderer/eye_truth.h"
+#include "renderer/surfaces/edge_smoother.h"
+#include "renderer/truth/ball_truth.h"
+#include "renderer/truth/correspondence.h"
+#include "renderer/truth/eye_truth.h"
 #include "tests/bench/bench_scene.h"
 
 namespace stereobench {

@@ -8,14 +8,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "harness/dataset/calibration_file.h"
 #include "harness/dataset/palette_file.h"
-#include "harness/dataset/picture_reader.h"
 #include "harness/detector/detection_lines.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/picture_reader.h"
 #include "tests/fuzz/promises.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
 #include "vision/palette.h"
-#include "vision/rig.h"
 
 namespace stereobench::fuzz {
 namespace {

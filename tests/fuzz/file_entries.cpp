@@ -9,11 +9,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "harness/dataset/colour_marks.h"
-#include "harness/dataset/measurement_log_reader.h"
-#include "renderer/mesh_file.h"
+#include "harness/logs/measurement_log_reader.h"
+#include "renderer/meshes/mesh_file.h"
 #include "tests/fuzz/promises.h"
-#include "worlds/scenario.h"
-#include "worlds/smooth_path.h"
+#include "worlds/drive/smooth_path.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::fuzz {
 namespace {

@@ -2,7 +2,7 @@
 /// minutes.
 #include <gtest/gtest.h>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "tests/fuzz/entries.h"
 
 namespace stereobench::fuzz {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "renderer/png_picture.h"
+#include "renderer/pictures/png_picture.h"
 
 namespace stereobench::renderer::test {
 

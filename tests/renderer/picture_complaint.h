@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/picture_reader.h"
+#include "renderer/pictures/picture_reader.h"
 
 namespace stereobench::renderer::test {
 

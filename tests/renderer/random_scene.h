@@ -1,7 +1,7 @@
 /// Scenes and rigs that the renderer's tests share.
 #pragma once
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "vision/types.h"
 #include "worlds/types.h"
 

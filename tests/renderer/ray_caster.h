@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "renderer/mesh_file.h"
+#include "renderer/meshes/mesh_file.h"
 #include "slam/types.h"
 #include "vision/types.h"
 #include "worlds/types.h"

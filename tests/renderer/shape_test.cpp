@@ -10,8 +10,8 @@
 #include "renderer/renderer.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/ray_caster.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "vision/camera/rig.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::renderer {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "renderer/mesh_file.h"
+#include "renderer/meshes/mesh_file.h"
 #include "tests/renderer/folder.h"
 #include "worlds/types.h"
 

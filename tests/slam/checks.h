@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "slam/filter.h"
-#include "slam/measurement.h"
-#include "slam/motion.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::slam {
 

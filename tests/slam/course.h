@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam/batch.h"
+#include "slam/reference/batch.h"
 #include "tests/slam/dense_drive.h"
 
 namespace stereobench::slam {

@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "slam/measurement.h"
-#include "slam/motion.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::slam {
 

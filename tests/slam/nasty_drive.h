@@ -10,9 +10,9 @@
 #include <Eigen/Core>
 
 #include "slam/filter_config.h"
-#include "slam/measurement.h"
-#include "slam/motion.h"
-#include "slam/random.h"
+#include "slam/math/random.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::slam {
 

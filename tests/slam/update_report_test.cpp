@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "slam/predictive_mixture.h"
+#include "slam/fastslam/predictive_mixture.h"
 #include "tests/slam/checks.h"
 #include "tests/slam/named_filters.h"
 

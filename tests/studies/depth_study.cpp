@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/calibration/galleries.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/detector_noise/galleries.h"
 
 namespace stereobench {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "harness/calibration/noise_fit.h"
+#include "harness/detector_noise/noise_fit.h"
 #include "tests/studies/verdict.h"
 
 namespace stereobench {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/progress.h"
 #include "tests/vision/hidden_scenes.h"
 #include "tests/vision/s_curve.h"
 #include "vision/observe.h"

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "tests/studies/photograph.h"
 
 namespace stereobench::photograph {

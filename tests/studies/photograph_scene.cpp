@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "tests/studies/photograph.h"
 
 namespace stereobench::photograph {

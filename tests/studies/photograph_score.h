@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "tests/studies/photograph.h"
-#include "vision/learned_palette.h"
-#include "vision/outline_fit.h"
+#include "vision/colour/learned_palette.h"
+#include "vision/outline/outline_fit.h"
 
 namespace stereobench {
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/dataset/atomic_file.h"
+#include "harness/io/atomic_file.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/progress.h"
 #include "harness/report/detection_picture.h"
-#include "harness/run/process_pool.h"
-#include "harness/run/progress.h"
 
 namespace stereobench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/dataset/atomic_file.h"
+#include "harness/io/atomic_file.h"
 #include "tests/studies/photograph_study.h"
 #include "tests/studies/study_program.h"
 

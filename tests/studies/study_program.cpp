@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
-#include "harness/dataset/atomic_file.h"
-#include "harness/run/process_pool.h"
-#include "worlds/seeds.h"
+#include "harness/io/atomic_file.h"
+#include "harness/process/process_pool.h"
+#include "worlds/scenario/seeds.h"
 
 namespace stereobench {
 namespace {

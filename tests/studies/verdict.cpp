@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/text_table.h"
-#include "harness/run/json_numbers.h"
+#include "harness/io/text_table.h"
+#include "harness/statistics/json_numbers.h"
 
 namespace stereobench {
 namespace {

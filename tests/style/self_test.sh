@@ -48,12 +48,17 @@ clean_repository && printf '#include "vision/a.h"\n' >slam/a.cpp && expect red l
 clean_repository && printf '#  include "harness/a.h"\n' >vision/a.h && expect red layers "vision includes harness"
 clean_repository && printf '#include "a.h"\n' >slam/a.cpp && expect red layers "a path that does not begin at the root"
 clean_repository && printf '#include <opencv2/core.hpp>\n' >slam/a.cpp && expect red layers "an image in slam"
+clean_repository && mkdir slam/x slam/y && printf '#include "slam/y/b.h"\n' >slam/x/a.h &&
+  printf '#include "slam/x/c.h"\n' >slam/y/b.h && touch slam/x/c.h && expect red layers "two rooms in a circle"
+clean_repository && mkdir slam/x && printf '#include "slam/x/b.h"\n' >slam/x/a.h && touch slam/x/b.h &&
+  expect green layers "a room that includes itself"
 
 clean_repository && printf 'double a = std::sin(1.0);\n' >slam/a.cpp && expect red arithmetic "a sine of the C library"
 clean_repository && printf 'double a = std::sqrt(1.0);\n' >slam/a.cpp && expect green arithmetic "a root, which is exact"
 
 clean_repository && seq 351 | sed 's/^/\/\/ /' >slam/a.h && expect red sizes "351 lines"
 clean_repository && seq 350 | sed 's/^/\/\/ /' >slam/a.h && expect green sizes "350 lines"
+clean_repository && for i in {1..24}; do touch "slam/file$i.cpp"; done && expect red sizes "26 sources in a folder"
 
 clean_repository && mkdir build && touch build/a && expect red products "a tracked file in build"
 clean_repository && printf '\x7fELF\x02\x01' >slam/tool && expect red products "a tracked program"

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/vision/painter.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::vision {
 namespace {

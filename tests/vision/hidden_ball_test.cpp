@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "slam/gaussian.h"
+#include "slam/math/gaussian.h"
 #include "tests/vision/hidden_scenes.h"
 #include "vision/observe.h"
 

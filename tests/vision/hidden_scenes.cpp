@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/rig.h"
+#include "vision/camera/rig.h"
 
 namespace stereobench::vision::painter {
 namespace {

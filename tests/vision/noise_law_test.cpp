@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "painter.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
 #include "vision/palette.h"
-#include "vision/range_bearing.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "vision/stereo/range_bearing.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::vision {
 namespace {

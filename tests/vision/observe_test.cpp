@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "painter.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "vision/camera/rig.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::vision {
 namespace {

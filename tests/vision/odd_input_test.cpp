@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/vision/painter.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
-#include "vision/rig.h"
 
 namespace stereobench::vision {
 namespace {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "painter.h"
+#include "vision/camera/rig.h"
 #include "vision/observe.h"
-#include "vision/rig.h"
 
 namespace stereobench::vision {
 namespace {

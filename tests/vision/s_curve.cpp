@@ -5,7 +5,7 @@
 
 #include "tests/vision/painter.h"
 #include "vision/observe.h"
-#include "vision/sphere.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::vision::painter {
 namespace {

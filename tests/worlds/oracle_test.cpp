@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::worlds {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "tests/harness/commands/processes.h"
 #include "tests/harness/commands/program.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "harness/dataset/sha256.h"
+#include "harness/io/sha256.h"
 #include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {

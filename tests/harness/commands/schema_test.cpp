@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <yaml-cpp/yaml.h>
 
-#include "harness/commands/scenario_schema.h"
+#include "harness/reference/scenario_schema.h"
 #include "tests/harness/commands/program.h"
-#include "tests/worlds/minimal_group.h"
-#include "tests/worlds/scenario_text.h"
-#include "worlds/scenario.h"
-#include "worlds/yaml_document.h"
+#include "tests/worlds/scenario/minimal_group.h"
+#include "tests/worlds/scenario/scenario_text.h"
+#include "worlds/scenario/scenario.h"
+#include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::harness {
 namespace {

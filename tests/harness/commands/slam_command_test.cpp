@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/dataset/measurement_log_writer.h"
-#include "harness/run/recording.h"
+#include "harness/drive/recording.h"
+#include "harness/logs/measurement_log_writer.h"
 #include "tests/harness/commands/program.h"
-#include "worlds/scenario.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/run/recording.h"
+#include "harness/drive/recording.h"
 #include "renderer/renderer.h"
-#include "worlds/path.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 namespace {

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
-#include "harness/dataset/calibration_file.h"
-#include "harness/dataset/file_list.h"
-#include "slam/random.h"
-#include "tests/harness/dataset/log_folder.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/file_list.h"
+#include "slam/math/random.h"
+#include "tests/harness/logs/log_folder.h"
+#include "vision/camera/rig.h"
 #include "vision/palette.h"
-#include "vision/rig.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "harness/run/shutter.h"
-#include "renderer/correspondence.h"
-#include "tests/harness/dataset/log_folder.h"
-#include "worlds/path.h"
+#include "harness/drive/shutter.h"
+#include "renderer/truth/correspondence.h"
+#include "tests/harness/logs/log_folder.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,10 +6,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "harness/dataset/rendered_truth.h"
-#include "renderer/bent_sight.h"
-#include "renderer/lens.h"
-#include "tests/harness/dataset/log_folder.h"
-#include "worlds/path.h"
+#include "renderer/camera/lens.h"
+#include "renderer/truth/distorted_ids.h"
+#include "tests/harness/logs/log_folder.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 namespace {

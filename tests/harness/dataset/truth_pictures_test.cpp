@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/dataset/picture_file.h"
 #include "harness/dataset/truth_request.h"
+#include "harness/io/picture_file.h"
 
 namespace stereobench::harness {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "harness/detector/detector.h"
-#include "harness/run/recording.h"
+#include "harness/drive/recording.h"
 #include "tests/harness/commands/program.h"
-#include "worlds/scenario.h"
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/detector/json_line.h"
-#include "slam/random.h"
-#include "vision/range_bearing.h"
-#include "vision/rig.h"
-#include "vision/sphere.h"
+#include "harness/io/json_line.h"
+#include "slam/math/random.h"
+#include "vision/camera/rig.h"
+#include "vision/stereo/range_bearing.h"
+#include "vision/stereo/sphere.h"
 
 namespace stereobench::harness {
 namespace {

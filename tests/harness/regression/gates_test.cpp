@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 
 namespace stereobench::harness {
 namespace {

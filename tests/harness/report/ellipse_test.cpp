@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 
 namespace stereobench::harness {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/report/legend.h"
-#include "slam/random.h"
+#include "slam/math/random.h"
 #include "tests/harness/report/pixels.h"
 
 namespace stereobench::harness {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "worlds/path.h"
+#include "worlds/drive/path.h"
 
 namespace stereobench::harness {
 namespace {

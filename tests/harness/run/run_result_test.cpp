@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/report/text_table.h"
+#include "harness/io/text_table.h"
 #include "harness/run/result_table.h"
 
 namespace stereobench::harness {

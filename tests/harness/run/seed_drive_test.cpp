@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/run/serialise.h"
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/random.h"
+#include "slam/math/random.h"
 
 namespace stereobench::harness {
 namespace {

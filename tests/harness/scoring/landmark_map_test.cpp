@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/dataset/measurement_log_reader.h"
+#include "harness/logs/measurement_log_reader.h"
 #include "harness/scoring/replay.h"
-#include "slam/measurement.h"
-#include "slam/motion.h"
-#include "slam/posterior_bound.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
+#include "slam/reference/posterior_bound.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/dataset/measurement_log_reader.h"
+#include "harness/logs/measurement_log_reader.h"
 #include "harness/scoring/score.h"
-#include "slam/motion.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "harness/scoring/ball_outline.h"
-#include "vision/rig.h"
+#include "harness/vision_scoring/ball_outline.h"
+#include "vision/camera/rig.h"
 
 namespace stereobench::harness {
 

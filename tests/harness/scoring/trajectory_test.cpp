@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/motion.h"
-#include "slam/random.h"
+#include "slam/math/random.h"
+#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {

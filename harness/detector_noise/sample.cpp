@@ -1,0 +1,81 @@
+#include "harness/detector_noise/sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/detector/detector.h"
+#include "harness/detector_noise/outline_bound.h"
+#include "harness/drive/recording.h"
+#include "harness/vision_scoring/ball_outline.h"
+#include "renderer/camera/sensor_model.h"
+#include "slam/math/elementary.h"
+#include "slam/models/motion.h"
+#include "vision/camera/rig.h"
+#include "vision/pixel_noise.h"
+#include "worlds/scenario/scenario.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// The bounds on range and bearing that the picture's noise makes.
+/// @param world the gallery's, as its seed has it
+BallBounds bounds_of(const worlds::Scenario& gallery, const worlds::World& world,
+                     const renderer::StereoFrame& frame, const BallOutline& ball, double noise_sd_levels) {
+  const vision::StereoRig& rig = gallery.rig;
+  const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
+                                  gallery.camera.defocus_sd_px};
+  vision::SizedBall sized;
+  sized << vision::robot_from_camera(rig).inverse() * ball.ball_in_robot,
+      world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
+  return ball_bounds(
+      rig, sized, world.ball_radius_sd_m,
+      {outline_information(renderer::in_levels(frame.left.colour), rig.camera, ball.left, quality),
+       outline_information(renderer::in_levels(frame.right.colour), rig.camera, ball.right, quality)});
+}
+
+CalibrationSample compare(const BallOutline& ball, const vision::BallObservation& observation) {
+  CalibrationSample sample;
+  const slam::RangeBearing& seen = observation.range_bearing;
+  const Eigen::Vector2d place = ball.ball_in_robot.head<2>();
+  sample.truth = {place.norm(), slam::arc_tangent(place.y(), place.x())};
+  sample.error = {seen.range_m - sample.truth.x(), slam::wrap_angle(seen.bearing_rad - sample.truth.y())};
+  sample.stated = seen.covariance;
+  sample.disparity_error_px = disparity_error_px(ball, observation);
+  sample.radius_error_px = {observation.left_radius_px - ball.left.radius_px(),
+                            observation.right_radius_px - ball.right.radius_px()};
+  if (!observation.has_pixels) sample.radius_error_px.fill(std::numeric_limits<double>::quiet_NaN());
+  sample.whole = is_whole(ball);
+  return sample;
+}
+
+}  // namespace
+
+CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend backend) {
+  CalibrationTake take;
+  const double noise_sd_levels = detector_setup(gallery).noise_sd_levels;
+  Listeners listeners;
+  const worlds::World world = worlds::world_for_seed(gallery, gallery.seeds.front());
+  listeners.on_look = [&](const Look& look) {
+    const VisionTruth truth = {world, gallery.rig, gallery.path[look.step].pose, look.frame};
+    const std::vector<BallOutline> outlines = ball_outlines(truth);
+    const std::vector<int> balls = balls_observed(truth, look.observations);
+    const std::vector<vision::BallObservation> straight = straightened(gallery.rig, look.observations);
+    for (std::size_t i = 0; i < straight.size(); ++i) {
+      const vision::BallObservation& observation = straight[i];
+      if (!observation.trusted()) continue;
+      const auto ball = std::ranges::find(outlines, balls[i], &BallOutline::ball);
+      if (ball == outlines.end()) continue;
+      const int colour = world.balls[static_cast<std::size_t>(ball->ball)].colour;
+      if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
+      CalibrationSample sample = compare(*ball, observation);
+      sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
+      if (sample.whole) sample.bounds = bounds_of(gallery, world, look.frame, *ball, noise_sd_levels);
+      take.samples.push_back(sample);
+    }
+  };
+  take.score = *record(gallery, gallery.seeds.front(), listeners, backend).vision;
+  return take;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,21 @@
+#include "harness/detector_noise/serialise.h"
+
+#include "harness/io/cbor.h"
+#include "harness/vision_scoring/vision_score_json.h"
+
+namespace stereobench::harness {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
+                                   radius_error_px, depth_m, whole)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
+
+std::string to_bytes(const CalibrationTake& take) {
+  return bytes_of(take);
+}
+
+CalibrationTake calibration_take_from_bytes(std::string_view bytes) {
+  return json_of(bytes).get<CalibrationTake>();
+}
+
+}  // namespace stereobench::harness

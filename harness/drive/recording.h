@@ -1,0 +1,62 @@
+/// A drive through a scenario, from the world to the log that filters are replayed on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/detector/detector.h"
+#include "harness/drive/coarse_blur.h"
+#include "harness/types.h"
+#include "harness/vision_scoring/vision_score.h"
+#include "renderer/types.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Wall-clock seconds a stage took; reported beside results, never inside what is compared.
+using Timing = std::map<std::string, double>;
+
+/// A look of the robot at its world: the truth, the exposed pair, and what was detected in it.
+struct Look {
+  std::size_t step;
+  const renderer::StereoFrame& frame;
+  const vision::StereoPair& pair;
+  const std::vector<vision::BallObservation>& observations;
+  double late_s = 0.0;  ///< by how much the eyes looked later than the step's time says
+};
+
+/// Who wants to be told while a drive goes on, and of which steps.
+struct Listeners {
+  /// Whether the eyes open at a step (sensors with pixels only). At others nothing is rendered or seen; what
+  /// is seen at this one does not depend on it, unless a detector has a memory.
+  std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
+  std::function<void(const Look&)> on_look = [](const Look&) {};
+  std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
+};
+
+/// What one seed's drive gave.
+struct Recording {
+  MeasurementLog log;
+  std::string detector = "none";      ///< who looked: "stereobench", a program's command, "callable"
+  std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  CoarseBlur blur;
+  Timing timing;
+};
+
+/// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
+/// sensed by the oracle), and the odometry is measured with its noise.
+/// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
+/// @param listeners told of each look (sensors with pixels only) and of the progress
+/// @param backend what renders, for a sensor with pixels
+/// @param detector who looks at the pairs; empty: the program that the scenario names, or the vision stage
+/// @return the log with truth, and how vision scored
+/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read; DetectorFault
+///   when the program does not do what it should
+Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
+                 renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {});
+
+}  // namespace stereobench::harness

@@ -1,0 +1,153 @@
+#include "harness/io/atomic_file.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace stereobench::harness {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
+  throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
+}
+
+/// The name of the temporary file, for a signal's handler; empty where there is none.
+std::array<char, PATH_MAX> unfinished_name = {};
+std::atomic<bool> is_unfinished = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// A file under a name of its own, which is removed again unless it was renamed into place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& final_path) : final_path_(final_path) {
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+      name_ = fmt::format("{}.{}-{}.tmp", final_path.string(), getpid(), attempt);
+      announce();  // before it is there: a signal may come right after
+      descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST) fail(final_path_, "cannot be written", errno);
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!moved_) unlink(name_.c_str());
+    is_unfinished = false;
+  }
+
+  void write_all(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(final_path_, "cannot be written", errno);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  void move_into_place() {
+    if (fsync(descriptor_) != 0) fail(final_path_, "cannot be written", errno);
+    if (close(std::exchange(descriptor_, -1)) != 0) fail(final_path_, "cannot be written", errno);
+    if (std::rename(name_.c_str(), final_path_.c_str()) != 0) fail(final_path_, "cannot be replaced", errno);
+    is_unfinished = false;
+    moved_ = true;
+  }
+
+ private:
+  /// Tells a signal's handler what to remove.
+  void announce() const {
+    is_unfinished = false;
+    if (name_.size() >= unfinished_name.size()) return;
+    std::copy_n(name_.c_str(), name_.size() + 1, unfinished_name.begin());
+    is_unfinished = true;
+  }
+
+  fs::path final_path_;
+  std::string name_;
+  int descriptor_ = -1;
+  bool moved_ = false;
+};
+
+/// Makes a rename in a folder survive a power cut. File systems that cannot do so are let be.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+/// Whether a process is gone, or dead and not yet buried by its parent.
+bool has_ended(int process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  std::ifstream status(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(status, line);
+  const std::size_t name_end = line.rfind(") ");
+  return name_end != std::string::npos && line.find_first_of("ZX", name_end + 2) == name_end + 2;
+}
+
+/// Whether a name is one that TemporaryFile gives, and its process is gone.
+bool is_leftover(const std::string& name) {
+  static const std::regex temporary(R"(.*\.([0-9]{1,9})-[0-9]+\.tmp)");
+  std::smatch parts;
+  if (!std::regex_match(name, parts, temporary)) return false;
+  return has_ended(std::stoi(parts[1]));
+}
+
+}  // namespace
+
+void remove_unfinished_file() noexcept {
+  if (is_unfinished) unlink(unfinished_name.data());
+}
+
+void remove_leftovers_in(const fs::path& folder) {
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && is_leftover(entry.path().filename().string()))
+      leftovers.push_back(entry.path());
+  for (const fs::path& leftover : leftovers) fs::remove(leftover);
+}
+
+void remove_leftovers(const fs::path& folder) {
+  remove_leftovers_in(folder);
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_directory()) remove_leftovers_in(entry.path());
+}
+
+void prepare_output_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw std::runtime_error(
+        fmt::format("{}: is a file, not a folder that results can be written to", folder.string()));
+  }
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "cannot be created", error.value());
+  if (access(folder.c_str(), W_OK | X_OK) != 0) fail(folder, "cannot be written to", errno);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  if (fs::is_directory(path)) fail(path, "cannot be replaced", EISDIR);
+  TemporaryFile file(path);
+  file.write_all(bytes);
+  file.move_into_place();
+  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+}  // namespace stereobench::harness

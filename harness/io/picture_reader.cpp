@@ -1,0 +1,71 @@
+#include "harness/io/picture_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "renderer/pictures/picture_reader.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, std::string_view what) {
+  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+}
+
+}  // namespace
+
+cv::Mat read_levels(const fs::path& file) {
+  if (!fs::exists(file)) refuse(file, "no such file");
+  if (fs::is_directory(file)) refuse(file, "expected a picture (got a folder)");
+  try {
+    return renderer::decode_picture(renderer::picture_bytes(file));
+  } catch (const std::runtime_error& error) {
+    refuse(file, error.what());
+  }
+}
+
+cv::Mat read_picture(const fs::path& file) {
+  cv::Mat picture = read_levels(file);
+  if (picture.channels() != 3) refuse(file, "has no colour, by which balls are found");
+  return picture;
+}
+
+cv::Mat read_grey_picture(const fs::path& file) {
+  cv::Mat picture = read_levels(file);
+  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2GRAY);
+  return picture;
+}
+
+worlds::Encoding encoding_of(const std::string& asked, std::span<const fs::path> files) {
+  if (asked != "auto") return asked == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+  const auto is_srgb = [](const fs::path& file) {
+    if (!fs::is_regular_file(file)) refuse(file, "no such file");
+    return renderer::said_of_levels(renderer::picture_bytes(file)) == renderer::SaidOfLevels::kSrgb;
+  };
+  for (const fs::path& file : files)
+    if (is_srgb(file) != is_srgb(files.front()))
+      throw std::runtime_error(fmt::format(
+          "--encoding: {} and {} contradict each other, one is sRGB by its file and the other is not: say "
+          "linear or srgb",
+          files.front().string(), file.string()));
+  return !files.empty() && is_srgb(files.front()) ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
+}
+
+bool is_picture_name(const fs::path& file) {
+  constexpr std::array<std::string_view, 10> kExtensions = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
+                                                            ".tiff", ".ppm", ".pgm",  ".pnm", ".tga"};
+  std::string extension = file.extension().string();
+  for (char& letter : extension)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+}  // namespace stereobench::harness

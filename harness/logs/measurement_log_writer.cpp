@@ -1,0 +1,113 @@
+#include "harness/logs/measurement_log_writer.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "harness/io/atomic_file.h"
+
+namespace stereobench::harness {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kTolerance_ns = 1'000;
+
+bool same(const slam::Pose& a, const slam::Pose& b) {
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
+}
+
+/// A reading per control, stamped with the time from which it is held.
+void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv) {
+  double elapsed_s = 0.0;
+  for (const slam::Control& control : step.odometry) {
+    const std::int64_t begin_ns = from_ns + std::llround(elapsed_s * 1e9);
+    csv += fmt::format("{},{},{}\n", seconds_of(begin_ns), control.v_mps, control.w_radps);
+    elapsed_s += control.duration_s;
+  }
+  if (std::abs(from_ns + std::llround(elapsed_s * 1e9) - step.stamp_ns) > kTolerance_ns) {
+    throw std::invalid_argument(fmt::format("write_log: odometry up to {} s lasts {} s, the step {} s",
+                                            seconds_of(step.stamp_ns), elapsed_s,
+                                            static_cast<double>(step.stamp_ns - from_ns) * 1e-9));
+  }
+}
+
+std::string odometry_csv(const MeasurementLog& log) {
+  std::string csv = "t_s,v_mps,w_radps\n";
+  if (!log.steps.front().odometry.empty()) {
+    throw std::invalid_argument("write_log: the first step has odometry, but there is no time before it");
+  }
+  for (std::size_t i = 1; i < log.steps.size(); ++i) {
+    append_readings(log.steps[i - 1].stamp_ns, log.steps[i], csv);
+  }
+  if (log.steps.size() == 1) csv += fmt::format("{},0,0\n", seconds_of(log.steps.front().stamp_ns));
+  return csv;
+}
+
+std::string observations_csv(const MeasurementLog& log) {
+  std::string csv =
+      "t_s,landmark_id,range_m,bearing_rad,colour_class,range_var_m2,cov_m_rad,bearing_var_rad2\n";
+  for (const LogStep& step : log.steps) {
+    for (const slam::RangeBearing& z : step.measurements) {
+      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{}\n", seconds_of(step.stamp_ns),
+                     z.landmark_id, z.range_m, z.bearing_rad, z.colour_class, z.covariance(0, 0),
+                     z.covariance(0, 1), z.covariance(1, 1));
+    }
+  }
+  return csv;
+}
+
+std::string truth_csv(const MeasurementLog& log) {
+  std::string csv = "t_s,x_m,y_m,theta_rad\n";
+  for (const LogStep& step : log.steps) {
+    if (!step.truth) continue;
+    const slam::Pose& pose = *step.truth;
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", seconds_of(step.stamp_ns), pose.x_m, pose.y_m,
+                   pose.heading_rad);
+  }
+  return csv;
+}
+
+std::string landmarks_csv(const MeasurementLog& log) {
+  std::string csv = "landmark_id,x_m,y_m,colour_class\n";
+  for (const LandmarkTruth& landmark : log.landmarks) {
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", landmark.landmark_id, landmark.position_m.x(),
+                   landmark.position_m.y(), landmark.colour_class);
+  }
+  return csv;
+}
+
+std::string instants_csv(const MeasurementLog& log) {
+  std::string csv = "t_s\n";
+  for (const LogStep& step : log.steps) csv += seconds_of(step.stamp_ns) + '\n';
+  return csv;
+}
+
+}  // namespace
+
+std::string seconds_of(std::int64_t stamp_ns) {
+  const std::int64_t magnitude_ns = std::abs(stamp_ns);
+  return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", magnitude_ns / kSecond_ns,
+                     magnitude_ns % kSecond_ns);
+}
+
+void write_log(const fs::path& folder, const MeasurementLog& log) {
+  if (log.steps.empty()) throw std::invalid_argument("write_log: a log has at least one step");
+  if (!same(log.start, log.steps.front().truth.value_or(slam::Pose{}))) {
+    throw std::invalid_argument("write_log: a reader starts at the first step's truth, this log does not");
+  }
+  const std::string odometry = odometry_csv(log);
+  write_file_atomically(folder / "odometry.csv", odometry);
+  write_file_atomically(folder / "observations.csv", observations_csv(log));
+  write_file_atomically(folder / "landmarks.csv", landmarks_csv(log));
+  write_file_atomically(folder / "groundtruth.csv", truth_csv(log));
+  write_file_atomically(folder / "instants.csv", instants_csv(log));
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,237 @@
+#include "harness/process/process_pool.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <optional>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/process/interruption.h"
+
+namespace stereobench::harness {
+namespace {
+
+enum class MessageKind : std::uint32_t { kStarted, kProgress, kAnswer, kError, kCrash };
+
+/// What travels through a worker's pipe before its `size` bytes of payload.
+struct Header {
+  MessageKind kind = MessageKind::kStarted;
+  std::uint64_t index = 0;
+  double fraction = 0.0;
+  std::uint64_t size = 0;
+};
+
+struct Worker {
+  pid_t pid = -1;
+  int pipe = -1;
+  std::string received;                ///< bytes that do not yet make a whole message
+  std::optional<std::size_t> current;  ///< the task it is at
+};
+
+void write_all(int file, const char* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(file, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) ::_exit(EXIT_FAILURE);  // the parent is gone
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void send(int file, const Header& header, const std::string& payload) {
+  std::string message(sizeof(Header), '\0');
+  std::memcpy(message.data(), &header, sizeof(Header));
+  message += payload;
+  write_all(file, message.data(), message.size());
+}
+
+/// The next task that nobody has taken, shared by all workers.
+class SharedCounter {
+ public:
+  SharedCounter()
+      : memory_(::mmap(nullptr, sizeof(std::atomic<std::size_t>), PROT_READ | PROT_WRITE,
+                       MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+    if (memory_ == MAP_FAILED) throw std::runtime_error("cannot share memory with worker processes");
+    new (memory_) std::atomic<std::size_t>(0);
+  }
+  ~SharedCounter() { ::munmap(memory_, sizeof(std::atomic<std::size_t>)); }
+  SharedCounter(const SharedCounter&) = delete;
+  SharedCounter& operator=(const SharedCounter&) = delete;
+  std::size_t next() { return static_cast<std::atomic<std::size_t>*>(memory_)->fetch_add(1); }
+
+ private:
+  void* memory_;
+};
+
+[[noreturn]] void work(SharedCounter& counter, std::size_t tasks, const Task& task, int file) {
+  for (std::size_t index = counter.next(); index < tasks; index = counter.next()) {
+    send(file, {MessageKind::kStarted, index, 0.0, 0}, {});
+    const auto report = [&](double fraction) {
+      send(file, {MessageKind::kProgress, index, fraction, 0}, {});
+    };
+    const auto give_up = [&](MessageKind kind, const std::string& message) {
+      send(file, {kind, index, 1.0, message.size()}, message);
+      ::_exit(EXIT_SUCCESS);
+    };
+    try {
+      const std::string answer = task(index, report);
+      send(file, {MessageKind::kAnswer, index, 1.0, answer.size()}, answer);
+    } catch (const RunCrash& crash) {
+      give_up(MessageKind::kCrash, crash.what());
+    } catch (const std::exception& error) {
+      give_up(MessageKind::kError, error.what());
+    }
+  }
+  ::_exit(EXIT_SUCCESS);
+}
+
+/// The parent's side: starts workers, gathers answers, and leaves no process behind.
+class Pool {
+ public:
+  Pool(std::size_t tasks, const OnAnswer& on_answer, const OnProgress& on_progress)
+      : fractions_(tasks, 0.0), on_answer_(on_answer), on_progress_(on_progress) {}
+  ~Pool() {
+    for (Worker& worker : workers_) {
+      if (worker.pid > 0) ::kill(worker.pid, SIGKILL);
+      retire(worker);
+    }
+  }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  void start_worker(const Task& task) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0)  // a program that a worker starts shall not hold it open
+      throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+    std::fflush(nullptr);  // or the child would print the parent's buffered text again
+    const pid_t parent = ::getpid();
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      follow_parent(parent);
+      ::close(ends[0]);
+      work(counter_, fractions_.size(), task, ends[1]);
+    }
+    ::close(ends[1]);
+    if (pid < 0) {
+      ::close(ends[0]);
+      throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+    }
+    workers_.push_back({pid, ends[0], {}, std::nullopt});
+  }
+
+  void gather() {
+    while (!error_ && !crash_ && wait_for_input()) {
+    }
+    if (crash_) throw RunCrash(*crash_);
+    if (error_) throw std::runtime_error(*error_);
+  }
+
+ private:
+  bool wait_for_input() {
+    std::vector<pollfd> polled;
+    for (const Worker& worker : workers_)
+      polled.push_back({worker.pipe, POLLIN, 0});  // -1 is skipped by poll
+    if (std::all_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.pipe < 0; }))
+      return false;
+    if (::poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR)
+      throw std::runtime_error(fmt::format("cannot wait for workers: {}", std::strerror(errno)));
+    for (std::size_t i = 0; i < workers_.size(); ++i)
+      if (polled[i].revents != 0) receive(workers_[i]);
+    return true;
+  }
+
+  void receive(Worker& worker) {
+    char buffer[65536];
+    const ssize_t count = ::read(worker.pipe, buffer, sizeof(buffer));
+    if (count < 0 && errno == EINTR) return;
+    if (count <= 0) return finish(worker);
+    worker.received.append(buffer, static_cast<std::size_t>(count));
+    while (take_message(worker)) {
+    }
+  }
+
+  bool take_message(Worker& worker) {
+    Header header;
+    if (worker.received.size() < sizeof(Header)) return false;
+    std::memcpy(&header, worker.received.data(), sizeof(Header));
+    if (worker.received.size() < sizeof(Header) + header.size) return false;
+    std::string payload = worker.received.substr(sizeof(Header), header.size);
+    worker.received.erase(0, sizeof(Header) + header.size);
+    apply(worker, header, std::move(payload));
+    return true;
+  }
+
+  void apply(Worker& worker, const Header& header, std::string payload) {
+    worker.current = header.index;
+    fractions_[header.index] = header.fraction;
+    if (header.kind == MessageKind::kAnswer) on_answer_(header.index, std::move(payload));
+    if (header.kind == MessageKind::kError) error_ = std::move(payload);
+    if (header.kind == MessageKind::kCrash) crash_ = std::move(payload);
+    if (header.kind != MessageKind::kStarted && header.kind != MessageKind::kProgress) worker.current.reset();
+    double done = 0.0;
+    for (const double fraction : fractions_) done += fraction;
+    on_progress_(done);
+  }
+
+  void finish(Worker& worker) {
+    const std::optional<std::size_t> unfinished = worker.current;
+    const int status = retire(worker);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
+    const std::string cause = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                                  : fmt::format("exit status {}", WEXITSTATUS(status));
+    throw WorkerCrash(fmt::format("a worker process ended with {} {}", cause,
+                                  unfinished ? fmt::format("in task {}", *unfinished) : "between two tasks"));
+  }
+
+  static int retire(Worker& worker) {
+    int status = 0;
+    if (worker.pipe >= 0) ::close(worker.pipe);
+    worker.pipe = -1;
+    if (worker.pid > 0)
+      while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+      }
+    worker.pid = -1;
+    return status;
+  }
+
+  SharedCounter counter_;
+  std::vector<Worker> workers_;
+  std::vector<double> fractions_;
+  const OnAnswer& on_answer_;
+  const OnProgress& on_progress_;
+  std::optional<std::string> error_;
+  std::optional<std::string> crash_;
+};
+
+}  // namespace
+
+void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                      const OnProgress& on_progress) {
+  if (jobs < 1) throw std::invalid_argument("run_in_processes: jobs must be at least 1");
+  Pool pool(tasks, on_answer, on_progress);
+  const std::size_t workers = std::min(tasks, static_cast<std::size_t>(jobs));
+  for (std::size_t i = 0; i < workers; ++i) pool.start_worker(task);
+  pool.gather();
+}
+
+std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,
+                                          const OnProgress& on_progress) {
+  std::vector<std::string> answers(tasks);
+  const auto keep = [&](std::size_t index, std::string answer) { answers[index] = std::move(answer); };
+  run_in_processes(tasks, jobs, task, keep, on_progress);
+  return answers;
+}
+
+}  // namespace stereobench::harness

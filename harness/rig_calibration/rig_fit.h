@@ -1,0 +1,31 @@
+/// The rig that explains best what two eyes saw of a board.
+#pragma once
+
+#include <vector>
+
+#include "harness/rig_calibration/types.h"
+
+namespace stereobench::harness {
+
+/// What is fitted, and to what.
+struct FitSettings {
+  Board board;
+  int width_px = 0;  ///< of the pictures
+  int height_px = 0;
+  RigModel model = RigModel::kTwoCameras;
+  FreeCoefficients lens = {true, true, true, true, false};
+  bool square_pixels = true;  ///< or else each eye has a pixel aspect of its own
+  bool robust = false;  ///< Cauchy's loss, so that corners that are far off do not count; no sd is worked out
+};
+
+/// Least squares over all corners in both eyes at once: the eyes, how the right one sits to the left one, and
+/// where the board was in each view (bundle adjustment). It starts from each eye's own calibration by Zhang's
+/// method (cv::calibrateCamera).
+///
+/// Standard deviations are those of least squares, s^2 (J' J)^-1, with s^2 the squares' sum over the degrees
+/// of freedom.
+/// @param views at least three
+/// @throws std::runtime_error where the views do not determine a rig
+RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings);
+
+}  // namespace stereobench::harness

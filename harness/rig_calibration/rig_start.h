@@ -1,0 +1,25 @@
+/// Where the fit of a rig begins.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "harness/rig_calibration/rig_fit.h"
+
+namespace stereobench::harness {
+
+/// A pose as the fit has it: a rotation vector and a shift, metres.
+using BoardPose = Eigen::Matrix<double, 6, 1>;
+
+/// All that is fitted.
+struct RigState {
+  std::array<EyeParameters, 2> eyes;
+  BoardPose left_from_right = BoardPose::Zero();
+  std::vector<BoardPose> left_from_board;  ///< by view
+};
+
+/// Calibrates each eye by itself and puts the two together: where most views have the right eye.
+/// @throws std::runtime_error where an eye's views do not determine its camera
+RigState start_rig(const std::vector<BoardView>& views, const FitSettings& settings);
+
+}  // namespace stereobench::harness

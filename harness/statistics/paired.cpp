@@ -1,0 +1,81 @@
+#include "harness/statistics/paired.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "slam/math/elementary.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// The differences that are not zero, by size.
+std::vector<double> sorted_by_size(std::span<const double> differences) {
+  std::vector<double> sorted;
+  for (const double difference : differences)
+    if (std::isfinite(difference) && difference != 0.0) sorted.push_back(difference);
+  std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return sorted;
+}
+
+struct SignedRanks {
+  double positive = 0.0;  ///< sum of the ranks of positive differences; ties share their mean rank
+  double ties = 0.0;      ///< sum of t^3 - t over groups of t equal sizes
+};
+
+SignedRanks rank(const std::vector<double>& sorted) {
+  SignedRanks ranks;
+  for (std::size_t begin = 0; begin < sorted.size();) {
+    std::size_t end = begin + 1;
+    while (end < sorted.size() && std::abs(sorted[end]) == std::abs(sorted[begin])) ++end;
+    const auto count = static_cast<double>(end - begin);
+    const double mean_rank = 0.5 * static_cast<double>(begin + 1 + end);
+    for (std::size_t i = begin; i < end; ++i)
+      if (sorted[i] > 0.0) ranks.positive += mean_rank;
+    ranks.ties += count * count * count - count;
+    begin = end;
+  }
+  return ranks;
+}
+
+/// The chance that the smaller of both rank sums is at most this, by counting all signs: the number of
+/// subsets of 1..n with each sum, added up one rank after the other.
+double exact_p(double smaller_sum, std::size_t n) {
+  std::vector<double> ways(n * (n + 1) / 2 + 1, 0.0);
+  ways[0] = 1.0;
+  for (std::size_t r = 1; r <= n; ++r)
+    for (std::size_t sum = ways.size() - 1; sum >= r; --sum) ways[sum] += ways[sum - r];
+  double below = 0.0;
+  for (std::size_t sum = 0; static_cast<double>(sum) <= smaller_sum; ++sum) below += ways[sum];
+  return std::min(1.0, 2.0 * std::ldexp(below, -static_cast<int>(n)));
+}
+
+double normal_p(const SignedRanks& ranks, double n) {
+  const double mean = n * (n + 1.0) / 4.0;
+  const double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranks.ties / 48.0;
+  const double off = std::max(0.0, std::abs(ranks.positive - mean) - 0.5);
+  return slam::complementary_error(off / std::sqrt(variance) / std::numbers::sqrt2);
+}
+
+}  // namespace
+
+double wilcoxon_signed_rank(std::span<const double> differences) {
+  constexpr std::size_t kMostForExact = 50;
+  const std::vector<double> sorted = sorted_by_size(differences);
+  if (sorted.empty()) return 1.0;
+  const SignedRanks ranks = rank(sorted);
+  const auto n = static_cast<double>(sorted.size());
+  if (ranks.ties > 0.0 || sorted.size() > kMostForExact) return normal_p(ranks, n);
+  return exact_p(std::min(ranks.positive, n * (n + 1.0) / 2.0 - ranks.positive), sorted.size());
+}
+
+PairedDifference compare_paired(std::span<const double> first, std::span<const double> second) {
+  if (first.size() != second.size()) throw std::invalid_argument("compare_paired: expected the same seeds");
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < first.size(); ++i) differences.push_back(first[i] - second[i]);
+  return {summarise(differences), wilcoxon_signed_rank(differences)};
+}
+
+}  // namespace stereobench::harness

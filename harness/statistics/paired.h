@@ -1,0 +1,30 @@
+/// Whether one filter is better than another on the same worlds: differences seed by seed.
+#pragma once
+
+#include <span>
+
+#include "harness/statistics/statistics.h"
+
+namespace stereobench::harness {
+
+/// Two filters' errors over the same seeds. Both saw the same worlds, odometry and sightings, so that what
+/// the seeds have in common cancels; where it does not, the interval says so.
+struct PairedDifference {
+  Summary
+      difference;  ///< of the first minus the second, over seeds that have both; below 0: the first is better
+  double p_value = 1.0;  ///< of no difference, two-sided, by Wilcoxon's signed ranks; 1 where nothing differs
+};
+
+/// Compares two filters.
+/// @param first one value a seed; NaN stands for a run that could not be scored
+/// @param second of the same seeds, in the same order
+/// @throws std::invalid_argument when their numbers differ
+PairedDifference compare_paired(std::span<const double> first, std::span<const double> second);
+
+/// The probability of signed ranks at least as lopsided as these when nothing but chance decides the signs
+/// (Wilcoxon 1945). Exact below 51 differences without ties, otherwise the normal approximation with its
+/// corrections for ties and continuity. Zeros are left out.
+/// @return in (0, 1]
+double wilcoxon_signed_rank(std::span<const double> differences);
+
+}  // namespace stereobench::harness

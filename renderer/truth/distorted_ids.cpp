@@ -1,0 +1,70 @@
+#include "renderer/truth/distorted_ids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vision/camera/rig.h"
+
+namespace stereobench::renderer {
+namespace {
+
+/// How far a ray goes at most to what pixels around its place see.
+double farthest_m(const SceneGeometry& scene, const std::array<int, 4>& around, const Sightline& ray) {
+  constexpr double kRoom = 1.01;  // for slivers that are farther than what is beside them
+  double farthest = 0.0;
+  for (const int facet : around) {
+    if (facet == kNoFacet) return std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d way = scene.seen(facet, ray).on_sight - ray.origin_m;
+    farthest = std::max(farthest, way.dot(ray.direction) / ray.direction.squaredNorm());
+  }
+  return kRoom * farthest;
+}
+
+/// The facet that a ray meets first. Where it meets none it looks into the open, or through a crack that the
+/// rasteriser has closed by snapping corners. Facets thinner than a pixel may be seen by none of four pixels.
+/// @param around the facets of pixels around its place
+/// @param nearest that of the nearest one
+int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int nearest,
+              const Sightline& ray) {
+  if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == nearest; })) return nearest;
+  int first = kNoFacet;
+  double first_m = std::numeric_limits<double>::infinity();
+  for (const int facet : around) {
+    const double there_m = facet == kNoFacet ? first_m : scene.enter(facet, ray);
+    if (!(there_m < first_m)) continue;
+    first = facet;
+    first_m = there_m;
+  }
+  if (first == kNoFacet) first_m = farthest_m(scene, around, ray);
+  if (const int flat = scene.first_flat(ray, kNear_m, first_m); flat != kNoFacet) return flat;
+  const bool is_open = std::find(around.begin(), around.end(), kNoFacet) != around.end();
+  return first == kNoFacet && !is_open ? nearest : first;
+}
+
+int nearest_of(const cv::Mat& facets, const Eigen::Vector2d& place_px) {
+  const int u = std::clamp(static_cast<int>(std::lround(place_px.x())), 0, facets.cols - 1);
+  const int v = std::clamp(static_cast<int>(std::lround(place_px.y())), 0, facets.rows - 1);
+  return facets.at<int>(v, u);
+}
+
+}  // namespace
+
+EyeSight bent_sight(const SceneGeometry& scene, const EyeSight& straight, const vision::StereoRig& rig) {
+  EyeSight bent{straight.view, cv::Mat(rig.camera.height_px, rig.camera.width_px, CV_32SC1)};
+  bent.view.camera = rig.camera;
+  bent.view.lens = rig.distortion;
+  const Sightlines lines(bent.view);
+  const Eigen::Matrix3d turn = bent.view.camera_from_world.linear();
+  for (int v = 0; v < bent.facet.rows; ++v) {
+    for (int u = 0; u < bent.facet.cols; ++u) {
+      const Sightline line = lines(u, v);
+      const Eigen::Vector2d place = vision::project(straight.view.camera, turn * line.direction);
+      bent.facet.at<int>(v, u) =
+          first_met(scene, facets_around(straight.facet, place), nearest_of(straight.facet, place), line);
+    }
+  }
+  return bent;
+}
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,16 @@
+/// What eyes behind lenses that distort look at.
+#pragma once
+
+#include "renderer/truth/id_buffer.h"
+#include "renderer/truth/scene_geometry.h"
+
+namespace stereobench::renderer {
+
+/// Finds the facet that each bent ray meets: rasterisers draw straight lines, so what can be met is looked
+/// for among the facets of four pixels of a straight picture, and then decided exactly.
+/// @param straight what an eye of the rig's pinhole (pinhole_rig_of in lens.h) sees
+/// @param rig as it is, with its lens
+/// @throws std::invalid_argument when the lens folds its picture
+EyeSight bent_sight(const SceneGeometry& scene, const EyeSight& straight, const vision::StereoRig& rig);
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,38 @@
+#include "renderer/truth/eye_truth.h"
+
+#include <limits>
+
+namespace stereobench::renderer {
+namespace {
+
+constexpr float kNothing_m = std::numeric_limits<float>::infinity();
+
+cv::Vec3f vec(const Eigen::Vector3d& v) {
+  const Eigen::Vector3f narrow = v.cast<float>();
+  return {narrow.x(), narrow.y(), narrow.z()};
+}
+
+}  // namespace
+
+EyeTruth eye_truth(const SceneGeometry& scene, const EyeSight& sight) {
+  const cv::Size size = sight.facet.size();
+  EyeTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
+                 cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
+  const Eigen::Matrix3d turn = sight.view.camera_from_world.linear();
+  const Sightlines lines(sight.view);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const int facet = sight.facet.at<int>(v, u);
+      if (facet == kNoFacet) continue;
+      const Sightline line = lines(u, v);
+      const SceneGeometry::Seen seen = scene.seen(facet, line);
+      const Eigen::Vector3d normal = scene.normal(facet, seen.on_facet);
+      truth.surface.at<int>(v, u) = scene.surface(facet);
+      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_sight - line.origin_m).norm());
+      truth.normal.at<cv::Vec3f>(v, u) = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
+    }
+  }
+  return truth;
+}
+
+}  // namespace stereobench::renderer

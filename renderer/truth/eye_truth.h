@@ -1,0 +1,19 @@
+/// What an eye's pixels see, beyond identity and depth: derived in double precision from which facet it is.
+#pragma once
+
+#include "renderer/truth/id_buffer.h"
+#include "renderer/truth/scene_geometry.h"
+
+namespace stereobench::renderer {
+
+/// One eye's further truth, all of the rig's width and height.
+struct EyeTruth {
+  cv::Mat surface;  ///< CV_32SC1, number of the surface (facets.h), 0 = nothing
+  cv::Mat range_m;  ///< CV_32FC1, along the ray from the optical centre, +inf = nothing
+  cv::Mat
+      normal;  ///< CV_32FC3, unit normals of the geometry, towards the eye, in its camera frame; 0 = nothing
+};
+
+EyeTruth eye_truth(const SceneGeometry& scene, const EyeSight& sight);
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,26 @@
+/// What eyes look at, exactly: from where, and which facet of the world each pixel's centre sees.
+#pragma once
+
+#include <array>
+
+#include <opencv2/core.hpp>
+
+#include "renderer/camera/eye_view.h"
+
+namespace stereobench::renderer {
+
+/// One eye's look. With the world's geometry (scene_geometry.h) all else follows in double precision.
+struct EyeSight {
+  EyeView view;
+  cv::Mat facet;  ///< CV_32SC1, numbers of facets.h
+};
+
+/// The facets that the four pixels around a place see; those nearest to it, where it is not in the picture.
+std::array<int, 4> facets_around(const cv::Mat& facets, const Eigen::Vector2d& place_px);
+
+struct StereoSight {
+  EyeSight left;
+  EyeSight right;
+};
+
+}  // namespace stereobench::renderer

@@ -1,0 +1,30 @@
+/// Lines of sight in the world frame.
+#pragma once
+
+#include "renderer/camera/eye_view.h"
+#include "worlds/visibility/bvh.h"
+
+namespace stereobench::renderer {
+
+using worlds::Sightline;
+
+/// The sightlines of an eye's pixels; t is planar depth.
+class Sightlines {
+ public:
+  explicit Sightlines(const EyeView& view)
+      : view_(view),
+        eye_m_(view.centre_in_world()),
+        world_from_camera_(view.camera_from_world.linear().transpose()) {}
+
+  /// @param u,v (0, 0) is the centre of the top-left pixel
+  Sightline operator()(double u, double v) const {
+    return {eye_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
+  }
+
+ private:
+  EyeView view_;
+  Eigen::Vector3d eye_m_;
+  Eigen::Matrix3d world_from_camera_;
+};
+
+}  // namespace stereobench::renderer

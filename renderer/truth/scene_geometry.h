@@ -1,0 +1,68 @@
+/// The facets of a world as equations in double precision: where rays meet them.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "renderer/surfaces/facets.h"
+#include "renderer/truth/ray.h"
+#include "worlds/visibility/bvh.h"
+
+namespace stereobench::renderer {
+
+/// Everything that can be seen of a world. Meshes are read anew: a renderer keeps theirs in GL alone.
+class SceneGeometry {
+ public:
+  /// @throws std::runtime_error as read_mesh
+  explicit SceneGeometry(const worlds::World& world);
+
+  /// The parameter at which a sightline enters a facet.
+  /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
+  double enter(int facet, const Sightline& sight) const;
+
+  /// The wall, triangle or floor that a sightline enters first; balls are passed over.
+  /// @param from,before the parameters between which it is looked at
+  /// @param but_for a facet that does not count
+  /// @return kNoFacet where it meets none
+  int first_flat(const Sightline& sight, double from, double before, int but_for = kNoFacet) const;
+
+  /// What a pixel's centre sees of a facet. The rasteriser snaps corners to 1/256 px and computes outlines in
+  /// single precision: where the sightline just passes by, the facet's nearest point is taken.
+  struct Seen {
+    Eigen::Vector3d on_facet;
+    Eigen::Vector3d on_sight;  ///< the same point, or where the sightline comes nearest to it
+  };
+  /// @param facet that is seen there, not kNoFacet
+  Seen seen(int facet, const Sightline& sight) const;
+
+  /// The unit normal of a facet at one of its points, world frame: outwards for balls, either way for others.
+  Eigen::Vector3d normal(int facet, const Eigen::Vector3d& point_m) const;
+
+  /// The surface that a facet is of (facets.h).
+  int surface(int facet) const;
+
+ private:
+  enum class Shape { kNothing, kPlane, kParallelogram, kTriangle };
+  /// Points are corner + s along + t up; s and t are found with the dual vectors.
+  struct Flat {
+    Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
+         const Eigen::Vector3d& up);
+    bool contains(double s, double t) const;
+    /// The point of the facet that is taken for one of its plane which is not on it.
+    Eigen::Vector3d nearest(const Eigen::Vector3d& in_plane) const;
+    Shape shape;
+    int surface;
+    Eigen::Vector3d corner, along, up, normal, dual_along, dual_up;
+  };
+  static std::vector<Flat> flats_of(const worlds::World& world);
+  static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
+  const Flat& flat(int facet) const { return flats_[static_cast<std::size_t>(facet - kFloorFacet)]; }
+  const worlds::Ball& ball(int facet) const { return balls_[static_cast<std::size_t>(facet - 1)]; }
+
+  std::vector<worlds::Ball> balls_;
+  std::vector<Flat> flats_;  // the floor, walls, triangles
+  worlds::BoxTree tree_;     // of all flats but the floor
+};
+
+}  // namespace stereobench::renderer

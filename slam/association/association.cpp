@@ -1,0 +1,26 @@
+#include "slam/association/association.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace stereobench::slam {
+
+void assign(std::vector<Candidate>& candidates, bool near_excludes, std::span<Target> targets) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.gated, a.cost, a.sighting, a.landmark) <
+           std::tie(b.gated, b.cost, b.sighting, b.landmark);
+  });
+  std::vector<int> taken;
+  for (const Candidate& pair : candidates) {
+    Target& target = targets[static_cast<std::size_t>(pair.sighting)];
+    if (target.fate == Fate::kUse) continue;
+    if (std::find(taken.begin(), taken.end(), pair.landmark) == taken.end()) {
+      target = {Fate::kUse, pair.landmark};
+      taken.push_back(pair.landmark);
+    } else if (near_excludes) {
+      target.fate = Fate::kIgnore;  // until a free candidate turns up further down
+    }
+  }
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,33 @@
+#include "slam/association/contradiction.h"
+
+#include "slam/models/measurement.h"
+
+namespace stereobench::slam {
+namespace {
+
+constexpr int kPatience = 5;   ///< contradictions in a row before they are taken seriously
+constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believing against the odometry
+
+}  // namespace
+
+Fate judge_contradiction(const TrackRecord& landmark, bool certain, bool vouched) {
+  const bool persistent = landmark.refusals + 1 >= kPatience;
+  const bool pose_is_wrong = !vouched && (certain || landmark.uses >= kConfirmed);
+  if (pose_is_wrong && (certain || persistent)) return Fate::kUse;
+  return persistent ? Fate::kMove : Fate::kRefuse;
+}
+
+Eigen::Matrix3d drift_covariance(const Pose& pose, const Eigen::Vector2d& landmark,
+                                 const Observation& observation) {
+  constexpr double kHeadingPerMetre_rad = 0.1;
+  const double off_m2 = (locate(pose, observation.range_bearing) - landmark).squaredNorm();
+  return Eigen::Vector3d(off_m2, off_m2, kHeadingPerMetre_rad * kHeadingPerMetre_rad * off_m2).asDiagonal();
+}
+
+Eigen::Matrix3d bend_covariance(const PoseBelief& motion) {
+  const Eigen::Matrix3d& p = motion.covariance;
+  const double bend_m2 = p(2, 2) * (p(0, 0) + p(1, 1));
+  return Eigen::Vector3d(bend_m2, bend_m2, 0.0).asDiagonal();
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,23 @@
+/// What a filter decided about the sightings of its last update, for those who know the truth.
+#pragma once
+
+#include <vector>
+
+#include "slam/association/sighting.h"
+
+namespace stereobench::slam {
+
+/// What became of one sighting. Sightings are numbered over all that a filter was ever given, from 0.
+struct Decision {
+  int sighting = kUnknown;
+  Fate fate = Fate::kAdd;
+  int origin = kUnknown;  ///< the sighting that founded the landmark it was held against; kUnknown: none
+};
+
+/// The decisions of the last update by the particle that the frame left heaviest, and that particle's map.
+struct Decisions {
+  std::vector<Decision> sightings;  ///< those that could be used, in their order
+  std::vector<int> mapped;          ///< origins of the landmarks it has after the update
+};
+
+}  // namespace stereobench::slam

@@ -1,0 +1,34 @@
+/// A measurement on its way through an update, and what becomes of it.
+#pragma once
+
+#include "slam/models/belief.h"
+
+namespace stereobench::slam {
+
+/// A sighting that passed the checks. Its slot is the identity's index, or kUnknown when only a colour was
+/// seen.
+struct Sighting {
+  Observation observation;
+  int slot = kUnknown;
+  int colour_class = kUnknown;
+  int number = kUnknown;  ///< counted over all sightings a filter was given
+  int index = 0;          ///< among the sightings as they came in
+};
+
+/// What becomes of a sighting.
+enum class Fate {
+  kAdd,      ///< something that is not in the map yet
+  kUse,      ///< corrects the pose, then the landmark
+  kConfirm,  ///< speaks for a landmark that may be clutter, which is not trusted to correct the pose
+  kMove,     ///< the landmark turned out to be wrong and is found anew
+  kRefuse,   ///< contradicts its landmark and is not believed
+  kIgnore,   ///< a double of another sighting, or too near a landmark to be new and too far to be it
+};
+
+/// A sighting's fate, and the index of its landmark in the particle's map; -1 where it has none.
+struct Target {
+  Fate fate = Fate::kAdd;
+  int landmark = -1;
+};
+
+}  // namespace stereobench::slam

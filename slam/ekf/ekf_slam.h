@@ -1,0 +1,87 @@
+/// The extended Kalman filter over the pose and all landmarks at once.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/association/association.h"
+#include "slam/association/contradiction.h"
+#include "slam/association/decisions.h"
+#include "slam/association/existence.h"
+#include "slam/association/frame_reader.h"
+#include "slam/ekf/joint_belief.h"
+#include "slam/filter_config.h"
+#include "slam/models/linearised.h"
+#include "slam/update_report.h"
+
+namespace stereobench::slam {
+
+/// EKF-SLAM (Smith, Self and Cheeseman, 1990): one Gaussian, in which the pose and every landmark are
+/// correlated with each other.
+///
+/// The motion since the last update is kept apart, in the robot's frame, as FastSlam does: motion in the
+/// plane does not depend on where it happens, and levers of motions add up, so putting it behind the pose in
+/// one go is the same as step by step. A prediction then touches no landmark.
+///
+/// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
+/// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
+/// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapUpkeep.
+class EkfSlam {
+ public:
+  EkfSlam(const FilterConfig& config, const Pose& start);
+
+  void predict(const Control& control);
+  void update(std::span<const RangeBearing> sightings);
+  Estimate estimate() const;
+  Estimate estimate_without_map() const;
+  const UpdateReport& last_update() const { return report_; }
+  int particle_count() const { return 1; }
+  Decisions last_decisions() const;
+
+ private:
+  /// What is known of a landmark besides its place.
+  struct Mapped {
+    int slot = kUnknown;
+    int colour_class = kUnknown;
+    TrackRecord record;
+    int origin = kUnknown;  ///< the sighting that founded it
+    float log_odds = 0.0F;  ///< that it exists
+    bool claimed = false;   ///< by a sighting of the frame in progress
+  };
+  /// A frame beside what becomes of it.
+  struct Decided {
+    std::span<const Sighting> frame;
+    std::vector<Target> targets;
+    std::vector<std::size_t> order;  ///< of the sightings that correct the pose: oldest landmarks first
+  };
+
+  Decided associate(std::span<const Sighting> frame);
+  void find_candidates(const Sighting& sighting, int index, std::vector<Candidate>& candidates);
+  void associate_jointly(std::span<const Sighting> frame, std::vector<Candidate>& candidates);
+  void note_decisions(const Decided& decided);
+  void correct_one_by_one(Decided& decided);
+  Fate use(int landmark, const Sighting& sighting, bool vouched);
+  std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
+  void learn(const Target& target, const Sighting& sighting);
+  Fate add(const Sighting& sighting);
+  bool may_be_mapped(const Sighting& sighting, const LandmarkBelief& found);
+  int place_for_new() const;
+  void weaken_unseen();
+
+  FilterConfig config_;
+  double gate_;
+  double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
+  Existence existence_;
+  Linearised model_;
+  FrameReader reader_;
+  JointBelief belief_;  ///< at the last update
+  PoseBelief motion_;   ///< since the last update, in the robot's frame of that time
+  std::vector<Mapped> map_;
+  std::vector<int> landmark_of_slot_;
+  std::vector<Decision> decided_;  ///< of the last frame
+  FilterCounters counters_;
+  UpdateReport report_;  ///< of the last update
+};
+
+}  // namespace stereobench::slam

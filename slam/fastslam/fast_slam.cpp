@@ -1,0 +1,261 @@
+#include "slam/fastslam/fast_slam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/fastslam/mixture.h"
+#include "slam/fastslam/resampling.h"
+#include "slam/math/gaussian.h"
+#include "slam/models/measurement.h"
+#include "slam/models/motion.h"
+
+namespace stereobench::slam {
+template <class Model>
+FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed,
+                          Proposal proposal, Updates updates)
+    : config_(config),
+      proposal_(proposal),
+      model_(config.unscented),
+      reader_(config),
+      correction_(config, proposal == Proposal::kMotion ? Updates::kToJudge : updates),
+      upkeep_(config),
+      random_(seed, Stream::kFilter),
+      particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
+      log_weights_(particles_.size()),
+      weights_(particles_.size()),
+      headings_(particles_.size()),
+      posteriors_(particles_.size()),
+      belief_{start, Eigen::Matrix3d::Zero()},
+      effective_(static_cast<double>(config.particles)) {
+  make_equal(log_weights_, weights_);
+}
+
+template <class Model>
+void FastSlam<Model>::predict(const Control& control) {
+  if (!is_valid(control)) {
+    ++counters_.rejected_inputs;
+    return;
+  }
+  const Eigen::Vector2d control_sd = standard_deviations(control, config_.odometry_noise);
+  motion_ = model_.move(motion_, control, control_sd, counters_.covariance_repairs);
+}
+
+template <class Model>
+void FastSlam<Model>::update(std::span<const RangeBearing> sightings) {
+  report_ = {};
+  const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
+  decided_.clear();
+  if (frame.empty()) return;
+  const bool believed = correct(frame);
+  if (believed && proposal_ == Proposal::kMotion) draw_from_motion(frame);
+  if (config_.report_updates)
+    report_.innovations = normalised_innovations(frame, targets_, expected_, log_weights_);
+  if (believed) {
+    reweigh();
+  }
+  note_decisions(frame);
+  if (believed) {
+    if (effective_ < config_.resample_below * static_cast<double>(particles_.size())) resample();
+    draw_poses();
+  }
+  for (std::size_t i = 0; i < particles_.size(); ++i) update_map(i, frame);
+  for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].fate = targets_of(decider_)[k].fate;
+}
+
+template <class Model>
+std::span<Target> FastSlam<Model>::targets_of(std::size_t particle) {
+  const std::size_t width = targets_.size() / particles_.size();
+  return std::span(targets_).subspan(particle * width, width);
+}
+
+/// Keeps for the report what the particle that was just corrected or weighed expected.
+template <class Model>
+void FastSlam<Model>::keep_expected(std::size_t particle) {
+  const std::span<const ExpectedSighting> expected = correction_.expected();
+  expected_.resize(targets_.size());
+  std::ranges::copy(expected, expected_.begin() + static_cast<std::ptrdiff_t>(particle * expected.size()));
+}
+
+/// @return whether any particle believed anything; if none did, the frame is as good as empty
+template <class Model>
+bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
+  targets_.resize(particles_.size() * frame.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    headings_[i] = sine_cosine(particles_[i].pose.heading_rad);
+    const PoseBelief predicted = follow(particles_[i].pose, headings_[i], motion_);
+    posteriors_[i] = correction_.correct(particles_[i], predicted, frame, targets_of(i), counters_);
+    if (config_.report_updates) keep_expected(i);
+  }
+  return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
+    return target.fate != Fate::kRefuse && target.fate != Fate::kIgnore;
+  });
+}
+
+/// Draws each pose from the odometry, and weighs it by what was believed of the frame.
+template <class Model>
+void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
+  long& repairs = counters_.covariance_repairs;
+  const Eigen::Matrix3d root = semidefinite_root<3>(motion_.covariance, repairs);
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    if (posteriors_[i].pulled) continue;
+    const Pose drawn = compose(particles_[i].pose, headings_[i], displace(motion_.mean, root * normals()));
+    posteriors_[i] = {{drawn, Eigen::Matrix3d::Zero()},
+                      correction_.log_likelihood(particles_[i], drawn, frame, targets_of(i), repairs)};
+    if (config_.report_updates) keep_expected(i);
+  }
+}
+
+template <class Model>
+void FastSlam<Model>::reweigh() {
+  for (std::size_t i = 0; i < particles_.size(); ++i) log_weights_[i] += posteriors_[i].log_likelihood;
+  if (!normalise(log_weights_, weights_)) ++counters_.weight_collapses;
+  effective_ = effective_particles(weights_);
+  belief_ = mixed_pose(posteriors_, weights_);
+}
+
+/// Before resampling, which the heaviest particle survives in its place, and before landmarks are moved.
+template <class Model>
+void FastSlam<Model>::note_decisions(std::span<const Sighting> frame) {
+  decider_ = static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const Target& target = targets_of(decider_)[k];
+    const bool held = target.landmark >= 0;
+    const int origin = held ? landmark_of(particles_[decider_], frame[k], target).origin : kUnknown;
+    decided_.push_back({frame[k].number, target.fate, origin});
+  }
+}
+
+template <class Model>
+void FastSlam<Model>::resample() {
+  const std::vector<int> ancestors = ancestors_in_place(systematic_descendants(weights_, random_.uniform()));
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const auto from = static_cast<std::size_t>(ancestors[i]);
+    if (from == i) continue;
+    particles_[i] = particles_[from].descendant();
+    posteriors_[i] = posteriors_[from];
+    std::ranges::copy(targets_of(from), targets_of(i).begin());
+  }
+  if (config_.report_updates) report_.ancestors = ancestors;
+  make_equal(log_weights_, weights_);
+  ++counters_.resamplings;
+}
+
+template <class Model>
+void FastSlam<Model>::draw_poses() {
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const PoseBelief& belief = posteriors_[i].pose;
+    particles_[i].pose = belief.mean;
+    if (proposal_ == Proposal::kMotion && !posteriors_[i].pulled) continue;
+    const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, counters_.covariance_repairs);
+    particles_[i].pose = displace(belief.mean, root * normals());
+  }
+  motion_ = {};
+}
+
+template <class Model>
+Eigen::Vector3d FastSlam<Model>::normals() {
+  Eigen::Vector3d drawn;
+  for (double& normal : drawn) normal = random_.normal();
+  return drawn;
+}
+
+template <class Model>
+void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting> frame) {
+  const std::span<Target> targets = targets_of(particle);
+  Particle& mine = particles_[particle];
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    if (targets[k].landmark >= 0 && targets[k].fate != Fate::kIgnore) learn(mine, frame[k], targets[k]);
+  }
+  upkeep_.survey(mine, frame, targets);
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    if (targets[k].fate == Fate::kAdd) targets[k].fate = add(mine, frame[k]);
+  }
+  upkeep_.weaken_unseen(mine);
+}
+
+template <class Model>
+void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const Target& target) {
+  Landmark landmark = landmark_of(particle, sighting, target);
+  long& repairs = counters_.covariance_repairs;
+  if (target.fate == Fate::kRefuse) {
+    landmark.record.contradict();
+  } else if (target.fate == Fate::kMove) {
+    landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
+    landmark.origin = sighting.number;
+    landmark.log_odds = upkeep_.existence().founded();
+  } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
+    landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
+    landmark.record.agree();
+    landmark.log_odds = upkeep_.existence().seen(landmark.log_odds, sighting.observation);
+  }
+  map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);
+}
+
+/// @return kAdd, or kIgnore for what is no new landmark
+template <class Model>
+Fate FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
+  long& repairs = counters_.covariance_repairs;
+  const auto slot = static_cast<std::size_t>(sighting.slot);
+  if (sighting.slot != kUnknown && slot < particle.known.size()) {  // seen twice in the frame that found it
+    learn(particle, sighting, {Fate::kUse, sighting.slot});
+    return Fate::kAdd;
+  }
+  const LandmarkBelief found = model_.found(particle.pose, sighting.observation, repairs);
+  if (sighting.slot != kUnknown) {
+    Landmark landmark{found, sighting.colour_class};
+    landmark.origin = sighting.number;
+    particle.known.push_back(landmark);
+  } else if (!upkeep_.add(particle, sighting, found)) {
+    ++counters_.gated_measurements;  // no other landmark of this colour can be here
+    return Fate::kIgnore;
+  }
+  return Fate::kAdd;
+}
+
+template <class Model>
+Estimate FastSlam<Model>::estimate() const {
+  Estimate estimate = estimate_without_map();
+  const auto heaviest = std::max_element(log_weights_.begin(), log_weights_.end()) - log_weights_.begin();
+  const Particle& reported = particles_[static_cast<std::size_t>(heaviest)];
+  for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
+    const LandmarkBelief mixed = mixed_landmark(particles_, weights_, slot);
+    const RangeBearing& first = reader_.first_sighting(slot);
+    estimate.landmarks.push_back(
+        {first.landmark_id, first.colour_class, mixed.mean, mixed.covariance, reported.known[slot].origin});
+  }
+  for (std::size_t i = 0; i < reported.classed.size(); ++i) {
+    const Landmark& own = reported.classed[i];
+    if (!Existence::is_believed(own.log_odds)) continue;
+    const LandmarkBelief mixed =
+        mixed_landmark_near(particles_, weights_, own, 0.5 * config_.colour_spacing_m);
+    estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance, own.origin});
+  }
+  return estimate;
+}
+
+template <class Model>
+Decisions FastSlam<Model>::last_decisions() const {
+  Decisions decisions{decided_, {}};
+  const Particle& particle = particles_[decider_];
+  for (std::size_t slot = 0; slot < particle.known.size(); ++slot)
+    decisions.mapped.push_back(particle.known[slot].origin);
+  for (std::size_t i = 0; i < particle.classed.size(); ++i) {
+    const Landmark& landmark = particle.classed[i];
+    if (!Existence::is_dead(landmark.log_odds)) decisions.mapped.push_back(landmark.origin);
+  }
+  return decisions;
+}
+
+template <class Model>
+Estimate FastSlam<Model>::estimate_without_map() const {
+  const PoseBelief now = follow(belief_, motion_);
+  return {.pose = now.mean,
+          .covariance = now.covariance,
+          .effective_particles = effective_,
+          .counters = counters_};
+}
+
+template class FastSlam<Linearised>;
+template class FastSlam<Unscented>;
+
+}  // namespace stereobench::slam

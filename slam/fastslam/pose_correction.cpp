@@ -1,0 +1,291 @@
+#include "slam/fastslam/pose_correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/association/contradiction.h"
+#include "slam/association/joint_compatibility.h"
+#include "slam/fastslam/landmark_search.h"
+#include "slam/math/elementary.h"
+#include "slam/math/gaussian.h"
+#include "slam/models/measurement.h"
+#include "slam/models/noise_law.h"
+
+namespace stereobench::slam {
+namespace {
+
+constexpr double kSlip =
+    3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
+
+/// Whether a posterior and the squares that are made of it are numbers.
+bool is_finite(const Posterior& posterior) {
+  const Pose& pose = posterior.pose.mean;
+  return std::isfinite(pose.x_m * pose.x_m + pose.y_m * pose.y_m) && std::isfinite(pose.heading_rad) &&
+         posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
+}
+
+/// A sighting's surprise, measured by what was expected.
+struct Surprise {
+  Surprise(const Innovation& innovation, const Observation& observation, long& repairs)
+      : expected(innovation),
+        factor(innovation.covariance, repairs),
+        residual(sighting_residual(observation.range_bearing, innovation.expected)),
+        squared_length(factor.squared_length(residual)) {}
+
+  double log_likelihood() const { return -0.5 * (squared_length + factor.log_det_2_pi()); }
+
+  Innovation expected;
+  Factor2 factor;
+  Eigen::Vector2d residual;
+  double squared_length;
+};
+
+ExpectedSighting expectation(const Innovation& innovation, double log_likelihood) {
+  return {true, innovation.expected, innovation.covariance, log_likelihood};
+}
+
+/// The Kalman update in gain form, K = P_xz S^-1: a singular P is nothing special, and P^-1 is never needed.
+void apply(const Surprise& surprise, Posterior& posterior) {
+  const Eigen::Matrix<double, 3, 2> gain = surprise.factor.template divide<3>(surprise.expected.cross);
+  const Eigen::Matrix3d covariance = posterior.pose.covariance - gain * surprise.expected.cross.transpose();
+  posterior.pose.mean = displace(posterior.pose.mean, gain * surprise.residual);
+  posterior.pose.covariance = 0.5 * (covariance + covariance.transpose());
+  posterior.log_likelihood += surprise.log_likelihood();
+  posterior.vouched = true;
+}
+
+}  // namespace
+
+template <class Model>
+PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates updates)
+    : model_(config.unscented),
+      updates_(updates),
+      gate_probability_(config.gate_probability),
+      gate_(chi_square_2_quantile(config.gate_probability)),
+      near_m_(0.5 * config.colour_spacing_m),
+      association_(config.association),
+      existence_(config.sector),
+      refit_(config.refit),
+      report_(config.report_updates) {}
+
+template <class Model>
+Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
+                                         std::span<const Sighting> frame, std::span<Target> targets,
+                                         FilterCounters& counters) {
+  associate(particle, predicted, frame, targets, counters);
+  order_by_age(targets);
+  if (report_) expected_.assign(frame.size(), {});
+  Posterior posterior{predicted};
+  const long gated_before = counters.gated_measurements;
+  if (updates_ == Updates::kAtOnce) use_at_once(particle, frame, targets, posterior, counters);
+  for (const std::size_t k : updates_ == Updates::kAtOnce ? late_ : order_) {
+    const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
+    const double before = posterior.log_likelihood;
+    const bool contradicted = counters.gated_measurements > gated_before;
+    const bool read = updates_ != Updates::kToJudge || k != order_.back() || contradicted;
+    targets[k].fate = use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
+    if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
+  }
+  if (refit_ && counters.gated_measurements > gated_before) {
+    matches_.clear();
+    for (const std::size_t k : order_)
+      matches_.push_back({landmark_of(particle, frame[k], targets[k]).belief, frame[k].observation});
+    const auto joint = reconsider(predicted, posterior, counters.covariance_repairs);
+    if (joint) {
+      posterior = *joint;
+      counters.gated_measurements = gated_before;
+      for (const std::size_t k : order_) targets[k].fate = Fate::kUse;
+    }
+  }
+  posterior.log_likelihood += log_density_of_new(frame, targets);
+  if (is_finite(posterior)) return posterior;
+  ++counters.covariance_repairs;
+  return {predicted, -std::numeric_limits<double>::infinity(), false};
+}
+
+template <class Model>
+double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pose& drawn,
+                                             std::span<const Sighting> frame, std::span<const Target> targets,
+                                             long& repairs) {
+  if (report_) expected_.assign(frame.size(), {});
+  double sum = log_density_of_new(frame, targets);
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
+    const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
+    const Observation& observation = frame[k].observation;
+    const Surprise surprise(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
+    const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
+    const double log_likelihood = -0.5 * (squared_length + surprise.factor.log_det_2_pi());
+    if (report_) expected_[k] = expectation(surprise.expected, log_likelihood);
+    sum += log_likelihood;
+  }
+  return sum;
+}
+
+template <class Model>
+void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief& predicted,
+                                      std::span<const Sighting> frame, std::span<Target> targets,
+                                      FilterCounters& counters) {
+  candidates_.clear();
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    targets[k] = {};
+    if (frame[k].slot == kUnknown) {
+      find_candidates(particle, predicted, frame[k], static_cast<int>(k), counters);
+    } else if (static_cast<std::size_t>(frame[k].slot) < particle.known.size()) {
+      targets[k] = {Fate::kUse, frame[k].slot};
+    }
+  }
+  if (association_ == Association::kJoint && !(near_m_ > 0.0) && compete(candidates_))
+    associate_jointly(particle, predicted, frame, counters);
+  if (candidates_.empty()) return;
+  assign(candidates_, near_m_ > 0.0, targets);
+  for (std::size_t k = 0; existence_.is_tracked() && k < frame.size(); ++k) {
+    if (frame[k].slot != kUnknown || targets[k].fate != Fate::kUse) continue;
+    if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).log_odds))
+      targets[k].fate = Fate::kConfirm;
+  }
+}
+
+/// Drops the candidates that do not go with the rest of the frame. Given a particle's path its landmarks are
+/// independent, so that the pose alone ties their sightings together.
+template <class Model>
+void PoseCorrection<Model>::associate_jointly(const Particle& particle, const PoseBelief& predicted,
+                                              std::span<const Sighting> frame, FilterCounters& counters) {
+  const Eigen::Matrix3d root = semidefinite_root<3>(predicted.covariance, counters.covariance_repairs);
+  std::vector<Pairing> pairings;
+  std::vector<Eigen::Matrix<double, 2, 3>> by_error;  // of the pose, in its standard deviations
+  for (const Candidate& pair : candidates_) {
+    const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
+    const LandmarkBelief& landmark = particle.classed[static_cast<std::size_t>(pair.landmark)].belief;
+    const LinearSighting linear = linearise_sighting(predicted.mean, landmark.mean);
+    const auto& [expected, by_landmark] = linear;
+    by_error.push_back(linear.by_pose() * root);
+    pairings.push_back({sighting_residual(observation.range_bearing, expected),
+                        by_error.back() * by_error.back().transpose() +
+                            by_landmark * landmark.covariance * by_landmark.transpose() +
+                            noise_at(observation, expected)});
+  }
+  const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
+    return by_error[a] * by_error[b].transpose();
+  };
+  keep_joint(candidates_, pairings, tie, gate_probability_, counters.joint_searches_cut);
+}
+
+/// The log density of the sightings that were given to no landmark that is believed in; those with an
+/// identity are new to all particles alike.
+template <class Model>
+double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame,
+                                                 std::span<const Target> targets) const {
+  if (!existence_.is_tracked()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const Fate fate = targets[k].fate;
+    const bool of_none = fate == Fate::kAdd || fate == Fate::kIgnore || fate == Fate::kConfirm;
+    if (of_none && frame[k].slot == kUnknown) sum -= 0.5 * existence_.cost_of_new(frame[k].observation);
+  }
+  return sum;
+}
+
+template <class Model>
+void PoseCorrection<Model>::find_candidates(const Particle& particle, const PoseBelief& predicted,
+                                            const Sighting& sighting, int index, FilterCounters& counters) {
+  const Observation& observation = sighting.observation;
+  const SightingPlace place(predicted, observation, {gate_, near_m_});
+  const double cost_of_new = existence_.cost_of_new(observation);
+  visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
+    long& repairs = counters.covariance_repairs;
+    const Surprise surprise(model_.expect(predicted, landmark.belief, observation, repairs), observation,
+                            repairs);
+    const double cost = -2.0 * surprise.log_likelihood();
+    const bool gated = !(surprise.squared_length <= gate_ && cost <= cost_of_new);
+    if (gated && !((place.mean_m() - landmark.belief.mean).norm() < near_m_)) return;
+    candidates_.push_back({index, static_cast<int>(j), cost, gated});
+  });
+}
+
+/// @param refusing the posterior that refuses some of the matches
+/// @return the posterior of all matches at once, when one pose explains them better than refusing does
+template <class Model>
+std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& predicted,
+                                                           const Posterior& refusing, long& repairs) const {
+  const double limit = chi_square_quantile(gate_probability_, 2.0 * static_cast<double>(matches_.size()));
+  const Eigen::Matrix3d covariance = predicted.covariance + bend_covariance(predicted);
+  const FrameFit bent = fit_frame({predicted.mean, covariance}, matches_, repairs);
+  if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
+  if (matches_.size() < 2) return std::nullopt;  // nobody else says so
+  FrameFit slipped = fit_frame({predicted.mean, kSlip * kSlip * covariance}, matches_, repairs);
+  slipped.posterior.log_likelihood +=
+      logarithm_of_one_plus(-gate_probability_);  // so rarely is the odometry that wrong
+  if (!(slipped.prior_cost + slipped.sighting_cost <= limit)) return std::nullopt;
+  if (!(slipped.posterior.log_likelihood > refusing.log_likelihood)) return std::nullopt;
+  return slipped.posterior;
+}
+
+template <class Model>
+void PoseCorrection<Model>::order_by_age(std::span<const Target> targets) {
+  order_.clear();
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (targets[k].fate == Fate::kUse) order_.push_back(k);
+  }
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(targets[a].landmark, a) < std::pair(targets[b].landmark, b);
+  });
+}
+
+/// Uses the sightings that the prediction does not refuse, and leaves the others in late_.
+template <class Model>
+void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<const Sighting> frame,
+                                        std::span<Target> targets, Posterior& posterior,
+                                        FilterCounters& counters) {
+  late_.clear();
+  expectations_.clear();
+  long& repairs = counters.covariance_repairs;
+  for (const std::size_t k : order_) {
+    const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
+    const Observation& observation = frame[k].observation;
+    const Surprise surprise(model_.expect(posterior.pose, landmark, observation, repairs), observation,
+                            repairs);
+    if (surprise.squared_length <= gate_) {
+      expectations_.push_back({surprise.expected, surprise.residual});
+      if (report_) expected_[k] = expectation(surprise.expected, surprise.log_likelihood());
+    } else {
+      late_.push_back(k);
+    }
+  }
+  if (!expectations_.empty()) posterior = correct_at_once(posterior.pose, expectations_, repairs);
+}
+
+template <class Model>
+Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
+                                FilterCounters& counters, const Wanted& wanted) const {
+  long& repairs = counters.covariance_repairs;
+  const Observation& observation = sighting.observation;
+  const long before = repairs;
+  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
+                          repairs);
+  if (wanted.expected != nullptr) *wanted.expected = expectation(surprise.expected, 0.0);
+  if (surprise.squared_length <= gate_) {
+    const bool teaches = repairs == before;  // else all is certain
+    if (wanted.pose && teaches) apply(surprise, posterior);
+    return Fate::kUse;
+  }
+  ++counters.gated_measurements;
+  const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
+  const Fate fate = judge_contradiction(landmark.record, certain, posterior.vouched);
+  if (fate == Fate::kUse) {
+    posterior.pulled = true;
+    posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);
+    apply(
+        Surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation, repairs),
+        posterior);
+  } else {
+    posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());
+  }
+  return fate;
+}
+
+template class PoseCorrection<Linearised>;
+template class PoseCorrection<Unscented>;
+
+}  // namespace stereobench::slam

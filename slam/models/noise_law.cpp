@@ -1,0 +1,21 @@
+#include "slam/models/noise_law.h"
+
+#include "slam/models/motion.h"
+
+namespace stereobench::slam {
+
+Observation observe(const RangeBearing& seen, const FilterConfig& config) {
+  Observation observation{{seen.range_m, wrap_angle(seen.bearing_rad)}, seen.covariance};
+  if (config.noise_law) {
+    const Eigen::Vector2d sd(config.noise_law->range_sd_m, config.noise_law->bearing_sd_rad);
+    observation.noise = sd.cwiseAbs2().asDiagonal();
+    observation.range_sd_per_m2 = config.noise_law->range_sd_per_m2;
+  } else {
+    observation.noise =
+        config.stated_sd_scale.asDiagonal() * seen.covariance * config.stated_sd_scale.asDiagonal();
+  }
+  observation.noise.diagonal() += Eigen::Vector2d(config.range_floor_m, config.bearing_floor_rad).cwiseAbs2();
+  return observation;
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,120 @@
+#include "harness/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include "tests/harness/logs/log_folder.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+namespace fs = std::filesystem;
+
+long files_in(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+TEST(AtomicFile, WritesEveryByteAndLeavesNothingElse) {
+  const TestFolder folder;
+  const std::string bytes("a\0b\n\xff", 5);
+  write_file_atomically(folder.path() / "file", bytes);
+  EXPECT_EQ(folder.read("file"), bytes);
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(AtomicFile, ReplacesAnOldFileAndHonoursTheCreationMask) {
+  const TestFolder folder;
+  folder.write("file", "a much longer old content");
+  const mode_t mask = umask(027);
+  write_file_atomically(folder.path() / "file", "new");
+  umask(mask);
+  struct stat status {};
+  ASSERT_EQ(stat((folder.path() / "file").c_str(), &status), 0);
+  EXPECT_EQ(folder.read("file"), "new");
+  EXPECT_EQ(status.st_mode & 0777, 0640U);
+}
+
+// Mutation: writing to the final name directly. The reader that holds the old file would see it change.
+TEST(AtomicFile, AReaderOfTheOldFileKeepsIt) {
+  const TestFolder folder;
+  folder.write("file", "old");
+  std::ifstream reader(folder.path() / "file");
+  write_file_atomically(folder.path() / "file", "new and longer");
+  std::string seen;
+  reader >> seen;
+  EXPECT_EQ(seen, "old");
+}
+
+TEST(AtomicFile, PassesOverWhatAKilledRunLeft) {
+  const TestFolder folder;
+  folder.write("file." + std::to_string(getpid()) + "-0.tmp", "left behind");
+  write_file_atomically(folder.path() / "file", "new");
+  EXPECT_EQ(folder.read("file"), "new");
+  EXPECT_EQ(files_in(folder.path()), 2);
+}
+
+TEST(AtomicFile, NamesPathAndCause) {
+  const TestFolder folder;
+  fs::create_directory(folder.path() / "sub");
+  const auto write = [&](const char* name) { write_file_atomically(folder.path() / name, "x"); };
+  EXPECT_THAT([&] { write("missing/file"); },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("missing/file"), HasSubstr("No such file"))));
+  EXPECT_THAT([&] { write("sub"); },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("sub"), HasSubstr("Is a directory"))));
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+// A child with a limit on file size stands for a full disk: the write fails half way.
+// Mutation: leaving out the removal of the temporary file, or replacing the old file before the write is
+// done.
+TEST(AtomicFile, AFullDiskLeavesTheOldFileAndNoPart) {
+  const TestFolder folder;
+  folder.write("file", "old");
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit limit{1000, 1000};
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_file_atomically(folder.path() / "file", std::string(100'000, 'x'));
+    } catch (const std::runtime_error& error) {
+      _exit(std::string(error.what()).find("File too large") == std::string::npos ? 1 : 2);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(folder.read("file"), "old");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(OutputFolder, IsCreatedWithItsParentsAndMayExist) {
+  const TestFolder folder;
+  prepare_output_folder(folder.path() / "a/b");
+  prepare_output_folder(folder.path() / "a/b");
+  EXPECT_TRUE(fs::is_directory(folder.path() / "a/b"));
+}
+
+TEST(OutputFolder, NamesWhatIsWrong) {
+  const TestFolder folder;
+  folder.write("file", "x");
+  EXPECT_THAT([&] { prepare_output_folder(folder.path() / "file"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("file: is a file, not a folder")));
+  EXPECT_THAT([&] { prepare_output_folder(folder.path() / "file/below"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("Not a directory")));
+  EXPECT_THAT([] { prepare_output_folder("/proc/stereobench"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("/proc/stereobench: cannot be created")));
+  EXPECT_THAT([] { prepare_output_folder("/dev/null"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("/dev/null: is a file, not a folder")));
+  EXPECT_THROW(prepare_output_folder(""), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace stereobench::harness

@@ -1,0 +1,229 @@
+/// Facets, ranges, normals and shifts behind a lens, each pixel against the ray-caster along the ray that the
+/// lens bends to it.
+
+#include "renderer/truth/distorted_ids.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "renderer/camera/lens.h"
+#include "renderer/renderer.h"
+#include "renderer/truth/correspondence.h"
+#include "renderer/truth/eye_truth.h"
+#include "tests/renderer/random_scene.h"
+#include "tests/renderer/ray_caster.h"
+#include "tests/renderer/wedge.h"
+#include "vision/camera/distortion.h"
+#include "vision/camera/rig.h"
+
+namespace stereobench::renderer {
+namespace {
+
+using vision::Eye;
+
+/// A room with a mesh, behind lenses that bend lines by many pixels; the right eye is out of place.
+struct BentRoom {
+  explicit BentRoom(std::uint64_t seed)
+      : world(test::random_room(seed)), triangles(test::add_wedge(world)), scene(world) {
+    pose = seed % 2 == 0 ? slam::Pose{0.0, 0.0, 0.2} : test::random_pose(seed);
+    rig.right_turn_rad = {0.004, -0.007, 0.011};
+    rig.distortion = seed % 3 == 0 ? vision::Distortion{.k1 = 0.12, .k2 = 0.02, .p2 = -0.002}
+                                   : vision::Distortion{.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
+    const StereoSight straight = Renderer(world, pinhole_rig_of(rig)).sight(pose, pose);
+    left = bent_sight(scene, straight.left, rig);
+    right = bent_sight(scene, straight.right, rig);
+  }
+
+  test::RayCaster caster(Eye eye) const {
+    vision::StereoRig straight = rig;
+    straight.distortion = {};
+    test::RayCaster caster(world, straight, triangles);
+    caster.stand_at(pose, eye);
+    return caster;
+  }
+
+  /// Where the ray-caster's pinhole has what a pixel shows.
+  Eigen::Vector2d straight_place(double u, double v) const {
+    return *vision::pinhole_point(rig, Eigen::Vector2d(u, v));
+  }
+  test::Sight look(const test::RayCaster& caster, double u, double v) const {
+    const Eigen::Vector2d place = straight_place(u, v);
+    return caster.look(place.x(), place.y());
+  }
+
+  worlds::World world;
+  std::vector<Triangle> triangles;
+  SceneGeometry scene;
+  vision::StereoRig rig = test::small_rig();
+  slam::Pose pose;
+  EyeSight left, right;
+};
+
+/// The number of a triangle of the mesh is one of its surface's.
+int surface_of(const BentRoom& room, const test::RayCaster& caster, const test::Sight& ray) {
+  return std::min(caster.facet(ray.surface), first_mesh_facet(room.world));
+}
+
+class BehindALens : public testing::TestWithParam<std::uint64_t> {};
+
+// Mutations: a bent picture of straight rays; the last facet around that is met for the first.
+TEST_P(BehindALens, EveryPixelHasWhatItsRayMeets) {
+  const BentRoom room(GetParam());
+  int others = 0, wrong_ranges = 0, wrong_normals = 0;
+  for (const auto& [sight, eye] : {std::pair(&room.left, Eye::kLeft), std::pair(&room.right, Eye::kRight)}) {
+    const test::RayCaster caster = room.caster(eye);
+    const EyeTruth truth = eye_truth(room.scene, *sight);
+    for (int v = 0; v < truth.surface.rows; ++v) {
+      for (int u = 0; u < truth.surface.cols; ++u) {
+        const test::Sight ray = room.look(caster, u, v);
+        if (truth.surface.at<int>(v, u) != surface_of(room, caster, ray)) {
+          ++others;
+          continue;
+        }
+        const double truth_m = ray.surface == 0 ? ray.depth_m : caster.in_camera(ray.point_m).norm();
+        const double range_m = double{truth.range_m.at<float>(v, u)};
+        wrong_ranges += range_m == truth_m || std::abs(range_m - truth_m) <= 1e-6 * truth_m ? 0 : 1;
+        const Eigen::Vector3d normal = Eigen::Vector3f(truth.normal.at<cv::Vec3f>(v, u).val).cast<double>();
+        wrong_normals += (normal - ray.normal).norm() <= 1e-4 ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_LE(others, 5);  // of 240,000: slivers that none of four pixels sees
+  EXPECT_EQ(wrong_ranges, 0);
+  EXPECT_EQ(wrong_normals, 0);
+}
+
+// Mutation: places in the other picture without its lens.
+TEST_P(BehindALens, EveryPixelIsInTheOtherEyeWhereAnotherRaySaysItIs) {
+  const BentRoom room(GetParam());
+  const Correspondence found = correspond(room.scene, room.left, room.right);
+  const test::RayCaster from = room.caster(Eye::kLeft), to = room.caster(Eye::kRight);
+  int wrong_shifts = 0, wrong_fates = 0, hidden = 0, outside = 0;
+  for (int v = 0; v < found.fate.rows; ++v) {
+    for (int u = 0; u < found.fate.cols; ++u) {
+      const test::Sight ray = room.look(from, u, v);
+      const auto fate = static_cast<Fate>(found.fate.at<std::uint8_t>(v, u));
+      const int facet = room.left.facet.at<int>(v, u);
+      if (std::min(facet, first_mesh_facet(room.world)) != surface_of(room, from, ray)) continue;
+      if (ray.surface == 0) {
+        wrong_fates += fate == Fate::kNothing ? 0 : 1;
+        continue;
+      }
+      const Eigen::Vector3d point = to.in_camera(ray.point_m);
+      const Eigen::Vector2d place = vision::image_point(room.rig, point);
+      const bool is_inside = point.z() > 0.01 && vision::is_inside(room.rig.camera, place);
+      const Fate expected = !is_inside ? Fate::kOutside
+                            : room.look(to, place.x(), place.y()).depth_m < point.z() * (1.0 - 1e-7)
+                                ? Fate::kHidden
+                                : Fate::kSeen;
+      wrong_fates += fate == expected ? 0 : 1;
+      hidden += expected == Fate::kHidden ? 1 : 0;
+      outside += expected == Fate::kOutside ? 1 : 0;
+      if (!is_inside) continue;
+      const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
+      wrong_shifts += (shift - (place - Eigen::Vector2d(u, v))).norm() <= 1e-4 ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(wrong_shifts, 0);
+  EXPECT_LE(wrong_fates, 3);  // of 120,000
+  EXPECT_GT(hidden, 100);
+  EXPECT_GT(outside, 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, BehindALens, testing::Range(std::uint64_t{0}, std::uint64_t{4}));
+
+// Law: a lens that does not bend shows what a pinhole shows, but for the edges that the rasteriser has
+// snapped.
+TEST(BentSight, OfALensThatDoesNotBendIsThePinholes) {
+  const worlds::World world = test::random_room(5);
+  const slam::Pose pose = test::random_pose(5);
+  const vision::StereoRig rig = test::small_rig();
+  const EyeSight straight = Renderer(world, rig).sight(pose, pose).left;
+  const EyeSight bent =
+      bent_sight(SceneGeometry(world), Renderer(world, pinhole_rig_of(rig)).sight(pose, pose).left, rig);
+  EXPECT_LE(cv::countNonZero(bent.facet != straight.facet), 5);
+}
+
+/// Two walls before the sky, with a hair's breadth between them that a column of the rig's rays goes through,
+/// a little beside the middle of the pinhole's pixels.
+worlds::World cracked_wall(const vision::StereoRig& rig, int column) {
+  constexpr double kAhead_m = 3.0, kCrack_m = 1e-6;
+  const double aside_m = 0.5 * rig.baseline_m - kAhead_m * (column - rig.camera.cx_px) / rig.camera.focal_px;
+  worlds::World world;
+  world.walls = {{{kAhead_m, 9.0}, {kAhead_m, aside_m + kCrack_m}, 9.0},
+                 {{kAhead_m, aside_m - kCrack_m}, {kAhead_m, -9.0}, 9.0}};
+  return world;
+}
+
+// The rasteriser closes cracks, as it snaps corners to 1/256 px; rays that pass through one see what is
+// beside it. Mutation: what no ray meets is open.
+TEST(BentSight, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
+  vision::StereoRig rig = test::small_rig();
+  rig.pitch_down_rad = 0.0;
+  const int column = 200;
+  const worlds::World world = cracked_wall(rig, column);
+  const EyeSight straight = Renderer(world, pinhole_rig_of(rig)).sight({}, {}).left;
+  ASSERT_EQ(cv::countNonZero(straight.facet == kNoFacet), 0) << "it is not closed";
+  const SceneGeometry scene(world);
+  const EyeSight bent = bent_sight(scene, straight, rig);
+  const Sightlines lines(bent.view);
+  for (int row = 0; row < 160; ++row) {
+    const Sightline through = lines(column, row);
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet, through))) << "not into the crack";
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet + 1, through))) << "not into the crack";
+    const int seen = bent.facet.at<int>(row, column);
+    EXPECT_TRUE(seen == kFirstWallFacet || seen == kFirstWallFacet + 1) << row << ": " << seen;
+  }
+}
+
+// A lens with k1 alone folds directions beyond 49 degrees back towards the middle of its picture. Mutation:
+// places of directions that the picture does not see.
+TEST(BentSight, HasNoPlaceForWhatTheLensWouldFold) {
+  const worlds::World world = test::random_room(7);
+  const SceneGeometry scene(world);
+  vision::StereoRig rig = test::small_rig();
+  rig.distortion.k1 = -0.25;
+  Renderer renderer(world, pinhole_rig_of(rig));
+  const auto look = [&](double heading_rad) {
+    const slam::Pose pose{0.0, 0.0, heading_rad};
+    return bent_sight(scene, renderer.sight(pose, pose).left, rig);
+  };
+  const EyeSight ahead = look(0.0), aside = look(1.1);
+  const EyeTruth truth = eye_truth(scene, ahead);
+  const Correspondence found = correspond(scene, ahead, aside);
+  const Sightlines lines(ahead.view);
+  int folded = 0, seen = 0;
+  for (int v = 0; v < found.fate.rows; ++v) {
+    for (int u = 0; u < found.fate.cols; ++u) {
+      const Sightline line = lines(u, v);
+      const Eigen::Vector3d point =
+          aside.view.camera_from_world *
+          (line.origin_m + double{truth.range_m.at<float>(v, u)} * line.direction.normalized());
+      if (!(point.z() > 0.01 && point.head<2>().norm() > 1.2 * point.z())) continue;
+      folded += vision::is_inside(rig.camera, vision::image_point(rig, point)) ? 1 : 0;
+      seen += static_cast<Fate>(found.fate.at<std::uint8_t>(v, u)) == Fate::kOutside ? 0 : 1;
+    }
+  }
+  EXPECT_GT(folded, 1000) << "nothing to be taken in by";
+  EXPECT_EQ(seen, 0);
+}
+
+// Rows that are looked at alone are those of the whole picture, and so is what follows from them.
+// Mutation: views of the whole picture for some of its rows.
+TEST(Sight, OfSomeRowsIsTheWholeOnes) {
+  const worlds::World world = test::random_room(6);
+  const slam::Pose pose = test::random_pose(6);
+  Renderer renderer(world, test::small_rig());
+  const SceneGeometry scene(world);
+  const EyeTruth whole = eye_truth(scene, renderer.sight(pose, pose).right);
+  const cv::Range rows(101, 160);
+  const EyeTruth part = eye_truth(scene, renderer.sight(pose, pose, rows).right);
+  EXPECT_EQ(cv::countNonZero(part.surface != whole.surface.rowRange(rows)), 0);
+  EXPECT_LE(cv::norm(part.range_m, whole.range_m.rowRange(rows), cv::NORM_INF), 1e-5);
+  EXPECT_LE(cv::norm(part.normal, whole.normal.rowRange(rows), cv::NORM_INF), 1e-6);
+}
+
+}  // namespace
+}  // namespace stereobench::renderer

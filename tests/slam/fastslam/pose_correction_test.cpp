@@ -1,0 +1,337 @@
+// What one particle makes of a frame: likelihood, gate, contradictions, and whose sighting it is.
+#include "slam/fastslam/pose_correction.h"
+
+#include <functional>
+#include <limits>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "slam/fastslam/frame_fit.h"
+#include "tests/slam/checks.h"
+
+namespace stereobench::slam {
+namespace {
+
+template <class Model>
+class Corrections : public ::testing::Test {
+ protected:
+  FilterConfig config_;
+  Particle particle_;
+  PoseBelief predicted_{{0.0, 0.0, 0.3}, Eigen::Vector3d(4e-4, 1e-4, 1e-4).asDiagonal()};
+  std::vector<Target> targets_;
+  FilterCounters counters_;
+
+  void know(const Eigen::Vector2d& place, std::uint16_t uses = 5) {
+    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, {uses, 0}});
+  }
+  void know_well(const Eigen::Vector2d& place) {
+    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, kUnknown, {5, 0}});
+  }
+  void change(std::size_t slot, const std::function<void(Landmark&)>& by) {
+    Landmark landmark = particle_.known[slot];
+    by(landmark);
+    particle_.known.replace(slot, landmark);
+  }
+  void know_colour(const Eigen::Vector2d& place, int colour) {
+    particle_.classed.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, colour, 5, 0});
+  }
+  // What is seen of a place from the predicted pose, with an error in range and bearing.
+  Sighting see(const Eigen::Vector2d& place, int slot,
+               const Eigen::Vector2d& error = Eigen::Vector2d::Zero()) const {
+    const Eigen::Vector2d exact = predict_sighting(predicted_.mean, place);
+    return {{exact + error, Eigen::Vector2d(1e-4, 1e-4).asDiagonal()}, slot, kUnknown};
+  }
+  Sighting see_colour(const Eigen::Vector2d& place, int colour) const {
+    Sighting seen = see(place, kUnknown);
+    seen.colour_class = colour;
+    return seen;
+  }
+  Posterior correct(const std::vector<Sighting>& frame) {
+    targets_.assign(frame.size(), Target{});
+    return PoseCorrection<Model>(config_).correct(particle_, predicted_, frame, targets_, counters_);
+  }
+};
+using BothModels = ::testing::Types<Linearised, Unscented>;
+TYPED_TEST_SUITE(Corrections, BothModels);
+
+// The likelihood and posterior of a frame, from one joint Gaussian of all its sightings: another route to the
+// same numbers. Errata: eq. 35 (no determinant) and Table 1 (weight overwritten by each landmark); public
+// code takes the weight from the updated P. Each of these, moments not redrawn after the first landmark (eq.
+// 24), and the first landmark's Jacobian used for all, shows here.
+TYPED_TEST(Corrections, OneByOneIsTheSameAsAllAtOnce) {
+  const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {5.0, 4.0}};
+  std::vector<Sighting> frame;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    this->know(places[i]);
+    frame.push_back(this->see(places[i], static_cast<int>(i), {0.005 * static_cast<double>(i), -0.004}));
+  }
+  Eigen::Matrix<double, 6, 3> slope;
+  Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> residual;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& place = places[static_cast<std::size_t>(i)];
+    const Observation& seen = frame[static_cast<std::size_t>(i)].observation;
+    const double r = place.norm();
+    Eigen::Matrix2d by_place;
+    by_place << place.x() / r, place.y() / r, -place.y() / (r * r), place.x() / (r * r);
+    slope.block<2, 3>(2 * i, 0) << -by_place, Eigen::Vector2d(0.0, -1.0);
+    joint.block<2, 2>(2 * i, 2 * i) = 1e-4 * by_place * by_place.transpose() + seen.noise;
+    residual.segment<2>(2 * i) =
+        sighting_residual(seen.range_bearing, predict_sighting(this->predicted_.mean, place));
+  }
+  joint += slope * this->predicted_.covariance * slope.transpose();
+  const double expected = -0.5 * (residual.dot(joint.ldlt().solve(residual)) + std::log(joint.determinant()) +
+                                  6.0 * std::log(2.0 * M_PI));
+  const Eigen::Matrix<double, 3, 6> gain = this->predicted_.covariance * slope.transpose() * joint.inverse();
+  const Posterior posterior = this->correct(frame);
+  EXPECT_NEAR(posterior.log_likelihood, expected, 0.05);
+  EXPECT_TRUE(near(displacement(posterior.pose.mean, this->predicted_.mean), gain * residual, 3e-4));
+  const Eigen::Matrix3d covariance = this->predicted_.covariance - gain * slope * this->predicted_.covariance;
+  EXPECT_TRUE(near(posterior.pose.covariance, covariance, 5e-6));
+}
+
+// Catches landmarks that are used in the order of the frame and not of their age.
+TYPED_TEST(Corrections, OrderInTheFrameDoesNotMatter) {
+  this->know({3.0, 1.0});
+  this->know({-2.0, 4.0});
+  const Sighting a = this->see({3.0, 1.0}, 0, {0.01, 0.005});
+  const Sighting b = this->see({-2.0, 4.0}, 1, {-0.01, 0.01});
+  const Posterior one = this->correct({a, b});
+  const Posterior other = this->correct({b, a});
+  EXPECT_TRUE(near(one.pose.mean, other.pose.mean, 1e-15));
+  EXPECT_EQ(one.log_likelihood, other.log_likelihood);
+}
+
+// P = 0 and rank 2: catches a gain that needs the inverse of P.
+TYPED_TEST(Corrections, SingularCovariancesAreNothingSpecial) {
+  this->know({3.0, 1.0});
+  for (const Eigen::Vector3d& variances : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1e-4, 0, 1e-4)}) {
+    this->predicted_.covariance = variances.asDiagonal();
+    const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {0.01, 0.0})});
+    EXPECT_TRUE(std::isfinite(posterior.log_likelihood));
+    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+    const bool moved = displacement(posterior.pose.mean, this->predicted_.mean).norm() > 1e-6;
+    EXPECT_EQ(moved, variances.sum() > 0.0);
+  }
+}
+
+// Catches a refusal that is free, one that costs what the sighting would have, and a cost without the gate or
+// without the determinant.
+TYPED_TEST(Corrections, AnOutlierMovesNothingCostsTheGateAndIsCounted) {
+  this->know({3.0, 1.0});
+  const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_TRUE(near(posterior.pose.mean, this->predicted_.mean, 0.0));
+  EXPECT_EQ(this->counters_.gated_measurements, 1);
+  long repairs = 0;
+  const Observation seen = this->see({3.0, 1.0}, 0).observation;
+  const Innovation expected =
+      TypeParam().expect(this->predicted_, this->particle_.known[0].belief, seen, repairs);
+  EXPECT_NEAR(posterior.log_likelihood,
+              std::log1p(-this->config_.gate_probability) -  // half the gate, by chi-square(2)
+                  0.5 * std::log((2.0 * M_PI * expected.covariance).determinant()),
+              1e-9);
+  const Posterior farther = this->correct({this->see({3.0, 1.0}, 0, {2.0, 0.0})});
+  EXPECT_NEAR(farther.log_likelihood, posterior.log_likelihood, 1e-9);  // no matter how far
+}
+
+// Seven deviations off: one landmark alone is refused, two that agree on a pose overrule the odometry, and
+// two that do not agree are both refused. Catches odometry that cannot slip or slips any distance, a frame
+// that is never looked at again, a slip that costs nothing, and sightings that are used and still counted as
+// refused.
+TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}};
+  for (const Eigen::Vector2d& place : places) {
+    this->know_well(place);
+  }
+  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  std::vector<Sighting> frame;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d seen = predict_sighting(truth, places[static_cast<std::size_t>(i)]);
+    frame.push_back({{seen, 1e-6 * Eigen::Matrix2d::Identity()}, i, kUnknown});
+  }
+  this->correct({frame[0]});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_EQ(this->counters_.gated_measurements, 1);
+  const Posterior slipped = this->correct(frame);
+  EXPECT_TRUE(near(slipped.pose.mean, truth, 5e-3));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kUse);
+  EXPECT_EQ(this->counters_.gated_measurements, 1) << "a sighting that is used after all was not refused";
+  std::vector<Match> matches;
+  for (std::size_t i = 0; i < 2; ++i)
+    matches.push_back({this->particle_.known[i].belief, frame[i].observation});
+  long repairs = 0;
+  const PoseBelief poorer{this->predicted_.mean, 9.0 * this->predicted_.covariance};
+  EXPECT_NEAR(slipped.log_likelihood,
+              fit_frame(poorer, matches, repairs).posterior.log_likelihood +
+                  std::log1p(-this->config_.gate_probability),
+              0.05);
+  frame[1].observation.range_bearing.y() -= 0.14;
+  EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+}
+
+// The filters as they were published refuse both. Mutation: the setting is not read.
+TYPED_TEST(Corrections, WithoutTheRefitNothingOverrulesTheOdometry) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  this->config_.refit = false;
+  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  std::vector<Sighting> frame;
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(3.0, 1.0), Eigen::Vector2d(2.0, -2.0)}) {
+    const auto slot = static_cast<int>(frame.size());
+    this->know_well(place);
+    frame.push_back({{predict_sighting(truth, place), 1e-6 * Eigen::Matrix2d::Identity()}, slot, kUnknown});
+  }
+  EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
+  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+  EXPECT_EQ(this->counters_.gated_measurements, 2);
+}
+
+// One landmark is where it should be, and the pose would have to turn about it to please the other. That is
+// granted as far as chi-square(4) goes; beyond, one outlier is likelier than slip. Catches a limit of half
+// the degrees of freedom, and slip that is believed because it is possible.
+TYPED_TEST(Corrections, OneOutlierIsLikelierThanSlip) {
+  this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  const Eigen::Vector2d pivot(3.0, 1.0);
+  const Eigen::Vector2d place(2.0, -2.0);
+  for (const Eigen::Vector2d& known : {pivot, place}) {
+    this->know_well(known);
+  }
+  for (const double squared_deviations : {22.0, 49.0}) {
+    const double turn_rad = std::sqrt(squared_deviations * 1e-4 / (1.0 + pivot.squaredNorm()));
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(turn_rad) * pivot;
+    const Pose turned{pivot.x() - arm.x(), pivot.y() - arm.y(), this->predicted_.mean.heading_rad + turn_rad};
+    std::vector<Sighting> frame = {this->see(pivot, 0), this->see(place, 1)};
+    frame[1].observation.range_bearing = predict_sighting(turned, place);
+    for (Sighting& seen : frame) seen.observation.noise = 1e-6 * Eigen::Matrix2d::Identity();
+    this->correct(frame);
+    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+    EXPECT_EQ(this->targets_[1].fate, squared_deviations < 23.5 ? Fate::kUse : Fate::kRefuse);
+  }
+}
+
+// A heading that is uncertain by 40 degrees makes the way as long again in its uncertainty: a range five
+// deviations off is no outlier then. Catches a prediction taken at its first order.
+TYPED_TEST(Corrections, AnUncertainHeadingExcusesTheWay) {
+  this->know({3.0, 0.0});
+  this->predicted_ = {{0.0, 0.0, 0.0}, Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal()};
+  const Sighting seen = this->see({3.0, 0.0}, 0, {0.5, 0.0});
+  this->correct({seen});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  this->predicted_.covariance(2, 2) = 0.5;
+  this->correct({seen});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+}
+
+// A map of a thousand landmarks, searched through its bounds, and the same search done one by one. Catches a
+// search that is narrower than the gate.
+TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
+  this->config_.association = Association::kIndividual;
+  RandomStream random(5, Stream::kWorld);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector2d place(20.0 * random.uniform(), 20.0 * random.uniform());
+    const double sd_m = 0.3 * random.uniform();
+    this->particle_.classed.push_back({{place, sd_m * sd_m * Eigen::Matrix2d::Identity()}, i % 3, 5, 0});
+  }
+  int found = 0;
+  for (int look = 0; look < 300; ++look) {
+    const double sd_rad = 0.5 * random.uniform();
+    const Pose mean{20.0 * random.uniform(), 20.0 * random.uniform(), 6.0 * random.uniform()};
+    this->predicted_ = {mean, Eigen::Vector3d(0.01, 0.02, sd_rad * sd_rad).asDiagonal()};
+    const Eigen::Vector2d seen(8.0 * random.uniform(), wrap_angle(6.0 * random.uniform()));
+    const Sighting sighting{{seen, Eigen::Vector2d(0.01, 0.01).asDiagonal()}, kUnknown, look % 3};
+    Target expected;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < 1000; ++j) {
+      const Landmark& landmark = this->particle_.classed[j];
+      long repairs = 0;
+      const Innovation innovation =
+          TypeParam().expect(this->predicted_, landmark.belief, sighting.observation, repairs);
+      const Eigen::Vector2d off = sighting_residual(seen, innovation.expected);
+      const double squared = off.dot(innovation.covariance.inverse() * off);
+      const double cost = squared + std::log(innovation.covariance.determinant());
+      if (landmark.colour_class != sighting.colour_class || !(squared <= 18.4206807439524) || cost >= least)
+        continue;
+      least = cost;
+      expected = {Fate::kUse, static_cast<int>(j)};
+    }
+    this->correct({sighting});
+    ASSERT_EQ(this->targets_[0].landmark, expected.landmark) << look;
+    found += expected.landmark >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 150);
+}
+
+TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
+  this->config_.gate_probability = 1.0;
+  this->know({3.0, 1.0});
+  this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+}
+
+// A landmark that is contradicted again and again: who is wrong depends on who else was seen.
+TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVouchedFor) {
+  this->know({3.0, 1.0});
+  this->know({3.0, -1.0});
+  this->change(1, [](Landmark& landmark) { landmark.record.refusals = 10; });
+  this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_EQ(this->targets_[1].fate, Fate::kMove);
+}
+
+TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
+  this->know({3.0, 1.0});
+  this->change(0, [](Landmark& landmark) { landmark.record.refusals = 10; });
+  const Posterior pulled = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_GT(displacement(pulled.pose.mean, this->predicted_.mean).norm(), 0.5);
+  this->change(0, [](Landmark& landmark) { landmark.record.uses = 1; });
+  this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kMove);
+}
+
+TYPED_TEST(Corrections, AColourIsMatchedToTheLikeliestLandmarkOfThatColour) {
+  this->know_colour({3.0, 1.0}, 4);
+  this->know_colour({3.1, 1.0}, 5);
+  this->know_colour({9.0, 1.0}, 4);
+  this->correct(
+      {this->see_colour({3.02, 1.0}, 4), this->see_colour({9.0, 1.0}, 4), this->see_colour({3.02, 1.0}, 6)});
+  EXPECT_EQ(this->targets_[0].landmark, 0);
+  EXPECT_EQ(this->targets_[1].landmark, 2);
+  EXPECT_EQ(this->targets_[2].fate, Fate::kAdd);
+}
+
+// Mutual exclusion. Catches two sightings of one frame that take the same landmark.
+TYPED_TEST(Corrections, ALandmarkIsSeenOnceInAFrame) {
+  this->know_colour({3.0, 1.0}, 4);
+  const std::vector<Sighting> twins = {this->see_colour({3.03, 1.0}, 4), this->see_colour({3.0, 1.0}, 4)};
+  this->correct(twins);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);  // nothing is known of spacing: there may be two
+  EXPECT_EQ(this->targets_[1].landmark, 0);
+  this->config_.colour_spacing_m = 10.0;
+  this->correct(twins);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kIgnore);
+  EXPECT_EQ(this->targets_[1].landmark, 0);
+}
+
+// The end of a loop: the drift is a hundred times what the filter believes of it.
+TYPED_TEST(Corrections, WithinHalfTheColourSpacingItIsTheSameLandmark) {
+  this->know_colour({3.0, 1.0}, 4);
+  const std::vector<Sighting> off = {this->see_colour({3.0, 2.0}, 4)};
+  this->correct(off);
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+  this->config_.colour_spacing_m = 10.0;
+  const Posterior pulled = this->correct(off);
+  EXPECT_EQ(this->targets_[0].landmark, 0);
+  const Eigen::Vector2d place = locate(pulled.pose.mean, off[0].observation.range_bearing);
+  EXPECT_LT((place - Eigen::Vector2d(3.0, 1.0)).norm(), 0.5) << "pulled back by more than half";
+  const Posterior nearer = this->correct({this->see_colour({3.0, 1.4}, 4)});
+  EXPECT_GT(nearer.log_likelihood, pulled.log_likelihood) << "less drift, more weight";
+  this->correct({this->see_colour({3.0, 7.0}, 4)});
+  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+}
+
+}  // namespace
+}  // namespace stereobench::slam

@@ -1,0 +1,108 @@
+#include "vision/camera/rig.h"
+
+#include <cmath>
+
+#include "slam/math/elementary.h"
+#include "vision/camera/distortion.h"
+
+namespace stereobench::vision {
+namespace {
+
+/// R = Rx Ry Rz.
+Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [s, c] = slam::sine_cosine(turn_rad[axis]);
+    const int j = (axis + 1) % 3;
+    const int k = (axis + 2) % 3;
+    Eigen::Matrix3d about_axis = Eigen::Matrix3d::Identity();
+    about_axis(j, j) = about_axis(k, k) = c;
+    about_axis(j, k) = -s;
+    about_axis(k, j) = s;
+    result = result * about_axis;
+  }
+  return result;
+}
+
+bool is_usable(const Distortion& lens) {
+  return std::isfinite(lens.k1) && std::isfinite(lens.k2) && std::isfinite(lens.p1) &&
+         std::isfinite(lens.p2) && std::isfinite(lens.k3) && std::isfinite(lens.pixel_aspect) &&
+         lens.pixel_aspect > 0.0;
+}
+
+}  // namespace
+
+Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye) {
+  const auto [sin_pitch, cos_pitch] = slam::sine_cosine(rig.pitch_down_rad);
+  const double side = eye == Eye::kLeft ? 0.5 : -0.5;
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().col(0) = Eigen::Vector3d(0.0, -1.0, 0.0);               // right
+  result.linear().col(1) = Eigen::Vector3d(-sin_pitch, 0.0, -cos_pitch);  // down
+  result.linear().col(2) = Eigen::Vector3d(cos_pitch, 0.0, -sin_pitch);   // forward
+  result.translation() = Eigen::Vector3d(0.0, side * rig.baseline_m, rig.height_m);
+  if (eye == Eye::kRight) result.linear() *= rotation(rig.right_turn_rad);
+  return result;
+}
+
+Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye) {
+  if (eye == Eye::kLeft) return point_in_left_camera;
+  return direction_in_eye(rig, point_in_left_camera - Eigen::Vector3d(rig.baseline_m, 0.0, 0.0), eye);
+}
+
+Eigen::Vector3d direction_in_eye(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
+                                 Eye eye) {
+  if (eye == Eye::kLeft) return direction_in_left_camera;
+  return rotation(rig.right_turn_rad).transpose() * direction_in_left_camera;
+}
+
+Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_eye) {
+  return project(rig.camera, distort(rig.distortion, point_in_eye.hnormalized()).homogeneous());
+}
+
+Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
+  return {camera.cx_px + camera.focal_px * point_in_camera.x() / point_in_camera.z(),
+          camera.cy_px + camera.focal_px * point_in_camera.y() / point_in_camera.z()};
+}
+
+std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px) {
+  if (rig.distortion == Distortion{}) return taken_px;
+  const auto direction = undistort(rig.distortion, pixel_ray(rig.camera, taken_px).head<2>());
+  if (!direction) return std::nullopt;
+  return project(rig.camera, direction->homogeneous());
+}
+
+std::optional<Eigen::Vector2d> straight_point(const StereoRig& rig, const Eigen::Vector2d& taken_px,
+                                              Eye eye) {
+  const auto pinhole_px = pinhole_point(rig, taken_px);
+  if (!pinhole_px || eye == Eye::kLeft || rig.right_turn_rad.isZero(0.0)) return pinhole_px;
+  const Eigen::Vector3d direction = rotation(rig.right_turn_rad) * pixel_ray(rig.camera, *pinhole_px);
+  if (!(direction.z() > 0.0)) return std::nullopt;
+  return project(rig.camera, direction);
+}
+
+bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
+         pixel.y() <= camera.height_px - 0.5;
+}
+
+std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
+                                                  const Eigen::Vector3d& point_in_camera) {
+  if (!(point_in_camera.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d pixel = project(camera, point_in_camera);
+  return is_inside(camera, pixel) ? std::optional(pixel) : std::nullopt;
+}
+
+Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px) {
+  return {(pixel_px.x() - camera.cx_px) / camera.focal_px, (pixel_px.y() - camera.cy_px) / camera.focal_px,
+          1.0};
+}
+
+bool is_usable(const StereoRig& rig) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  return rig.camera.width_px > 0 && rig.camera.height_px > 0 && positive(rig.camera.focal_px) &&
+         positive(rig.baseline_m) && std::isfinite(rig.camera.cx_px) && std::isfinite(rig.camera.cy_px) &&
+         std::isfinite(rig.height_m) && std::isfinite(rig.pitch_down_rad) && rig.right_turn_rad.allFinite() &&
+         is_usable(rig.distortion);
+}
+
+}  // namespace stereobench::vision

@@ -1,0 +1,110 @@
+#include "vision/stereo/rig_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "vision/camera/rig.h"
+#include "vision/scratch.h"
+#include "vision/stereo/ball_fit.h"
+
+namespace stereobench::vision {
+namespace {
+
+constexpr double kSameSize = 0.1;  // relative, of the radii of one ball's outlines
+constexpr double kSameSize_px = 0.5;
+constexpr double kDisparity = 0.1;          // relative: a wrong baseline, and a size that is known to a tenth
+constexpr double kTurnAboutY_rad = 0.0113;  // 0.65 degrees: it moves columns by so much of the focal length
+constexpr double kCommonTrend_px = 2.0;     // a turn about y moves rows by so much in the corners
+constexpr std::size_t kMostCandidates = 60;  // 1770 pairs of them are tried
+
+// Two outlines that may be one ball.
+struct Candidate {
+  std::size_t left = 0, right = 0;
+  double rows_apart_px = 0.0;
+  Eigen::Vector2d by_turn_px;  // derivative of that by turns about x and z
+};
+
+ScratchVector<Candidate> candidates_of(std::span<const MeasuredOutline> left,
+                                       std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                       const ObserverSettings& settings) {
+  ScratchVector<Candidate> candidates;
+  for (std::size_t l = 0; l < left.size(); ++l) {
+    for (std::size_t r = 0; r < right.size(); ++r) {
+      const MeasuredOutline &a = left[l], &b = right[r];
+      const Eigen::Vector2d apart = a.centre_px - b.centre_px;
+      if (a.colour != b.colour || std::abs(apart.y()) > settings.rows_within_px) continue;
+      if (std::abs(a.radius_px - b.radius_px) > kSameSize_px + kSameSize * std::max(a.radius_px, b.radius_px))
+        continue;
+      const double by_size_px = disparity_by_size_px(rig, a, b, settings.ball_radius_m);
+      const double columns_within_px = kTurnAboutY_rad * rig.camera.focal_px + kDisparity * by_size_px;
+      if (std::abs(apart.x() - by_size_px) > columns_within_px) continue;
+      const Eigen::Vector2d ray = pixel_ray(rig.camera, b.centre_px).head<2>();
+      candidates.push_back(
+          {l, r, apart.y(), rig.camera.focal_px * Eigen::Vector2d(-(1.0 + ray.y() * ray.y()), ray.x())});
+      if (candidates.size() == kMostCandidates) return candidates;
+    }
+  }
+  return candidates;
+}
+
+double rest_px(const Candidate& candidate, const Eigen::Vector2d& turn) {
+  return std::abs(candidate.rows_apart_px - candidate.by_turn_px.dot(turn));
+}
+
+// How well a turn explains the candidates: how many, each outline once, less what is left of their rows.
+double score_of(const ScratchVector<Candidate>& candidates, const Eigen::Vector2d& turn) {
+  double score = 0.0;
+  for (const Candidate& candidate : candidates) {
+    const double rest = rest_px(candidate, turn);
+    if (rest > kCommonTrend_px) continue;
+    const auto is_rival = [&](const Candidate& other) {
+      const bool shares = (other.left == candidate.left) != (other.right == candidate.right);
+      return shares && rest_px(other, turn) < rest;
+    };
+    if (std::ranges::any_of(candidates, is_rival)) continue;
+    score += 1.0 - 0.1 * rest / kCommonTrend_px;
+  }
+  return score;
+}
+
+// The least turn that explains two candidates, about, or one.
+Eigen::Vector2d turn_by(const Candidate& a, const Candidate& b) {
+  const Eigen::Vector2d usual = usual_fault().covariance.diagonal()(Eigen::Vector2i(0, 2));
+  Eigen::Matrix2d information = usual.cwiseInverse().asDiagonal();
+  Eigen::Vector2d evidence = Eigen::Vector2d::Zero();
+  for (const Candidate* candidate : {&a, &b}) {
+    information += candidate->by_turn_px * candidate->by_turn_px.transpose();
+    evidence += candidate->by_turn_px * candidate->rows_apart_px;
+  }
+  return information.inverse() * evidence;
+}
+
+}  // namespace
+
+std::optional<RigBelief> search_rig(std::span<const MeasuredOutline> left,
+                                    std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                    const ObserverSettings& settings) {
+  const auto candidates = candidates_of(left, right, rig, settings);
+  if (candidates.empty()) return std::nullopt;
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double most = score_of(candidates, best);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (std::size_t j = i; j < candidates.size(); ++j) {
+      const Eigen::Vector2d turn = turn_by(candidates[i], candidates[j]);
+      const double score = score_of(candidates, turn);
+      if (score <= most) continue;
+      most = score;
+      best = turn;
+    }
+  }
+  RigBelief belief = usual_fault();
+  belief.fault[0] = best.x();
+  belief.fault[2] = best.y();
+  const double rows_sd = 0.5 * kCommonTrend_px / rig.camera.focal_px;
+  belief.covariance(0, 0) = belief.covariance(2, 2) = rows_sd * rows_sd;
+  return belief;
+}
+
+}  // namespace stereobench::vision

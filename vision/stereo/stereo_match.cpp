@@ -1,0 +1,107 @@
+#include "vision/stereo/stereo_match.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "vision/camera/rig.h"
+
+namespace stereobench::vision {
+namespace {
+
+constexpr double kGateSigmas = 4.0;
+constexpr double kRowGate_px = 0.35;  // beyond noise: the rig's and the fit's own errors
+constexpr double kToleranceSds = 3.0;
+constexpr double kSizeGate_px = 0.45;
+constexpr double kSizeGate = 0.08;  // relative; beyond it two outlines are not one ball
+constexpr double kWholeSizeGate_px = 0.2;
+constexpr double kWholeSizeGate = 0.025;  // relative; beyond it the ball is not whole
+
+// How ill two outlines suit each other: 0 is perfect, above 1 they are not the same ball.
+struct Misfit {
+  double size = 0.0;  // of both radii, relative to the gate
+  double row = 0.0;
+  bool sizes_agree = true;
+  BallFit ball;
+  double disparity_variance_px2 = 0.0;
+  MeasuredOutline right;  // mended
+  double total() const { return std::max(size, row); }
+};
+
+// The outline that an eye would see of the same ball if it were turned a little: what is farther from the
+// principal point is larger, by the square root of the cube of the length of its ray, squared.
+MeasuredOutline moved(MeasuredOutline outline, const Eigen::Vector2d& to_px, const Intrinsics& camera) {
+  const double stretch2 =
+      std::sqrt(pixel_ray(camera, to_px).squaredNorm() / pixel_ray(camera, outline.centre_px).squaredNorm());
+  outline.centre_px = to_px;
+  outline.radius_px *= stretch2 * std::sqrt(stretch2);
+  return outline;
+}
+
+std::optional<Misfit> misfit(const MeasuredOutline& left, MeasuredOutline right, const StereoRig& rig,
+                             const ObserverSettings& settings, const RigBelief& belief) {
+  if (left.colour != right.colour) return std::nullopt;
+  Misfit result;
+  right = moved(right, belief.straight_px(rig.camera, right.centre_px), rig.camera);
+  const double by_size_px = disparity_by_size_px(rig, left, right, settings.ball_radius_m);
+  const Eigen::Vector2d variances = belief.variances_px2(rig.camera, right.centre_px, by_size_px);
+  result.disparity_variance_px2 = variances.y();
+  const Eigen::Vector2d apart = left.centre_px - right.centre_px;
+  if (std::abs(apart.y()) > settings.rows_within_px) return std::nullopt;
+  if (variances.y() > 0.0 &&
+      std::abs(apart.x() - by_size_px) > kGateSigmas * std::sqrt(variances.y()) + kSizeGate * by_size_px)
+    return std::nullopt;
+  const auto ball = fit_ball(rig, left, right, settings.ball_radius_m, result.disparity_variance_px2);
+  if (!ball || ball->ball_in_camera.z() < settings.min_depth_m) return std::nullopt;
+
+  result.ball = *ball;
+  result.right = right;
+  const double row_sd = std::sqrt(left.covariance_px2(1, 1) + right.covariance_px2(1, 1) + variances.x());
+  result.row = ball->row_misfit_px / (kRowGate_px + kGateSigmas * row_sd);
+  const double radius = std::max(left.radius_px, right.radius_px);
+  const double noise =
+      kGateSigmas * std::sqrt(std::max(left.covariance_px2(2, 2), right.covariance_px2(2, 2)));
+  const double made_px = kToleranceSds * settings.ball_radius_sd_m / settings.ball_radius_m * radius;
+  result.size = ball->radius_misfit_px / (kSizeGate_px + kSizeGate * radius + noise + made_px);
+  result.sizes_agree =
+      ball->radius_misfit_px <= kWholeSizeGate_px + kWholeSizeGate * radius + noise + made_px;
+  return result.total() <= 1.0 ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace
+
+ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
+                                          std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                          const ObserverSettings& settings, const RigBelief& belief) {
+  constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+  ScratchVector<std::size_t> best_of_left(left.size(), kNobody);
+  ScratchVector<std::size_t> best_of_right(right.size(), kNobody);
+  ScratchVector<Misfit> misfit_of_left(left.size());
+  ScratchVector<Misfit> misfit_of_right(right.size());
+  for (std::size_t l = 0; l < left.size(); ++l) {
+    for (std::size_t r = 0; r < right.size(); ++r) {
+      const auto found = misfit(left[l], right[r], rig, settings, belief);
+      if (!found) continue;
+      if (best_of_left[l] == kNobody || found->total() < misfit_of_left[l].total()) {
+        best_of_left[l] = r;
+        misfit_of_left[l] = *found;
+      }
+      if (best_of_right[r] == kNobody || found->total() < misfit_of_right[r].total()) {
+        best_of_right[r] = l;
+        misfit_of_right[r] = *found;
+      }
+    }
+  }
+  ScratchVector<OutlinePair> pairs;
+  for (std::size_t l = 0; l < left.size(); ++l) {
+    const std::size_t r = best_of_left[l];
+    if (r == kNobody || best_of_right[r] != l) continue;
+    const Misfit& best = misfit_of_left[l];
+    pairs.push_back({left[l], best.right, best.ball, best.sizes_agree, best.disparity_variance_px2,
+                     right[r].centre_px, right[r].radius_px});
+  }
+  return pairs;
+}
+
+}  // namespace stereobench::vision

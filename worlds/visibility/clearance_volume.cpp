@@ -1,0 +1,136 @@
+#include "worlds/visibility/clearance_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace stereobench::worlds {
+namespace {
+
+constexpr double kNear_m = 0.01;  // what is nearer to an eye is not in its picture
+
+/// A triangle, as planes cut it.
+class Polygon {
+ public:
+  explicit Polygon(const TriangleCorners& corners) : size_(corners.size()) {
+    std::ranges::copy(corners, corners_.begin());
+  }
+
+  /// Leaves what is in the half-space (Sutherland and Hodgman, CACM 17, 1974).
+  void cut(const HalfSpace& half) {
+    const Polygon whole = *this;
+    size_ = 0;
+    for (std::size_t i = 0; i < whole.size_; ++i) {
+      const Eigen::Vector3d& here = whole.corners_[i];
+      const Eigen::Vector3d& next = whole.corners_[(i + 1) % whole.size_];
+      const double inside = half.dot(here.homogeneous());
+      const double then = half.dot(next.homogeneous());
+      if (inside >= 0.0) corners_[size_++] = here;
+      if ((inside >= 0.0) != (then >= 0.0))
+        corners_[size_++] = here + inside / (inside - then) * (next - here);
+    }
+  }
+  std::span<const Eigen::Vector3d> corners() const { return {corners_.data(), size_}; }
+
+ private:
+  // A cut makes one corner more; of slivers, whose corners lie on a plane up to rounding, half as many more.
+  std::array<Eigen::Vector3d, 12> corners_;
+  std::size_t size_;
+};
+
+/// The half-space, which is told in axes of the world, in a tube's.
+HalfSpace in_tube(const Eigen::Isometry3d& tube_from_world, const HalfSpace& world) {
+  return tube_from_world.inverse().matrix().transpose() * world;
+}
+
+/// The four planes of a pyramid, or a square column, around a tube.
+std::array<HalfSpace, 4> sides_of(const Tube& tube) {
+  const HalfSpace away(0.0, 0.0, tube.narrows ? tube.radius : 0.0, tube.narrows ? 0.0 : tube.radius);
+  const HalfSpace x = HalfSpace::UnitX(), y = HalfSpace::UnitY();
+  return {away + x, away - x, away + y, away - y};
+}
+
+double squared_distance_of_origin(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = to - from;
+  const double length = along.squaredNorm();
+  const double share = length > 0.0 ? std::clamp(-from.dot(along) / length, 0.0, 1.0) : 0.0;
+  return (from + share * along).squaredNorm();
+}
+
+/// Whether a polygon has a point within a circle around the origin: an edge comes near enough, or a ray from
+/// the origin along x crosses an odd number of edges. Corners may be there twice, as cuts through a corner
+/// leave them.
+bool meets_circle(std::span<const Eigen::Vector2d> corners, double radius) {
+  bool is_around = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& from = corners[i];
+    const Eigen::Vector2d& to = corners[(i + 1) % corners.size()];
+    if (squared_distance_of_origin(from, to) <= radius * radius) return true;
+    if ((from.y() > 0.0) == (to.y() > 0.0)) continue;
+    const double turn = from.x() * to.y() - from.y() * to.x();
+    if ((turn > 0.0) == (to.y() > from.y())) is_around = !is_around;
+  }
+  return is_around;
+}
+
+/// @param corners in the tube's axes
+bool meets(const Tube& tube, const TriangleCorners& corners) {
+  Polygon polygon(corners);
+  for (const HalfSpace& cut : tube.cuts) polygon.cut(cut);
+  std::array<Eigen::Vector2d, 12> along_z;
+  for (std::size_t i = 0; i < polygon.corners().size(); ++i) {
+    const Eigen::Vector3d& corner = polygon.corners()[i];
+    along_z[i] = corner.head<2>() / (tube.narrows ? corner.z() : 1.0);
+  }
+  const Sphere& excused = tube.excused;
+  return meets_circle({along_z.data(), polygon.corners().size()}, tube.radius) &&
+         !std::ranges::all_of(polygon.corners(), [&](const Eigen::Vector3d& corner) {
+           return (corner - excused.centre_m).norm() < excused.radius_m;
+         });
+}
+
+}  // namespace
+
+Tube sight_tube(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m) {
+  const double core_m = (1.0 - kRim) * ball.radius_m;
+  const double radius_m = core_m + slack_m;
+  const double distance_m = (ball.centre_m - eye_m).norm();
+  const double squared_tangent = distance_m * distance_m - radius_m * radius_m;
+  Eigen::Isometry3d world = Eigen::Isometry3d::Identity();
+  world.linear().col(2) = (ball.centre_m - eye_m) / distance_m;
+  world.linear().col(0) = world.linear().col(2).unitOrthogonal();
+  world.linear().col(1) = world.linear().col(2).cross(world.linear().col(0));
+  world.translation() = eye_m;
+  const Eigen::Isometry3d from_world = world.inverse();
+  // No line of sight is lower than both its ends, and none goes on behind where the cone touches the ball.
+  const double low_m = std::min(eye_m.z(), ball.centre_m.z() - core_m);
+  return {.from_world = from_world,
+          .narrows = true,
+          .radius = radius_m / std::sqrt(squared_tangent),
+          .cuts = {{0.0, 0.0, 1.0, -kNear_m},
+                   {0.0, 0.0, -1.0, squared_tangent / distance_m},
+                   in_tube(from_world, {0.0, 0.0, 1.0, -low_m})},
+          .excused = {{0.0, 0.0, distance_m}, std::max(ball.radius_m - slack_m, 0.0)}};
+}
+
+Tube upright_tube(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m) {
+  Eigen::Isometry3d from_world = Eigen::Isometry3d::Identity();
+  from_world.translation().head<2>() = -at_m;
+  return {.from_world = from_world,
+          .radius = radius_m,
+          .cuts = {{0.0, 0.0, 1.0, -low_m}, {0.0, 0.0, -1.0, high_m}}};
+}
+
+bool meets(const Tube& tube, const TriangleTree& tree, const Eigen::Affine3d& world_from_tree) {
+  const Eigen::Affine3d tube_from_tree = tube.from_world * world_from_tree;
+  std::vector<HalfSpace> within(tube.cuts);
+  std::ranges::copy(sides_of(tube), std::back_inserter(within));
+  for (HalfSpace& half : within) half = (tube_from_tree.matrix().transpose() * half).eval();
+  return tree.any(within, [&](const TriangleCorners& corners) {
+    return meets(tube,
+                 {tube_from_tree * corners[0], tube_from_tree * corners[1], tube_from_tree * corners[2]});
+  });
+}
+
+}  // namespace stereobench::worlds
