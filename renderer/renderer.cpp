@@ -239,8 +239,8 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
   return {finished(eyes[0]), finished(eyes[1])};
 }
 
-StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right_pose,
-                            const cv::Range& asked) {
+StereoIdBuffers Renderer::id_buffers(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                                     const cv::Range& asked) {
   require(!parts_->lens, "Renderer::sight: not for lenses that distort");
   const cv::Range rows = parts_->checked_rows(asked);
   const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
@@ -250,7 +250,7 @@ StereoSight Renderer::sight(const slam::Pose& left_pose, const slam::Pose& right
     parts_->balls.draw_facets(view);
   }
   const auto seen = [&](const EyeView& view) {
-    return EyeSight{part_of(view, rows), read_facets(parts_->gl, columns_of(view), rows)};
+    return IdBuffer{part_of(view, rows), read_facets(parts_->gl, columns_of(view), rows)};
   };
   return {seen(left), seen(right)};
 }

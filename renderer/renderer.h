@@ -57,8 +57,8 @@ class Renderer {
   /// want more truth than a frame carries (eye_truth.h, correspondence.h).
   /// @param rows of the picture, those that look now; the views are of a picture of these alone
   /// @throws std::invalid_argument as render, and for lenses that distort: theirs is bent_sight.h
-  StereoSight sight(const slam::Pose& left_pose, const slam::Pose& right_pose,
-                    const cv::Range& rows = cv::Range::all());
+  StereoIdBuffers id_buffers(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                             const cv::Range& rows = cv::Range::all());
 
  private:
   struct Parts;

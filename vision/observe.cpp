@@ -124,16 +124,17 @@ Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSett
   return found;
 }
 
-// Balls share their lamp: each is measured once more by what the others tell of it, seen by either eye.
-void share_lamp(std::span<Found> eyes, const ObserverSettings& settings) {
-  LampPool pool(pixel_variance(settings.noise_sd_levels));
+// Balls share their light source: each is measured once more by what the others tell of it, seen by either
+// eye.
+void share_light_source(std::span<Found> eyes, const ObserverSettings& settings) {
+  LightSourcePool pool(pixel_variance(settings.noise_sd_levels));
   for (const Found& eye : eyes) {
     for (const MeasuredOutline& outline : eye.outlines) pool.add(outline.light);
   }
   for (Found& eye : eyes) {
     for (MeasuredOutline& outline : eye.outlines) {
-      if (const auto lamp = pool.without(outline.light))
-        outline = refine_outline(eye.image, outline, *lamp, eye.settings);
+      if (const auto light_source = pool.without(outline.light))
+        outline = refine_outline(eye.image, outline, *light_source, eye.settings);
     }
   }
 }
@@ -162,18 +163,18 @@ bool by_colour_then_column(const BallObservation& a, const BallObservation& b) {
   return a.colour != b.colour ? a.colour < b.colour : a.left_px.x() < b.left_px.x();
 }
 
-Look look_at(const StereoPair& pair, const StereoRig& rig, const ObserverSettings& settings,
-             const RigWatch& watch) {
+ObservedPair look_at(const StereoPair& pair, const StereoRig& rig, const ObserverSettings& settings,
+                     const RigWatch& watch) {
   if (!is_usable(rig))
     throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
   check_image(pair.left, rig.camera, "left");
   check_image(pair.right, rig.camera, "right");
   std::array<Found, 2> eyes = {find_in(pair.left, rig.camera, settings),
                                find_in(pair.right, rig.camera, settings)};
-  share_lamp(eyes, settings);
+  share_light_source(eyes, settings);
   const BallSize size = {settings.ball_radius_m, settings.ball_radius_sd_m};
   const Matched matched = match_by_watch(eyes[0].outlines, eyes[1].outlines, rig, settings, watch);
-  Look look{{}, matched.watch};
+  ObservedPair look{{}, matched.watch};
   look.balls.reserve(matched.pairs.size());
   for (const OutlinePair& outlines : matched.pairs) look.balls.push_back(measure(outlines, matched, size));
   std::sort(look.balls.begin(), look.balls.end(), by_colour_then_column);
@@ -186,7 +187,7 @@ std::vector<MeasuredOutline> find_outlines(const cv::Mat& image, const Intrinsic
                                            const ObserverSettings& settings) {
   check_image(image, camera, "the");
   Found found = find_in(image, camera, settings);
-  share_lamp({&found, 1}, settings);
+  share_light_source({&found, 1}, settings);
   return {found.outlines.begin(), found.outlines.end()};
 }
 
@@ -195,13 +196,13 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
   return look_at(pair, rig, settings, {}).balls;
 }
 
-Look observe(const StereoPair& pair, const Rectification& rectification, const ObserverSettings& settings,
-             const RigWatch& watch) {
+ObservedPair observe(const StereoPair& pair, const Rectification& rectification,
+                     const ObserverSettings& settings, const RigWatch& watch) {
   constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
   if (rectification.is_nothing()) return look_at(pair, rectification.rig(), settings, watch);
   ObserverSettings of_straightened = settings;
   of_straightened.resampled = true;
-  Look look = look_at(rectification.apply(pair), rectification.rig(), of_straightened, watch);
+  ObservedPair look = look_at(rectification.apply(pair), rectification.rig(), of_straightened, watch);
   for (BallObservation& seen : look.balls) {
     const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
                        rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);

@@ -40,7 +40,7 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
                                      const ObserverSettings& settings);
 
 /// What was seen, and what is known of the rig by then.
-struct Look {
+struct ObservedPair {
   std::vector<BallObservation> balls;
   RigWatch watch;
 };
@@ -53,8 +53,8 @@ struct Look {
 /// @param watch what pairs before have told of the rig
 /// @return balls as above, their centres those of the pictures as taken; the watch with this pair
 /// @throws std::invalid_argument as above
-Look observe(const StereoPair& pair, const Rectification& rectification, const ObserverSettings& settings,
-             const RigWatch& watch);
+ObservedPair observe(const StereoPair& pair, const Rectification& rectification,
+                     const ObserverSettings& settings, const RigWatch& watch);
 
 /// The same of a pair alone.
 std::vector<BallObservation> observe(const StereoPair& pair, const Rectification& rectification,

@@ -47,9 +47,9 @@ slam::SensorSector sector_of(const OracleSensor& sensor) {
   return {sensor.max_range_m, sensor.field_of_view_rad / 2.0, sensor.miss_probability, sensor.false_per_look};
 }
 
-OracleLook sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
-                 Identity identity, slam::RandomStream& noise) {
-  OracleLook look;
+Sightings sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
+                Identity identity, slam::RandomStream& noise) {
+  Sightings look;
   for (std::size_t id = 0; id < world.balls.size(); ++id) {
     const Eigen::Vector2d truth =
         slam::predict_sighting(world_from_robot, world.balls[id].centre_m.head<2>());
@@ -58,23 +58,23 @@ OracleLook sense(const World& world, const slam::Pose& world_from_robot, const O
     if (identity == Identity::kKnown) sighting.landmark_id = static_cast<int>(id);
     if (identity == Identity::kColourClass) sighting.colour_class = world.balls[id].colour;
     if (sighting.range_m < 0.0) continue;
-    look.sightings.push_back(sighting);
+    look.measurements.push_back(sighting);
     look.balls.push_back(static_cast<int>(id));
   }
   return look;
 }
 
-OracleLook with_faults(const OracleLook& look, const World& world, const OracleSensor& sensor,
-                       Identity identity, slam::RandomStream& chance) {
-  OracleLook left;
-  for (std::size_t i = 0; i < look.sightings.size(); ++i) {
+Sightings with_faults(const Sightings& look, const World& world, const OracleSensor& sensor,
+                      Identity identity, slam::RandomStream& chance) {
+  Sightings left;
+  for (std::size_t i = 0; i < look.measurements.size(); ++i) {
     if (sensor.miss_probability > 0.0 && chance.uniform() < sensor.miss_probability) continue;
-    left.sightings.push_back(look.sightings[i]);
+    left.measurements.push_back(look.measurements[i]);
     left.balls.push_back(look.balls[i]);
   }
   const int imaginary = sensor.false_per_look > 0.0 ? poisson(sensor.false_per_look, chance) : 0;
   for (int i = 0; i < imaginary; ++i) {
-    left.sightings.push_back(imagined(world, sensor, identity, chance));
+    left.measurements.push_back(imagined(world, sensor, identity, chance));
     left.balls.push_back(slam::kUnknown);
   }
   return left;

@@ -12,9 +12,9 @@ namespace stereobench::worlds {
 /// The sector and the rates of an oracle, as filters would have to know them.
 slam::SensorSector sector_of(const OracleSensor& sensor);
 
-/// What was seen, and beside it what nobody is told: whose it is.
-struct OracleLook {
-  std::vector<slam::RangeBearing> sightings;
+/// The measurements of one instant, and the true ball of each, which no filter is told.
+struct Sightings {
+  std::vector<slam::RangeBearing> measurements;
   std::vector<int> balls;  ///< index into World::balls, one for each sighting; kUnknown: of nothing
 };
 
@@ -30,8 +30,8 @@ struct OracleLook {
 /// @param noise two normal draws are taken for each ball in view, in order of identity
 /// @return sightings in order of identity, covariance diag(range_sd^2, bearing_sd^2); empty when none is in
 /// view
-OracleLook sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
-                 Identity identity, slam::RandomStream& noise);
+Sightings sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
+                Identity identity, slam::RandomStream& noise);
 
 /// Takes away sightings that the sensor misses and adds behind them sightings of nothing, uniform over the
 /// sector's area. One of those is like the others: it carries the colour of some ball where sightings carry
@@ -40,7 +40,7 @@ OracleLook sense(const World& world, const slam::Pose& world_from_robot, const O
 /// @param look all that is in view, from sense()
 /// @param chance one draw is taken for each sighting, then three or four for each that is false; none where
 /// nothing is missed and nothing imagined
-OracleLook with_faults(const OracleLook& look, const World& world, const OracleSensor& sensor,
-                       Identity identity, slam::RandomStream& chance);
+Sightings with_faults(const Sightings& look, const World& world, const OracleSensor& sensor,
+                      Identity identity, slam::RandomStream& chance);
 
 }  // namespace stereobench::worlds

@@ -38,7 +38,7 @@ struct LightRanges {
 };
 
 /// Things on the floor beside the drive.
-struct Strewn {
+struct Scattered {
   Range count = {3.0, 8.0};    ///< whole
   Range size_m = {0.15, 0.5};  ///< of each side of a box; a ball's diameter
   Range range_m = {0.5, 3.0};  ///< from a step of the drive to a thing's middle
@@ -48,13 +48,13 @@ struct Strewn {
 
 /// Boxes.
 struct Clutter {
-  Strewn strewn;
+  Scattered scattered;
   SurfaceLooks looks;
 };
 
 /// What could be taken for a ball: paint = shade x a colour of the palette + tint in each channel.
 struct Distractors {
-  Strewn strewn = {.count = {2.0, 5.0}, .size_m = {0.05, 0.3}};
+  Scattered scattered = {.count = {2.0, 5.0}, .size_m = {0.05, 0.3}};
   std::vector<MeshShape> shapes = {MeshShape::kBox, MeshShape::kBall};
   Range shade = {0.7, 1.0};
   Range tint = {-0.1, 0.1};
@@ -69,7 +69,7 @@ struct Randomisation {
   std::optional<Clutter> clutter;
   std::optional<Distractors> distractors;
   int balls_in_view =
-      2;  ///< what is strewn leaves so many in view at each step, or all where there are fewer
+      2;  ///< what is scattered leaves so many in view at each step, or all where there are fewer
 };
 
 }  // namespace stereobench::worlds

@@ -22,7 +22,7 @@
 
 namespace stereobench::worlds {
 
-class TriangleTree;
+class TriangleBvh;
 
 /// A coloured ball: a landmark. Its index in World::balls is its identity.
 struct Ball {
@@ -65,7 +65,7 @@ struct MeshInstance {
   MeshUp up = MeshUp::kZ;             ///< y up: the file's z points south in the world before it is turned
   MeshShape shape = MeshShape::kFile;
   Eigen::Vector3d tint_rgb = Eigen::Vector3d::Ones();  ///< factors on the material's colours
-  std::shared_ptr<const TriangleTree> solid = {};      ///< of kFile, where somebody asks (solids.h)
+  std::shared_ptr<const TriangleBvh> occluder = {};    ///< of kFile, where somebody asks (occluders.h)
 };
 
 /// What a mesh file, and a texture, may cost: they come from anywhere.

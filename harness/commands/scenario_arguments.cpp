@@ -43,7 +43,7 @@ worlds::Scenario read_scenario(const ScenarioArguments& arguments,
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
   worlds::Scenario scenario =
-      worlds::read_scenario(arguments.scenario, overrides, arguments.meshes->solids());
+      worlds::read_scenario(arguments.scenario, overrides, arguments.meshes->occluders());
   const RunArguments& run = arguments.run;
   if (!run.filters.empty()) scenario.filters = run.filters;
   if (std::find(scenario.filters.begin(), scenario.filters.end(), kBaselineFilter) == scenario.filters.end())
@@ -91,7 +91,7 @@ void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur) {
       blur.pairs, blur.pairs == 1 ? "" : "s", blur.most_step_px, most, std::ceil(blur.most_step_px * most));
 }
 
-void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshShelf& meshes) {
+void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshCache& meshes) {
   if (scenario.sensor != worlds::SensorKind::kStereo ||
       scenario.world.texture_search.missing != worlds::MissingTexturePolicy::kGrey)
     return;

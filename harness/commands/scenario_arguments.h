@@ -25,7 +25,7 @@ struct ScenarioArguments {
   double detector_timeout_s = 0.0;         ///< 0: as the scenario says
   std::optional<double> detector_start_s;  ///< none: as the scenario says
   /// What was read of mesh files, by whoever asked.
-  std::shared_ptr<renderer::MeshShelf> meshes = std::make_shared<renderer::MeshShelf>();
+  std::shared_ptr<renderer::MeshCache> meshes = std::make_shared<renderer::MeshCache>();
 };
 
 /// Adds SCENARIO, --set, --backend, --detector and its times.
@@ -51,8 +51,8 @@ void warn_of_blur(const worlds::Shutter& shutter, const CoarseBlur& blur);
 
 /// Says on standard error which textures are grey since they are nowhere, a line for each mesh file; nothing
 /// where the scenario does not allow it, which is an error later.
-/// @throws std::runtime_error as MeshShelf::missing_textures
-void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshShelf& meshes);
+/// @throws std::runtime_error as MeshCache::missing_textures
+void warn_of_missing_textures(const worlds::Scenario& scenario, renderer::MeshCache& meshes);
 
 /// What run.json says of who rendered: the back end's name, or "none" for a sensor without pixels.
 std::string rendered_by(const worlds::Scenario& scenario, renderer::Backend backend);

@@ -55,9 +55,11 @@ void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
 }
 
 int show_world(const WorldArguments& arguments) {
-  renderer::MeshShelf meshes;
-  worlds::Scenario scenario = worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.solids());
-  if (scenario.sensor == worlds::SensorKind::kStereo) worlds::give_solids(scenario.world, meshes.solids());
+  renderer::MeshCache meshes;
+  worlds::Scenario scenario =
+      worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.occluders());
+  if (scenario.sensor == worlds::SensorKind::kStereo)
+    worlds::give_occluders(scenario.world, meshes.occluders());
   const worlds::World world =
       arguments.seed ? worlds::world_for_seed(scenario, *arguments.seed) : scenario.world;
   const ViewCoverage coverage = view_coverage(scenario, world);
@@ -66,7 +68,7 @@ int show_world(const WorldArguments& arguments) {
     write_file_atomically(arguments.out, draw_plan(scenario, world, coverage, outlines));
   if (!arguments.written.empty())
     write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides,
-                                                                 arguments.seed, meshes.solids()));
+                                                                 arguments.seed, meshes.occluders()));
   if (!arguments.draws.empty())
     write_file_atomically(arguments.draws, draws_jsonl(scenario, std::array{*arguments.seed}));
   print_summary(scenario, world, coverage);

@@ -42,7 +42,7 @@ class RenderedDataset {
   const std::vector<std::string>& spoilt() const { return spoilt_; }
 
   /// Writes a step's pictures that are not there yet.
-  void write(const Look& look) const;
+  void write(const FrameEvent& event) const;
 
   /// Writes calibration (as it is believed, and as it is), balls and the log, and last of all dataset.json.
   /// @param blur of all its pictures

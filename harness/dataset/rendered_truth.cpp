@@ -19,16 +19,16 @@
 namespace stereobench::harness {
 namespace {
 
-using renderer::EyeSight;
-using renderer::StereoSight;
+using renderer::IdBuffer;
+using renderer::StereoIdBuffers;
 using vision::Eye;
 
 const char* name_of(Eye eye) {
   return eye == Eye::kLeft ? "left" : "right";
 }
 
-const EyeSight& eye_of(const StereoSight& sight, Eye eye) {
-  return eye == Eye::kLeft ? sight.left : sight.right;
+const IdBuffer& eye_of(const StereoIdBuffers& ids, Eye eye) {
+  return eye == Eye::kLeft ? ids.left : ids.right;
 }
 
 Eye other(Eye eye) {
@@ -64,7 +64,7 @@ vision::StereoRig straight_rig(const vision::StereoRig& rig) {
 }  // namespace
 
 /// One eye at one step.
-struct RenderedTruth::EyeLook {
+struct RenderedTruth::EyeFrameEvent {
   std::size_t step;
   Eye eye;
   const cv::Mat& ball_id;
@@ -104,45 +104,45 @@ std::filesystem::path RenderedTruth::file(std::size_t step, Eye eye, TruthKind k
          fmt::format("{:06}{}", step, extension_of(kind, request_.format));
 }
 
-bool RenderedTruth::has_all(const EyeLook& look) const {
-  const bool is_last = look.step + 1 == scenario_.path.size();
+bool RenderedTruth::has_all(const EyeFrameEvent& event) const {
+  const bool is_last = event.step + 1 == scenario_.path.size();
   return std::all_of(request_.kinds.begin(), request_.kinds.end(), [&](TruthKind kind) {
-    const std::filesystem::path path = file(look.step, look.eye, kind);
+    const std::filesystem::path path = file(event.step, event.eye, kind);
     return (kind == TruthKind::kFlow && is_last) ||
            (std::filesystem::exists(path) && (!is_shift(kind) || std::filesystem::exists(fate_file(path))));
   });
 }
 
-void RenderedTruth::write(const Look& look) {
-  sights_.erase(sights_.begin(), sights_.lower_bound(look.step));
-  write_eye({look.step, Eye::kLeft, look.frame.left.ball_id, look.late_s});
-  write_eye({look.step, Eye::kRight, look.frame.right.ball_id, look.late_s});
+void RenderedTruth::write(const FrameEvent& event) {
+  buffers_.erase(buffers_.begin(), buffers_.lower_bound(event.step));
+  write_eye({event.step, Eye::kLeft, event.frame.left.ball_id, event.late_s});
+  write_eye({event.step, Eye::kRight, event.frame.right.ball_id, event.late_s});
 }
 
-StereoSight RenderedTruth::sight_of(const RowBand& band, std::size_t step, double late_s) {
+StereoIdBuffers RenderedTruth::sight_of(const RowBand& band, std::size_t step, double late_s) {
   const double offset_s = late_s + band.offset_s;
   const slam::Pose left = worlds::pose_near(scenario_.path, step, offset_s);
   const slam::Pose right =
       worlds::pose_near(scenario_.path, step, offset_s + scenario_.shutter.right_delay_s);
-  if (scenario_.rig.distortion == vision::Distortion{}) return renderer_.sight(left, right, band.rows);
-  const StereoSight straight = renderer_.sight(left, right);
-  return {renderer::bent_sight(scene_, straight.left, scenario_.rig),
-          renderer::bent_sight(scene_, straight.right, scenario_.rig)};
+  if (scenario_.rig.distortion == vision::Distortion{}) return renderer_.id_buffers(left, right, band.rows);
+  const StereoIdBuffers undistorted = renderer_.id_buffers(left, right);
+  return {renderer::distorted_ids(scene_, undistorted.left, scenario_.rig),
+          renderer::distorted_ids(scene_, undistorted.right, scenario_.rig)};
 }
 
 /// What the eyes look at, by bands of rows; one where all rows look at once.
-const std::vector<StereoSight>& RenderedTruth::sights_at(std::size_t step, double late_s) {
-  const auto [known, is_new] = sights_.try_emplace(step);
+const std::vector<StereoIdBuffers>& RenderedTruth::id_buffers_at(std::size_t step, double late_s) {
+  const auto [known, is_new] = buffers_.try_emplace(step);
   if (!is_new) return known->second;
   for (const RowBand& band : row_bands(scenario_.shutter, scenario_.rig.camera.height_px))
     known->second.push_back(sight_of(band, step, late_s));
   return known->second;
 }
 
-renderer::EyeTruth RenderedTruth::truth_of(const EyeLook& look) {
+renderer::EyeTruth RenderedTruth::truth_of(const EyeFrameEvent& event) {
   renderer::EyeTruth whole;
-  for (const StereoSight& band : sights_at(look.step, look.late_s)) {
-    const renderer::EyeTruth rows = renderer::eye_truth(scene_, eye_of(band, look.eye));
+  for (const StereoIdBuffers& band : id_buffers_at(event.step, event.late_s)) {
+    const renderer::EyeTruth rows = renderer::eye_truth(scene_, eye_of(band, event.eye));
     whole.surface.push_back(rows.surface);
     whole.range_m.push_back(rows.range_m);
     whole.normal.push_back(rows.normal);
@@ -150,42 +150,42 @@ renderer::EyeTruth RenderedTruth::truth_of(const EyeLook& look) {
   return whole;
 }
 
-void RenderedTruth::write_pictures(const EyeLook& look) {
-  const renderer::EyeTruth truth = truth_of(look);
+void RenderedTruth::write_pictures(const EyeFrameEvent& event) {
+  const renderer::EyeTruth truth = truth_of(event);
   if (wants(TruthKind::kSurface))
-    write_once(file(look.step, look.eye, TruthKind::kSurface), surface_picture(truth.surface));
-  if (wants(TruthKind::kRange)) write_once(file(look.step, look.eye, TruthKind::kRange), truth.range_m);
+    write_once(file(event.step, event.eye, TruthKind::kSurface), surface_picture(truth.surface));
+  if (wants(TruthKind::kRange)) write_once(file(event.step, event.eye, TruthKind::kRange), truth.range_m);
   if (wants(TruthKind::kNormal))
-    write_once(file(look.step, look.eye, TruthKind::kNormal), normal_picture(truth.normal));
+    write_once(file(event.step, event.eye, TruthKind::kNormal), normal_picture(truth.normal));
 }
 
-void RenderedTruth::write_eye(const EyeLook& look) {
-  if (has_all(look)) return;
+void RenderedTruth::write_eye(const EyeFrameEvent& event) {
+  if (has_all(event)) return;
   if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal))
-    write_pictures(look);
-  const StereoSight sight = sights_at(look.step, look.late_s).front();
+    write_pictures(event);
+  const StereoIdBuffers ids = id_buffers_at(event.step, event.late_s).front();
   if (wants(TruthKind::kBalls)) {
-    const auto truths = renderer::ball_truths(world_, eye_of(sight, look.eye).view, look.ball_id);
-    write_file_atomically(file(look.step, look.eye, TruthKind::kBalls), ball_lines(world_, truths));
+    const auto truths = renderer::ball_truths(world_, eye_of(ids, event.eye).view, event.ball_id);
+    write_file_atomically(file(event.step, event.eye, TruthKind::kBalls), ball_lines(world_, truths));
   }
   for (const TruthKind kind : {TruthKind::kDisparity, TruthKind::kMatch})
-    if (wants(kind)) write_shift(look, kind, eye_of(sight, other(look.eye)));
-  if (wants(TruthKind::kFlow) && look.step + 1 < scenario_.path.size())
-    write_shift(look, TruthKind::kFlow, eye_of(sights_at(look.step + 1, 0.0).front(), look.eye));
+    if (wants(kind)) write_shift(event, kind, eye_of(ids, other(event.eye)));
+  if (wants(TruthKind::kFlow) && event.step + 1 < scenario_.path.size())
+    write_shift(event, TruthKind::kFlow, eye_of(id_buffers_at(event.step + 1, 0.0).front(), event.eye));
 }
 
-void RenderedTruth::write_shift(const EyeLook& look, TruthKind kind, const EyeSight& to) const {
-  const std::filesystem::path path = file(look.step, look.eye, kind);
+void RenderedTruth::write_shift(const EyeFrameEvent& event, TruthKind kind, const IdBuffer& to) const {
+  const std::filesystem::path path = file(event.step, event.eye, kind);
   const renderer::Correspondence found =
-      renderer::correspond(scene_, eye_of(sights_.at(look.step).front(), look.eye), to);
+      renderer::correspond(scene_, eye_of(buffers_.at(event.step).front(), event.eye), to);
   const bool kitti = request_.format == TruthFormat::kKitti;
   if (kind == TruthKind::kDisparity) {
-    const cv::Mat disparity = renderer::disparity_px(found, look.eye);
+    const cv::Mat disparity = renderer::disparity_px(found, event.eye);
     write_once(path, kitti ? kitti_disparity(disparity) : disparity);
   } else {
     write_once(path, kitti ? kitti_shift(found) : exact_shift(found));
   }
-  write_once(fate_file(path), found.fate);
+  write_once(fate_file(path), found.occlusion);
 }
 
 void RenderedTruth::finish() const {

@@ -39,22 +39,22 @@ class RenderedTruth {
                 const worlds::World& world, renderer::Backend backend);
 
   /// Writes a step's files that are not there yet. Steps come in order.
-  void write(const Look& look);
+  void write(const FrameEvent& event);
 
   /// Writes surfaces.csv, where surfaces were asked for.
   void finish() const;
 
  private:
-  struct EyeLook;
+  struct EyeFrameEvent;
   bool wants(TruthKind kind) const;
   std::filesystem::path file(std::size_t step, vision::Eye eye, TruthKind kind) const;
-  bool has_all(const EyeLook& look) const;
-  renderer::StereoSight sight_of(const RowBand& band, std::size_t step, double late_s);
-  const std::vector<renderer::StereoSight>& sights_at(std::size_t step, double late_s);
-  renderer::EyeTruth truth_of(const EyeLook& look);
-  void write_eye(const EyeLook& look);
-  void write_pictures(const EyeLook& look);
-  void write_shift(const EyeLook& look, TruthKind kind, const renderer::EyeSight& other) const;
+  bool has_all(const EyeFrameEvent& event) const;
+  renderer::StereoIdBuffers sight_of(const RowBand& band, std::size_t step, double late_s);
+  const std::vector<renderer::StereoIdBuffers>& id_buffers_at(std::size_t step, double late_s);
+  renderer::EyeTruth truth_of(const EyeFrameEvent& event);
+  void write_eye(const EyeFrameEvent& event);
+  void write_pictures(const EyeFrameEvent& event);
+  void write_shift(const EyeFrameEvent& event, TruthKind kind, const renderer::IdBuffer& other) const;
 
   std::filesystem::path folder_;
   TruthRequest request_;
@@ -62,7 +62,8 @@ class RenderedTruth {
   const worlds::World& world_;
   renderer::SceneGeometry scene_;
   renderer::Renderer renderer_;
-  std::map<std::size_t, std::vector<renderer::StereoSight>> sights_;  // of this step and the next, by bands
+  std::map<std::size_t, std::vector<renderer::StereoIdBuffers>>
+      buffers_;  // of this step and the next, by bands
 };
 
 }  // namespace stereobench::harness

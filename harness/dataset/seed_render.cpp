@@ -32,9 +32,9 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   Listeners listeners;
   listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
   listeners.on_progress = on_progress;
-  listeners.on_look = [&](const Look& look) {
-    dataset.write(look);
-    if (truth) truth->write(look);
+  listeners.on_frame = [&](const FrameEvent& event) {
+    dataset.write(event);
+    if (truth) truth->write(event);
     ++rendered.pairs;
   };
   const Recording recording = record(scenario, task.seed, listeners, task.backend);

@@ -28,7 +28,7 @@ cv::Mat kitti_disparity(const cv::Mat& disparity_px) {
 }
 
 cv::Mat kitti_shift(const renderer::Correspondence& found) {
-  return picture<cv::Vec3w>(found.fate.size(), [&](int u, int v) {
+  return picture<cv::Vec3w>(found.occlusion.size(), [&](int u, int v) {
     const cv::Vec2f shift = found.shift_px.at<cv::Vec2f>(v, u);
     const std::uint16_t red = kitti(shift[0], 64.0F, 32768.0F);
     const std::uint16_t green = kitti(shift[1], 64.0F, 32768.0F);
@@ -38,9 +38,10 @@ cv::Mat kitti_shift(const renderer::Correspondence& found) {
 }
 
 cv::Mat exact_shift(const renderer::Correspondence& found) {
-  return picture<cv::Vec3f>(found.fate.size(), [&](int u, int v) {
+  return picture<cv::Vec3f>(found.occlusion.size(), [&](int u, int v) {
     const cv::Vec2f shift = found.shift_px.at<cv::Vec2f>(v, u);
-    const bool seen = found.fate.at<std::uint8_t>(v, u) == static_cast<std::uint8_t>(renderer::Fate::kSeen);
+    const bool seen =
+        found.occlusion.at<std::uint8_t>(v, u) == static_cast<std::uint8_t>(renderer::Occlusion::kSeen);
     return cv::Vec3f(seen ? 1.0F : 0.0F, shift[1], shift[0]);
   });
 }

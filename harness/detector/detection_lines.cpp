@@ -1,10 +1,9 @@
 #include "harness/detector/detection_lines.h"
 
-#include <numbers>
-
 #include <fmt/format.h>
 
 #include "harness/io/json_line.h"
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/rig.h"
 #include "vision/observe.h"
@@ -109,7 +108,7 @@ void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallO
 void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
   slam::RangeBearing& seen = ball.range_bearing;
   seen.range_m = value.at("range_m").number(kLeast, kMost_m);
-  seen.bearing_rad = value.at("bearing_rad").number(-std::numbers::pi, std::numbers::pi);
+  seen.bearing_rad = value.at("bearing_rad").number(-slam::kPi, slam::kPi);
   if (ball.has_pixels) return;
   ball.ball_in_camera = at_camera_height(geometry.rig, seen);
   if (!imagine_pixels(geometry, ball) && !value.find("covariance"))

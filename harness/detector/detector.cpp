@@ -43,9 +43,9 @@ Detector our_detector(const DetectorSetup& setup) {
     vision::StereoPair pair = input.pair;
     if (!learned)  // learned colours are found in levels as they are stored
       pair = {renderer::decode(input.pair.left, camera), renderer::decode(input.pair.right, camera)};
-    vision::Look look = vision::observe(pair, rectification, with_colours, watch);
-    watch = look.watch;
-    return std::move(look.balls);
+    vision::ObservedPair pair_seen = vision::observe(pair, rectification, with_colours, watch);
+    watch = pair_seen.watch;
+    return std::move(pair_seen.balls);
   };
 }
 

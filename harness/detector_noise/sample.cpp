@@ -56,11 +56,11 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
   const double noise_sd_levels = detector_setup(gallery).noise_sd_levels;
   Listeners listeners;
   const worlds::World world = worlds::world_for_seed(gallery, gallery.seeds.front());
-  listeners.on_look = [&](const Look& look) {
-    const VisionTruth truth = {world, gallery.rig, gallery.path[look.step].pose, look.frame};
+  listeners.on_frame = [&](const FrameEvent& event) {
+    const VisionTruth truth = {world, gallery.rig, gallery.path[event.step].pose, event.frame};
     const std::vector<BallOutline> outlines = ball_outlines(truth);
-    const std::vector<int> balls = balls_observed(truth, look.observations);
-    const std::vector<vision::BallObservation> straight = straightened(gallery.rig, look.observations);
+    const std::vector<int> balls = balls_observed(truth, event.observations);
+    const std::vector<vision::BallObservation> straight = straightened(gallery.rig, event.observations);
     for (std::size_t i = 0; i < straight.size(); ++i) {
       const vision::BallObservation& observation = straight[i];
       if (!observation.trusted()) continue;
@@ -70,7 +70,7 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
       if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
       CalibrationSample sample = compare(*ball, observation);
       sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
-      if (sample.whole) sample.bounds = bounds_of(gallery, world, look.frame, *ball, noise_sd_levels);
+      if (sample.whole) sample.bounds = bounds_of(gallery, world, event.frame, *ball, noise_sd_levels);
       take.samples.push_back(sample);
     }
   };

@@ -27,9 +27,8 @@ Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world,
   return [&scenario, &world, seed](std::size_t index, const slam::Pose& pose) {
     slam::RandomStream noise(seed, slam::Stream::kOracle, index);
     slam::RandomStream chance(seed, slam::Stream::kClutter, index);
-    const worlds::OracleLook all = worlds::sense(world, pose, scenario.oracle, scenario.identity, noise);
-    worlds::OracleLook look = worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
-    return Sightings{std::move(look.sightings), std::move(look.balls)};
+    const Sightings all = worlds::sense(world, pose, scenario.oracle, scenario.identity, noise);
+    return worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
   };
 }
 
@@ -45,7 +44,8 @@ class StereoSense {
         renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera)),
         detector_(std::move(detector)) {}
 
-  Sightings look(std::size_t index, const slam::Pose& pose, const std::function<void(const Look&)>& on_look) {
+  Sightings sense(std::size_t index, const slam::Pose& pose,
+                  const std::function<void(const FrameEvent&)>& on_frame) {
     Stopwatch watch(timing_);
     const worlds::Shutter& shutter = scenario_.shutter;
     const std::optional<double> late_s = lateness_s(shutter, seed_, index);
@@ -64,7 +64,7 @@ class StereoSense {
     const worlds::World& meant = scenario_.world;
     score_.rig +=
         check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_look({index, exposed.frame, pair, observations, *late_s});
+    on_frame({index, exposed.frame, pair, observations, *late_s});
     return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
   }
 
@@ -133,10 +133,10 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
                      program    ? Detector(std::ref(*program))
                      : detector ? detector
                                 : our_detector(setup));
-  const auto look = [&](std::size_t index, const slam::Pose& pose) {
-    return listeners.is_wanted(index) ? stereo.look(index, pose, listeners.on_look) : Sightings();
+  const auto sense = [&](std::size_t index, const slam::Pose& pose) {
+    return listeners.is_wanted(index) ? stereo.sense(index, pose, listeners.on_frame) : Sightings();
   };
-  drive(scenario, seed, look, recording.log, listeners.on_progress);
+  drive(scenario, seed, sense, recording.log, listeners.on_progress);
   if (program) program->finish();
   recording.detector = program ? scenario.detector.command : detector ? kCallable : kOurs;
   recording.vision = stereo.score();

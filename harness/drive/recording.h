@@ -20,8 +20,8 @@ namespace stereobench::harness {
 /// Wall-clock seconds a stage took; reported beside results, never inside what is compared.
 using Timing = std::map<std::string, double>;
 
-/// A look of the robot at its world: the truth, the exposed pair, and what was detected in it.
-struct Look {
+/// A frame of the drive: the truth, the exposed pair, and what was detected in it.
+struct FrameEvent {
   std::size_t step;
   const renderer::StereoFrame& frame;
   const vision::StereoPair& pair;
@@ -34,7 +34,7 @@ struct Listeners {
   /// Whether the eyes open at a step (sensors with pixels only). At others nothing is rendered or seen; what
   /// is seen at this one does not depend on it, unless a detector has a memory.
   std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
-  std::function<void(const Look&)> on_look = [](const Look&) {};
+  std::function<void(const FrameEvent&)> on_frame = [](const FrameEvent&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
 };
 

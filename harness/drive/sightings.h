@@ -6,15 +6,12 @@
 
 #include "slam/types.h"
 #include "vision/types.h"
+#include "worlds/oracle.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {
 
-/// The measurements of one step, and the true ball of each.
-struct Sightings {
-  std::vector<slam::RangeBearing> measurements;
-  std::vector<int> balls;  ///< index of the ball, which no filter is told, or kUnknown
-};
+using worlds::Sightings;
 
 /// Turns observations into the measurements that filters are given: all that are trusted.
 ///

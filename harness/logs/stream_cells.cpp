@@ -1,12 +1,12 @@
 #include "harness/logs/stream_cells.h"
 
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::harness {
@@ -15,7 +15,7 @@ namespace {
 
 double angle_in(const NumberTable& table, const TableRow& row, std::size_t column) {
   const double angle = number_in(table, row, column);
-  if (std::abs(angle) > 2.0 * std::numbers::pi) {
+  if (std::abs(angle) > 2.0 * slam::kPi) {
     refuse(table, row, column, "expected radians, at most a full turn");
   }
   return slam::wrap_angle(angle);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <cairo.h>
+
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
@@ -118,7 +119,7 @@ void Canvas::write(const Point& at, const std::string& text, const TextStyle& st
   cairo_t* context = context_.get();
   cairo_save(context);
   cairo_translate(context, at.x_px, at.y_px);
-  if (style.upwards) cairo_rotate(context, -0.5 * std::numbers::pi);
+  if (style.upwards) cairo_rotate(context, -0.5 * slam::kPi);
   select_font(context, style);
   set_colour(context, style.colour);
   // The middle of DejaVu's lower-case and capital letters lies about 0.36 em above the baseline.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "harness/report/canvas.h"
 #include "renderer/camera/sensor_model.h"
+#include "slam/math/angles.h"
 #include "vision/observe.h"
 
 namespace stereobench::harness {
@@ -51,7 +51,7 @@ void draw_outline(Canvas& canvas, const Point& centre, double radius_px, Dash da
   constexpr int kCorners = 72;
   std::vector<Point> outline;
   for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    const double angle = 2.0 * slam::kPi * i / kCorners;
     outline.push_back({centre.x_px + radius_px * std::cos(angle), centre.y_px + radius_px * std::sin(angle)});
   }
   draw_contrasting(canvas, outline, dash);

@@ -1,9 +1,10 @@
 #include "harness/report/ellipse.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Eigenvalues>
+
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 
@@ -16,7 +17,7 @@ std::vector<Eigen::Vector2d> ellipse_95(const Eigen::Vector2d& centre, const Eig
   const Eigen::Matrix2d axes = solver.eigenvectors() * (kChiSquare95 * variances).cwiseSqrt().asDiagonal();
   std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    const double angle = 2.0 * slam::kPi * i / kCorners;
     outline.emplace_back(centre + axes * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return outline;

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
@@ -30,7 +31,7 @@ std::vector<Point> circle(const Point& centre, double radius_x_px, double radius
   constexpr int kCorners = 48;
   std::vector<Point> points;
   for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    const double angle = 2.0 * slam::kPi * i / kCorners;
     points.push_back(
         {centre.x_px + radius_x_px * std::cos(angle), centre.y_px + radius_y_px * std::sin(angle)});
   }
@@ -99,7 +100,7 @@ void draw_arrowhead(Canvas& canvas, const Point& centre, double heading_rad, con
                  centre.y_px - radius_px * std::sin(heading_rad + angle)};
   };
   const std::array<Point, 4> corners = {
-      {corner(0.0, 10.0), corner(2.4, 9.0), corner(std::numbers::pi, 3.0), corner(-2.4, 9.0)}};
+      {corner(0.0, 10.0), corner(2.4, 9.0), corner(slam::kPi, 3.0), corner(-2.4, 9.0)}};
   canvas.fill(corners, colour);
 }
 

@@ -19,7 +19,7 @@ struct ViewCoverage {
   std::vector<int> steps_seen;     ///< for each ball
 };
 
-/// @param world its meshes of files with their solids
+/// @param world its meshes of files with their occluders
 ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World& world);
 
 /// A line on the floor, metres.

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "harness/io/text_table.h"
 #include "harness/rig_calibration/calibration_warnings.h"
 #include "harness/statistics/json_numbers.h"
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
@@ -19,7 +19,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, kEyeSize> kNames = {"focal_px", "cx_px", "cy_px", "k1",          "k2",
                                                       "p1",       "p2",    "k3",    "pixel_aspect"};
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// A parameter, its standard deviation, and where it is told.
 struct Entry {
@@ -42,7 +41,7 @@ std::vector<Entry> offset_entries(const RigFit& fit) {
                        fit.right_in_left_m[i], fit.right_in_left_sd_m[i]});
   for (int i = 0; i < 3; ++i)
     entries.push_back({fmt::format("turn_{}_deg", kAxes[static_cast<std::size_t>(i)]),
-                       fit.turn_rad[i] * kDegrees, fit.turn_sd_rad[i] * kDegrees});
+                       fit.turn_rad[i] * slam::kDegreesPerRad, fit.turn_sd_rad[i] * slam::kDegreesPerRad});
   return entries;
 }
 

@@ -1,9 +1,10 @@
 #include "harness/rig_calibration/calibration_warnings.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kUnexplained =
 constexpr double kAlwaysFine_px = 0.1;  // of a corner: what finding corners is off by on sharp pictures
 constexpr std::size_t kFewViews = 6;    // fewer, and a view that is off cannot be told by the others
 constexpr double kPoorlyKnown = 0.005;  // of the focal length, and so of every range; of the aspect
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string advice_on_smooth_errors(const BoardCalibration& calibration, const BoardSettings& settings) {
   if (!settings.compared.aspect && settings.square_pixels)
@@ -31,7 +31,7 @@ std::string advice_on_smooth_errors(const BoardCalibration& calibration, const B
 
 std::vector<std::string> warnings_of(const BoardCalibration& calibration, const BoardSettings& settings) {
   const RigFit& fit = calibration.fit;
-  const double tilts_deg = fit.tilt_spread_rad * kDegrees;
+  const double tilts_deg = fit.tilt_spread_rad * slam::kDegreesPerRad;
   std::vector<std::string> warnings;
   if (fit.corner_sd_px > std::max(kUnexplained * fit.neighbour_sd_px, kAlwaysFine_px))
     warnings.push_back(

@@ -2,18 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "harness/io/text_table.h"
 #include "harness/run/consistency_report.h"
+#include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string fraction(double value) {
   return std::isfinite(value) ? fmt::format("{:.4f}", value) : "-";
@@ -37,7 +35,7 @@ std::vector<std::string> row_of(const RunResult& result, const FilterResult& fil
           format_interval(s.ate_rms_m.mean, s.ate_rms_m.half_width),
           format_number(s.ate_rms_m.max),
           format_number(s.ate_aligned_rms_m.mean),
-          format_number(kDegrees * s.heading_rms_rad.mean),
+          format_number(slam::kDegreesPerRad * s.heading_rms_rad.mean),
           format_number(landmarks_m.mean),
           format_number(s.anees.mean),
           format_number(efficiency),
@@ -52,7 +50,7 @@ std::vector<std::string> bound_row(const std::vector<BoundScores>& bounds, Bound
           format_number(pose.mean),
           format_number(pose.max),
           "-",
-          format_number(kDegrees * over_seeds(bounds, bound, &BoundScore::heading_rms_rad).mean),
+          format_number(slam::kDegreesPerRad * over_seeds(bounds, bound, &BoundScore::heading_rms_rad).mean),
           format_number(over_seeds(bounds, bound, &BoundScore::landmark_rms_m).mean),
           "-",
           "1",

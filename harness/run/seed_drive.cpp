@@ -62,11 +62,11 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   SeedDrive drive{.seed = task.seed};
   Listeners listeners;
   listeners.on_progress = on_progress;
-  listeners.on_look = [&](const Look& look) {
-    if (is_snapshot_step(look.step, task.snapshots, task.scenario->path.size()))
+  listeners.on_frame = [&](const FrameEvent& event) {
+    if (is_snapshot_step(event.step, task.snapshots, task.scenario->path.size()))
       drive.snapshots.push_back(
-          {look.step,
-           draw_detection_picture(for_the_eye(look.pair, task.scenario->camera), look.observations)});
+          {event.step,
+           draw_detection_picture(for_the_eye(event.pair, task.scenario->camera), event.observations)});
   };
   drive.recording = record(*task.scenario, task.seed, listeners, task.backend, task.detector);
   drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),

@@ -7,8 +7,8 @@ namespace stereobench::harness {
 namespace {
 
 using slam::Decision;
-using slam::Fate;
 using slam::kUnknown;
+using slam::Outcome;
 
 int true_landmark(int sighting, std::span<const int> truth) {
   return sighting == kUnknown ? kUnknown : truth[static_cast<std::size_t>(sighting)];
@@ -45,13 +45,13 @@ void judge(const slam::Decisions& decisions, std::span<const int> truth, Associa
   const int first = decisions.sightings.front().sighting;
   for (const Decision& decision : decisions.sightings) {
     const int seen = true_landmark(decision.sighting, truth);
-    const bool matched =
-        decision.fate == Fate::kUse || decision.fate == Fate::kConfirm || decision.fate == Fate::kMove;
+    const bool matched = decision.outcome == Outcome::kUse || decision.outcome == Outcome::kConfirm ||
+                         decision.outcome == Outcome::kMove;
     if (matched) {
       const bool same = seen != kUnknown && true_landmark(decision.origin, truth) == seen;
       ++(same ? score.correct : score.wrong);
     } else if (seen == kUnknown) {
-      ++(decision.fate == Fate::kAdd ? score.imagined : score.correct);
+      ++(decision.outcome == Outcome::kAdd ? score.imagined : score.correct);
     } else {
       ++(was_mapped(seen, decisions.mapped, first, truth) ? score.missed : score.correct);
     }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 
 namespace stereobench::harness {
@@ -60,7 +60,7 @@ double student_t_two_sided(double t, long degrees_of_freedom) {
     return sine * cosine_series(cosine * cosine, degrees_of_freedom / 2, 1.0);
   }
   const double series = cosine_series(cosine * cosine, (degrees_of_freedom - 1) / 2, 2.0);
-  return (angle + sine * cosine * series) * 2.0 / std::numbers::pi;
+  return (angle + sine * cosine * series) * 2.0 / slam::kPi;
 }
 
 double student_t_95(long degrees_of_freedom) {

@@ -1,9 +1,9 @@
 #include "harness/vision_scoring/ball_outline.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "renderer/truth/ball_truth.h"
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/distortion.h"
 #include "vision/camera/rig.h"
@@ -40,7 +40,7 @@ bool lies_inside(const vision::StereoRig& rig, const std::optional<Eigen::Aligne
   if (rig.distortion == vision::Distortion{}) return vision::lies_inside(rig.camera, ellipse);
   for (int i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d ray =
-        vision::pixel_ray(rig.camera, point_on(ellipse, 2.0 * std::numbers::pi * i / kPoints));
+        vision::pixel_ray(rig.camera, point_on(ellipse, 2.0 * slam::kPi * i / kPoints));
     if (!seen || !seen->contains(ray.head<2>())) return false;  // beyond, the lens may fold
     if (!vision::is_inside(rig.camera, vision::image_point(rig, ray))) return false;
   }
@@ -50,7 +50,7 @@ bool lies_inside(const vision::StereoRig& rig, const std::optional<Eigen::Aligne
 /// The area that a rig's picture shows of an outline with nothing in its way, to first order in the lens.
 double whole_area_px(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
   const Eigen::Vector2d direction = vision::pixel_ray(rig.camera, ellipse.centre_px).head<2>();
-  return std::numbers::pi * ellipse.semi_major_px * ellipse.semi_minor_px *
+  return slam::kPi * ellipse.semi_major_px * ellipse.semi_minor_px *
          vision::distortion_slope(rig.distortion, direction).determinant();
 }
 

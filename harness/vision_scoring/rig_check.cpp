@@ -1,10 +1,10 @@
 #include "harness/vision_scoring/rig_check.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "vision/camera/rig.h"
 
 namespace stereobench::harness {
@@ -13,7 +13,6 @@ namespace {
 constexpr double kOutline_px = 0.02;     // how well outlines are taken to be known
 constexpr double kUnknownRadius = 1e12;  // variance of a disparity that no size is beside
 constexpr double kUsualDisparity_px = 40.0;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct Rows {
   double left_px = 0.0;
@@ -49,7 +48,8 @@ std::string rows_warning(const RigCheck& check, const vision::RigBelief& belief)
       "rows are {:.2f} px apart at the left, {:.2f} at the right: the right camera is turned by {:.3f} deg "
       "about "
       "x and {:.3f} deg about z beyond what is believed; calibrate the rig",
-      rows.left_px, rows.right_px, kDegrees * belief.fault[0], kDegrees * belief.fault[2]);
+      rows.left_px, rows.right_px, slam::kDegreesPerRad * belief.fault[0],
+      slam::kDegreesPerRad * belief.fault[2]);
 }
 
 std::string size_warning(const RigCheck& check, const vision::RigBelief& belief) {
@@ -59,7 +59,7 @@ std::string size_warning(const RigCheck& check, const vision::RigBelief& belief)
       "of {:.4f}, and the right camera is turned by {:.3f} deg about y beyond what is believed, or balls are "
       "of another size, or lenses bend otherwise than believed; calibrate the rig",
       kUsualDisparity_px, 100.0 * share_of(check.camera, belief), check.baseline_m * (1.0 + belief.fault[3]),
-      check.baseline_m, kDegrees * belief.fault[1]);
+      check.baseline_m, slam::kDegreesPerRad * belief.fault[1]);
 }
 
 }  // namespace

@@ -13,10 +13,10 @@
 namespace stereobench::renderer {
 
 /// Reads each file once, whoever asks. What it hands out asks it, and must not outlive it.
-class MeshShelf {
+class MeshCache {
  public:
   /// For worlds::read_scenario. @throws std::runtime_error as read_form
-  worlds::SolidReader solids();
+  worlds::OccluderReader occluders();
 
   /// For place_meshes. @throws std::runtime_error as read_form
   FormReader forms();
@@ -30,7 +30,7 @@ class MeshShelf {
   using Key = std::tuple<std::string, bool, worlds::MeshLimits, std::vector<std::string>>;
   struct Entry {
     Mesh mesh;
-    std::shared_ptr<const worlds::TriangleTree> solid;
+    std::shared_ptr<const worlds::TriangleBvh> occluder;
   };
   const Entry& entry(const worlds::World& world, const worlds::MeshInstance& mesh);
 

@@ -44,9 +44,9 @@ SurfacePainter::SurfacePainter(const Gl& gl, const worlds::World& world, const S
   for (const MeshRun& run : meshes.runs) compile(paint_of(run));
   meshes_.upload(floats(meshes.vertices));
   if (meshes.textures.empty()) return;
-  TexturePyramids pyramids = make_pyramids(meshes.textures);
-  texels_.emplace(gl, pyramids.texels);
-  textures_ = std::move(pyramids.places);
+  MipChains mip_chains = make_mip_chains(meshes.textures);
+  texels_.emplace(gl, mip_chains.texels);
+  textures_ = std::move(mip_chains.places);
 }
 
 void SurfacePainter::compile(SurfacePaint paint) {
@@ -66,7 +66,7 @@ void SurfacePainter::use(SurfacePaint paint, int texture, const Eigen::Vector3f&
   gl_->UniformMatrix4fv(chosen.clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
   gl_->Uniform3f(chosen.tint, tint_rgb.x(), tint_rgb.y(), tint_rgb.z());
   if (paint != SurfacePaint::kTexture) return;
-  const PyramidPlace& place = textures_[static_cast<std::size_t>(texture)];
+  const MipPlace& place = textures_[static_cast<std::size_t>(texture)];
   texels_->bind();
   gl_->Uniform1iv(chosen.shape, 4, place.shape.data());
   gl_->Uniform1iv(chosen.first, kMostLevels, place.first.data());

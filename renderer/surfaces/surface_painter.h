@@ -50,7 +50,7 @@ class SurfacePainter {
   std::optional<FacetProgram> facet_program_;            // once somebody asked
   std::vector<MeshRun> mesh_runs_;
   std::optional<NumberList> texels_;  // where there are textures
-  std::vector<PyramidPlace> textures_;
+  std::vector<MipPlace> textures_;
   std::vector<PolygonTexture> polygon_textures_;  // by facet
   VertexArray meshes_;
   VertexArray polygons_;

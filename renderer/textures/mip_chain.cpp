@@ -71,7 +71,7 @@ std::uint32_t texel_of(const Eigen::Vector4f& sum) {
 }
 
 template <typename AnyLevel>
-void append(const AnyLevel& level, TexturePyramids& made) {
+void append(const AnyLevel& level, MipChains& made) {
   for (int row = 0; row < level.height; ++row)
     for (int column = 0; column < level.width; ++column)
       made.texels.push_back(texel_of(level.at(column, row)));
@@ -86,7 +86,7 @@ void check(const Texture& texture) {
 
 }  // namespace
 
-std::size_t pyramid_size(const Texture& texture) {
+std::size_t mip_size(const Texture& texture) {
   std::size_t size = 0;
   int width = texture.width_px, height = texture.height_px;
   for (;; width = (width + 1) / 2, height = (height + 1) / 2) {
@@ -95,16 +95,16 @@ std::size_t pyramid_size(const Texture& texture) {
   }
 }
 
-TexturePyramids make_pyramids(const std::vector<Texture>& textures) {
-  TexturePyramids made;
+MipChains make_mip_chains(const std::vector<Texture>& textures) {
+  MipChains made;
   for (const Texture& texture : textures) {
     check(texture);
-    PyramidPlace place{.shape = {texture.width_px, texture.height_px, texture.repeats[0] ? 1 : 0,
-                                 texture.repeats[1] ? 1 : 0}};
+    MipPlace place{.shape = {texture.width_px, texture.height_px, texture.repeats[0] ? 1 : 0,
+                             texture.repeats[1] ? 1 : 0}};
     place.first[0] = static_cast<int>(made.texels.size());
     append(Finest{texture}, made);
     Level level = halved(Finest{texture});
-    while (made.texels.size() - static_cast<std::size_t>(place.first[0]) < pyramid_size(texture)) {
+    while (made.texels.size() - static_cast<std::size_t>(place.first[0]) < mip_size(texture)) {
       place.first[static_cast<std::size_t>(++place.last_level)] = static_cast<int>(made.texels.size());
       append(level, made);
       level = halved(level);

@@ -81,7 +81,7 @@ std::optional<MaterialTexture> read_texture(const aiScene& scene, const aiMateri
 
 bool exceed(const std::vector<Texture>& textures, const worlds::MeshLimits& limits) {
   std::size_t texels = 0;
-  for (const Texture& texture : textures) texels += pyramid_size(texture);
+  for (const Texture& texture : textures) texels += mip_size(texture);
   return texels > static_cast<std::size_t>(limits.texture_mib) << 18U;  // of four bytes each
 }
 

@@ -21,7 +21,7 @@ struct Point {
 
 /// Whether a line that reaches a facet's point at 1 meets another ball before it. A ball's own far side is
 /// told by where it faces: at the rim its two sides are too near to each other.
-bool ball_is_before(const SceneGeometry& scene, int facet, const Sightline& line, const Point& point) {
+bool ball_is_before(const SceneGeometry& scene, int facet, const Ray& line, const Point& point) {
   if (!is_ball(facet)) return false;
   if (facet != point.facet) return scene.enter(facet, line) < 1.0 - kRounding;
   return scene.normal(facet, point.in_world).dot(line.direction) > 0.0;
@@ -29,9 +29,9 @@ bool ball_is_before(const SceneGeometry& scene, int facet, const Sightline& line
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own facet, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const EyeSight& eye, const Point& point) {
+bool is_hidden(const SceneGeometry& scene, const IdBuffer& eye, const Point& point) {
   const Eigen::Vector3d eye_m = eye.view.centre_in_world();
-  const Sightline line{eye_m, point.in_world - eye_m};
+  const Ray line{eye_m, point.in_world - eye_m};
   const Eigen::Vector3d in_camera = eye.view.camera_from_world * point.in_world;
   if (!(in_camera.z() > kNear_m)) return false;
   const std::array<int, 4> around = facets_around(eye.facet, shown_at(eye.view, in_camera));
@@ -46,7 +46,7 @@ bool is_hidden(const SceneGeometry& scene, const EyeSight& eye, const Point& poi
 /// Follows pixels of one look to another.
 class Follower {
  public:
-  Follower(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to)
+  Follower(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to)
       : scene_(scene), from_(from), to_(to), lines_(from.view) {
     if (!(to.view.lens == vision::Distortion{}))
       field_ = vision::directions_seen(to.view.lens, to.view.camera);
@@ -54,17 +54,17 @@ class Follower {
 
   /// @param facet that the pixel sees
   /// @param shift_px set where the point has a place in the other picture's plane
-  Fate follow(int facet, int u, int v, cv::Vec2f& shift_px) const {
-    if (facet == kNoFacet) return Fate::kNothing;
+  Occlusion follow(int facet, int u, int v, cv::Vec2f& shift_px) const {
+    if (facet == kNoFacet) return Occlusion::kNothing;
     const SceneGeometry::Seen seen = scene_.seen(facet, lines_(u, v));
     const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_sight;
-    if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Fate::kOutside;
+    if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Occlusion::kOutside;
     const Eigen::Vector2d there = shown_at(to_.view, in_other);
     const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_sight);
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
-    if (!vision::is_inside(to_.view.camera, there)) return Fate::kOutside;
-    return is_hidden(scene_, to_, {facet, seen.on_facet}) ? Fate::kHidden : Fate::kSeen;
+    if (!vision::is_inside(to_.view.camera, there)) return Occlusion::kOutside;
+    return is_hidden(scene_, to_, {facet, seen.on_facet}) ? Occlusion::kHidden : Occlusion::kSeen;
   }
 
  private:
@@ -74,22 +74,23 @@ class Follower {
   }
 
   const SceneGeometry& scene_;
-  const EyeSight& from_;
-  const EyeSight& to_;
-  Sightlines lines_;
+  const IdBuffer& from_;
+  const IdBuffer& to_;
+  PixelRays lines_;
   std::optional<Eigen::AlignedBox2d> field_;  // of the other eye, where it has a lens
 };
 
 }  // namespace
 
-Correspondence correspond(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to) {
+Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to) {
   const cv::Size size = from.facet.size();
   Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)), cv::Mat(size, CV_8UC1)};
   const Follower follower(scene, from, to);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const Fate fate = follower.follow(from.facet.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
-      result.fate.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(fate);
+      const Occlusion occlusion =
+          follower.follow(from.facet.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
+      result.occlusion.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(occlusion);
     }
   }
   return result;

@@ -7,7 +7,7 @@
 namespace stereobench::renderer {
 
 /// What becomes of a pixel's point in the other picture.
-enum class Fate : std::uint8_t {
+enum class Occlusion : std::uint8_t {
   kNothing = 0,   ///< the pixel sees no point
   kOutside = 85,  ///< out of the other picture, or behind its eye
   kHidden = 170,  ///< within the other picture, behind something
@@ -18,7 +18,7 @@ enum class Fate : std::uint8_t {
 struct Correspondence {
   cv::Mat
       shift_px;  ///< CV_32FC2, place in the other picture minus place in this one; +inf where there is none
-  cv::Mat fate;  ///< CV_8UC1, values of Fate
+  cv::Mat occlusion;  ///< CV_8UC1, values of Occlusion
 };
 
 /// Follows every pixel's point to another look at the same world, by geometry alone.
@@ -27,7 +27,7 @@ struct Correspondence {
 /// from the other eye meets something before it, which is decided exactly, with the facets' own bounds.
 /// Nothing is looked for where the other eye's four pixels around the place all see the point's own facet:
 /// what is thinner than a pixel and alone before a facet is missed, as it is missed by the picture.
-Correspondence correspond(const SceneGeometry& scene, const EyeSight& from, const EyeSight& to);
+Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to);
 
 /// Disparity, u in the left picture minus u in the right one.
 /// @param eye whose picture `to_other_eye` is for

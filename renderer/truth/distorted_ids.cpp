@@ -10,7 +10,7 @@ namespace stereobench::renderer {
 namespace {
 
 /// How far a ray goes at most to what pixels around its place see.
-double farthest_m(const SceneGeometry& scene, const std::array<int, 4>& around, const Sightline& ray) {
+double farthest_m(const SceneGeometry& scene, const std::array<int, 4>& around, const Ray& ray) {
   constexpr double kRoom = 1.01;  // for slivers that are farther than what is beside them
   double farthest = 0.0;
   for (const int facet : around) {
@@ -25,8 +25,7 @@ double farthest_m(const SceneGeometry& scene, const std::array<int, 4>& around, 
 /// rasteriser has closed by snapping corners. Facets thinner than a pixel may be seen by none of four pixels.
 /// @param around the facets of pixels around its place
 /// @param nearest that of the nearest one
-int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int nearest,
-              const Sightline& ray) {
+int first_met(const SceneGeometry& scene, const std::array<int, 4>& around, int nearest, const Ray& ray) {
   if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == nearest; })) return nearest;
   int first = kNoFacet;
   double first_m = std::numeric_limits<double>::infinity();
@@ -50,18 +49,19 @@ int nearest_of(const cv::Mat& facets, const Eigen::Vector2d& place_px) {
 
 }  // namespace
 
-EyeSight bent_sight(const SceneGeometry& scene, const EyeSight& straight, const vision::StereoRig& rig) {
-  EyeSight bent{straight.view, cv::Mat(rig.camera.height_px, rig.camera.width_px, CV_32SC1)};
+IdBuffer distorted_ids(const SceneGeometry& scene, const IdBuffer& undistorted,
+                       const vision::StereoRig& rig) {
+  IdBuffer bent{undistorted.view, cv::Mat(rig.camera.height_px, rig.camera.width_px, CV_32SC1)};
   bent.view.camera = rig.camera;
   bent.view.lens = rig.distortion;
-  const Sightlines lines(bent.view);
+  const PixelRays lines(bent.view);
   const Eigen::Matrix3d turn = bent.view.camera_from_world.linear();
   for (int v = 0; v < bent.facet.rows; ++v) {
     for (int u = 0; u < bent.facet.cols; ++u) {
-      const Sightline line = lines(u, v);
-      const Eigen::Vector2d place = vision::project(straight.view.camera, turn * line.direction);
-      bent.facet.at<int>(v, u) =
-          first_met(scene, facets_around(straight.facet, place), nearest_of(straight.facet, place), line);
+      const Ray line = lines(u, v);
+      const Eigen::Vector2d place = vision::project(undistorted.view.camera, turn * line.direction);
+      bent.facet.at<int>(v, u) = first_met(scene, facets_around(undistorted.facet, place),
+                                           nearest_of(undistorted.facet, place), line);
     }
   }
   return bent;

@@ -6,11 +6,11 @@
 
 namespace stereobench::renderer {
 
-/// Finds the facet that each bent ray meets: rasterisers draw straight lines, so what can be met is looked
-/// for among the facets of four pixels of a straight picture, and then decided exactly.
-/// @param straight what an eye of the rig's pinhole (pinhole_rig_of in lens.h) sees
+/// Finds the facet that each bent ray meets: rasterisers draw undistorted lines, so what can be met is looked
+/// for among the facets of four pixels of a undistorted picture, and then decided exactly.
+/// @param undistorted what an eye of the rig's pinhole (pinhole_rig_of in lens.h) sees
 /// @param rig as it is, with its lens
 /// @throws std::invalid_argument when the lens folds its picture
-EyeSight bent_sight(const SceneGeometry& scene, const EyeSight& straight, const vision::StereoRig& rig);
+IdBuffer distorted_ids(const SceneGeometry& scene, const IdBuffer& undistorted, const vision::StereoRig& rig);
 
 }  // namespace stereobench::renderer

@@ -14,17 +14,17 @@ cv::Vec3f vec(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-EyeTruth eye_truth(const SceneGeometry& scene, const EyeSight& sight) {
-  const cv::Size size = sight.facet.size();
+EyeTruth eye_truth(const SceneGeometry& scene, const IdBuffer& ids) {
+  const cv::Size size = ids.facet.size();
   EyeTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
                  cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
-  const Eigen::Matrix3d turn = sight.view.camera_from_world.linear();
-  const Sightlines lines(sight.view);
+  const Eigen::Matrix3d turn = ids.view.camera_from_world.linear();
+  const PixelRays lines(ids.view);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const int facet = sight.facet.at<int>(v, u);
+      const int facet = ids.facet.at<int>(v, u);
       if (facet == kNoFacet) continue;
-      const Sightline line = lines(u, v);
+      const Ray line = lines(u, v);
       const SceneGeometry::Seen seen = scene.seen(facet, line);
       const Eigen::Vector3d normal = scene.normal(facet, seen.on_facet);
       truth.surface.at<int>(v, u) = scene.surface(facet);

@@ -14,6 +14,6 @@ struct EyeTruth {
       normal;  ///< CV_32FC3, unit normals of the geometry, towards the eye, in its camera frame; 0 = nothing
 };
 
-EyeTruth eye_truth(const SceneGeometry& scene, const EyeSight& sight);
+EyeTruth eye_truth(const SceneGeometry& scene, const IdBuffer& ids);
 
 }  // namespace stereobench::renderer

@@ -10,7 +10,7 @@
 namespace stereobench::renderer {
 
 /// One eye's look. With the world's geometry (scene_geometry.h) all else follows in double precision.
-struct EyeSight {
+struct IdBuffer {
   EyeView view;
   cv::Mat facet;  ///< CV_32SC1, numbers of facets.h
 };
@@ -18,9 +18,9 @@ struct EyeSight {
 /// The facets that the four pixels around a place see; those nearest to it, where it is not in the picture.
 std::array<int, 4> facets_around(const cv::Mat& facets, const Eigen::Vector2d& place_px);
 
-struct StereoSight {
-  EyeSight left;
-  EyeSight right;
+struct StereoIdBuffers {
+  IdBuffer left;
+  IdBuffer right;
 };
 
 }  // namespace stereobench::renderer

@@ -6,18 +6,18 @@
 
 namespace stereobench::renderer {
 
-using worlds::Sightline;
+using worlds::Ray;
 
-/// The sightlines of an eye's pixels; t is planar depth.
-class Sightlines {
+/// The rays of an eye's pixels; t is planar depth.
+class PixelRays {
  public:
-  explicit Sightlines(const EyeView& view)
+  explicit PixelRays(const EyeView& view)
       : view_(view),
         eye_m_(view.centre_in_world()),
         world_from_camera_(view.camera_from_world.linear().transpose()) {}
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
-  Sightline operator()(double u, double v) const {
+  Ray operator()(double u, double v) const {
     return {eye_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
   }
 

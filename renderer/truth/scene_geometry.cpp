@@ -13,21 +13,21 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Where a sightline comes nearest to a ball's centre, and how much of the radius' square is left there.
+/// Where a ray comes nearest to a ball's centre, and how much of the radius' square is left there.
 struct Passage {
   double middle;
   double spare_m2;
 };
 
-Passage passage(const worlds::Ball& ball, const Sightline& sight) {
-  const Eigen::Vector3d to_centre = ball.centre_m - sight.origin_m;
-  const double middle = to_centre.dot(sight.direction) / sight.direction.squaredNorm();
-  const double apart_m2 = (to_centre - middle * sight.direction).squaredNorm();
+Passage passage(const worlds::Ball& ball, const Ray& ray) {
+  const Eigen::Vector3d to_centre = ball.centre_m - ray.origin_m;
+  const double middle = to_centre.dot(ray.direction) / ray.direction.squaredNorm();
+  const double apart_m2 = (to_centre - middle * ray.direction).squaredNorm();
   return {middle, ball.radius_m * ball.radius_m - apart_m2};
 }
 
-double entry(const Passage& passage, const Sightline& sight) {
-  return passage.middle - std::sqrt(std::max(passage.spare_m2, 0.0) / sight.direction.squaredNorm());
+double entry(const Passage& passage, const Ray& ray) {
+  return passage.middle - std::sqrt(std::max(passage.spare_m2, 0.0) / ray.direction.squaredNorm());
 }
 
 double clamped(double value) {
@@ -93,24 +93,24 @@ std::vector<Eigen::AlignedBox3d> SceneGeometry::boxes_of(const std::vector<Flat>
   return boxes;
 }
 
-double SceneGeometry::enter(int facet, const Sightline& sight) const {
+double SceneGeometry::enter(int facet, const Ray& ray) const {
   if (is_ball(facet)) {
-    const Passage past = passage(ball(facet), sight);
-    return past.spare_m2 > 0.0 && past.middle > 0.0 ? entry(past, sight) : kNever;
+    const Passage past = passage(ball(facet), ray);
+    return past.spare_m2 > 0.0 && past.middle > 0.0 ? entry(past, ray) : kNever;
   }
   const Flat& plane = flat(facet);
-  const double depth = plane.normal.dot(plane.corner - sight.origin_m) / plane.normal.dot(sight.direction);
+  const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
   if (!(depth > 0.0)) return kNever;
-  const Eigen::Vector3d place = sight.origin_m + depth * sight.direction - plane.corner;
+  const Eigen::Vector3d place = ray.origin_m + depth * ray.direction - plane.corner;
   return plane.contains(plane.dual_along.dot(place), plane.dual_up.dot(place)) ? depth : kNever;
 }
 
-int SceneGeometry::first_flat(const Sightline& sight, double from, double before, int but_for) const {
-  const auto enters = [&](int facet) { return facet == but_for ? kNever : enter(facet, sight); };
+int SceneGeometry::first_flat(const Ray& ray, double from, double before, int but_for) const {
+  const auto enters = [&](int facet) { return facet == but_for ? kNever : enter(facet, ray); };
   const double floor = enters(kFloorFacet);
   const bool on_floor = floor >= from && floor < before;
-  const worlds::BoxTree::Met met = tree_.first(sight, from, on_floor ? floor : before,
-                                               [&](int thing) { return enters(kFirstWallFacet + thing); });
+  const worlds::Bvh::Met met = tree_.first(ray, from, on_floor ? floor : before,
+                                           [&](int thing) { return enters(kFirstWallFacet + thing); });
   return met.thing >= 0 ? kFirstWallFacet + met.thing : on_floor ? kFloorFacet : kNoFacet;
 }
 
@@ -124,20 +124,19 @@ Eigen::Vector3d SceneGeometry::Flat::nearest(const Eigen::Vector3d& in_plane) co
   return corner + s * along + t * up;
 }
 
-SceneGeometry::Seen SceneGeometry::seen(int facet, const Sightline& sight) const {
+SceneGeometry::Seen SceneGeometry::seen(int facet, const Ray& ray) const {
   if (is_ball(facet)) {
-    const Eigen::Vector3d point =
-        sight.origin_m + entry(passage(ball(facet), sight), sight) * sight.direction;
+    const Eigen::Vector3d point = ray.origin_m + entry(passage(ball(facet), ray), ray) * ray.direction;
     return {point, point};
   }
   const Flat& plane = flat(facet);
-  const double depth = plane.normal.dot(plane.corner - sight.origin_m) / plane.normal.dot(sight.direction);
-  const Eigen::Vector3d point = sight.origin_m + depth * sight.direction;
+  const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
+  const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
   if (plane.contains(plane.dual_along.dot(point - plane.corner), plane.dual_up.dot(point - plane.corner)))
     return {point, point};
   const Eigen::Vector3d nearest = plane.nearest(point);
-  const double beside = sight.direction.dot(nearest - sight.origin_m) / sight.direction.squaredNorm();
-  return {nearest, sight.origin_m + beside * sight.direction};
+  const double beside = ray.direction.dot(nearest - ray.origin_m) / ray.direction.squaredNorm();
+  return {nearest, ray.origin_m + beside * ray.direction};
 }
 
 Eigen::Vector3d SceneGeometry::normal(int facet, const Eigen::Vector3d& point_m) const {

@@ -17,24 +17,24 @@ class SceneGeometry {
   /// @throws std::runtime_error as read_mesh
   explicit SceneGeometry(const worlds::World& world);
 
-  /// The parameter at which a sightline enters a facet.
+  /// The parameter at which a ray enters a facet.
   /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
-  double enter(int facet, const Sightline& sight) const;
+  double enter(int facet, const Ray& ray) const;
 
-  /// The wall, triangle or floor that a sightline enters first; balls are passed over.
+  /// The wall, triangle or floor that a ray enters first; balls are passed over.
   /// @param from,before the parameters between which it is looked at
   /// @param but_for a facet that does not count
   /// @return kNoFacet where it meets none
-  int first_flat(const Sightline& sight, double from, double before, int but_for = kNoFacet) const;
+  int first_flat(const Ray& ray, double from, double before, int but_for = kNoFacet) const;
 
   /// What a pixel's centre sees of a facet. The rasteriser snaps corners to 1/256 px and computes outlines in
-  /// single precision: where the sightline just passes by, the facet's nearest point is taken.
+  /// single precision: where the ray just passes by, the facet's nearest point is taken.
   struct Seen {
     Eigen::Vector3d on_facet;
-    Eigen::Vector3d on_sight;  ///< the same point, or where the sightline comes nearest to it
+    Eigen::Vector3d on_sight;  ///< the same point, or where the ray comes nearest to it
   };
   /// @param facet that is seen there, not kNoFacet
-  Seen seen(int facet, const Sightline& sight) const;
+  Seen seen(int facet, const Ray& ray) const;
 
   /// The unit normal of a facet at one of its points, world frame: outwards for balls, either way for others.
   Eigen::Vector3d normal(int facet, const Eigen::Vector3d& point_m) const;
@@ -62,7 +62,7 @@ class SceneGeometry {
 
   std::vector<worlds::Ball> balls_;
   std::vector<Flat> flats_;  // the floor, walls, triangles
-  worlds::BoxTree tree_;     // of all flats but the floor
+  worlds::Bvh tree_;         // of all flats but the floor
 };
 
 }  // namespace stereobench::renderer

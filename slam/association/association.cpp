@@ -13,12 +13,12 @@ void assign(std::vector<Candidate>& candidates, bool near_excludes, std::span<Ta
   std::vector<int> taken;
   for (const Candidate& pair : candidates) {
     Target& target = targets[static_cast<std::size_t>(pair.sighting)];
-    if (target.fate == Fate::kUse) continue;
+    if (target.outcome == Outcome::kUse) continue;
     if (std::find(taken.begin(), taken.end(), pair.landmark) == taken.end()) {
-      target = {Fate::kUse, pair.landmark};
+      target = {Outcome::kUse, pair.landmark};
       taken.push_back(pair.landmark);
     } else if (near_excludes) {
-      target.fate = Fate::kIgnore;  // until a free candidate turns up further down
+      target.outcome = Outcome::kIgnore;  // until a free candidate turns up further down
     }
   }
 }

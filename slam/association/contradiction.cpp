@@ -10,11 +10,11 @@ constexpr int kConfirmed = 3;  ///< agreements that make a landmark worth believ
 
 }  // namespace
 
-Fate judge_contradiction(const TrackRecord& landmark, bool certain, bool vouched) {
+Outcome judge_contradiction(const TrackRecord& landmark, bool certain, bool corroborated) {
   const bool persistent = landmark.refusals + 1 >= kPatience;
-  const bool pose_is_wrong = !vouched && (certain || landmark.uses >= kConfirmed);
-  if (pose_is_wrong && (certain || persistent)) return Fate::kUse;
-  return persistent ? Fate::kMove : Fate::kRefuse;
+  const bool pose_is_wrong = !corroborated && (certain || landmark.uses >= kConfirmed);
+  if (pose_is_wrong && (certain || persistent)) return Outcome::kUse;
+  return persistent ? Outcome::kMove : Outcome::kRefuse;
 }
 
 Eigen::Matrix3d drift_covariance(const Pose& pose, const Eigen::Vector2d& landmark,

@@ -10,7 +10,7 @@ namespace stereobench::slam {
 /// What became of one sighting. Sightings are numbered over all that a filter was ever given, from 0.
 struct Decision {
   int sighting = kUnknown;
-  Fate fate = Fate::kAdd;
+  Outcome outcome = Outcome::kAdd;
   int origin = kUnknown;  ///< the sighting that founded the landmark it was held against; kUnknown: none
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/LU>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/models/measurement.h"
 #include "slam/models/noise_law.h"
@@ -37,7 +37,7 @@ float Existence::seen(float log_odds, const Observation& observation) const {
   const double spread_m2 =
       observation.range_bearing.x() *
       std::sqrt(std::max(0.0, noise_at(observation, observation.range_bearing).determinant()));
-  const double by_clutter = clutter_per_m2_ * std::numbers::pi * kGateArea * spread_m2;
+  const double by_clutter = clutter_per_m2_ * kPi * kGateArea * spread_m2;
   const double there = 1.0 - std::max(sector_.miss_probability, kLeastMissed);
   const double evidence = std::max(0.0, logarithm(there / by_clutter));
   return std::min(kSurest, log_odds + static_cast<float>(std::min<double>(evidence, kSurest)));

@@ -98,7 +98,8 @@ class Search {
       factor_.push(pair);
       taken_.push_back(pair);
       const double degrees = 2.0 * static_cast<double>(factor_.size());
-      if (factor_.squared_length() <= chi_square_quantile(probability_, degrees)) descend(choices.subspan(1));
+      if (factor_.squared_length() <= approximate_chi_square_quantile(probability_, degrees))
+        descend(choices.subspan(1));
       taken_.pop_back();
       factor_.pop();
     }
@@ -160,7 +161,8 @@ void keep_joint(std::vector<Candidate>& candidates, std::span<const Pairing> pai
     }
   }
   const double degrees = 2.0 * static_cast<double>(factor.size());
-  if (factor.size() > 0 && factor.squared_length() > chi_square_quantile(probability, degrees)) return;
+  if (factor.size() > 0 && factor.squared_length() > approximate_chi_square_quantile(probability, degrees))
+    return;
   Search search(candidates, factor, probability);
   if (!search.run(choices_of(candidates, competing))) {
     ++cut;

@@ -16,7 +16,7 @@ struct Sighting {
 };
 
 /// What becomes of a sighting.
-enum class Fate {
+enum class Outcome {
   kAdd,      ///< something that is not in the map yet
   kUse,      ///< corrects the pose, then the landmark
   kConfirm,  ///< speaks for a landmark that may be clutter, which is not trusted to correct the pose
@@ -25,9 +25,9 @@ enum class Fate {
   kIgnore,   ///< a double of another sighting, or too near a landmark to be new and too far to be it
 };
 
-/// A sighting's fate, and the index of its landmark in the particle's map; -1 where it has none.
+/// A sighting's outcome, and the index of its landmark in the particle's map; -1 where it has none.
 struct Target {
-  Fate fate = Fate::kAdd;
+  Outcome outcome = Outcome::kAdd;
   int landmark = -1;
 };
 

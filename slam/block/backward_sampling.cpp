@@ -14,19 +14,19 @@ Pose draw_one(const PoseBelief& belief, const Eigen::Vector3d& variances, Random
   const PivotedRoot<3> root = pivoted_root<3>(belief.covariance, variances, repairs);
   Eigen::Vector3d normals;
   for (double& normal : normals) normal = random.normal();
-  return displace(belief.mean, root.lower * normals);
+  return boxplus(belief.mean, root.lower * normals);
 }
 
 /// What is believed of a pose once the next one is known.
 PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, const Pose& next) {
   constexpr double kVanishing = 1e-10;
-  const Eigen::Vector2d turn = swing(belief.mean, {predicted.mean.x_m, predicted.mean.y_m});
+  const Eigen::Vector2d turn = heading_lever(belief.mean, {predicted.mean.x_m, predicted.mean.y_m});
   PoseBelief given = belief;
   Eigen::Matrix3d shared;  // with the next pose: P F'
   for (int j = 0; j < 2; ++j) shared.col(j) = belief.covariance.col(j) + turn[j] * belief.covariance.col(2);
   shared.col(2) = belief.covariance.col(2);
   Eigen::Matrix3d ahead = predicted.covariance;
-  Eigen::Vector3d unexplained = displacement(next, predicted.mean);
+  Eigen::Vector3d unexplained = boxminus(next, predicted.mean);
   Eigen::Vector3d learnt = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     const double variance = ahead(i, i);
@@ -43,7 +43,7 @@ PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, con
       for (int k = i + 1; k < 3; ++k) ahead(j, k) -= share * ahead(i, k);
     }
   }
-  given.mean = displace(belief.mean, learnt);
+  given.mean = boxplus(belief.mean, learnt);
   return given;
 }
 
@@ -51,12 +51,12 @@ PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, con
 
 template <class Model>
 void PathSampler<Model>::correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) const {
-  const Innovation expected = model_.expect(belief, seen.place, seen.observation, repairs);
+  const PredictedMeasurement expected = model_.expect(belief, seen.place, seen.observation, repairs);
   const long mended = repairs;
   const Factor2 factor(expected.covariance, repairs);
   if (repairs != mended) return;  // all is certain: nothing is learnt
 
-  // What the pose shares with the sighting, and the surprise.
+  // What the pose shares with the sighting, and the innovation.
   Eigen::Matrix<double, 4, 2> whitened;
   whitened.topRows<3>() = expected.cross;
   whitened.row(3) = sighting_residual(seen.observation.range_bearing, expected.expected).transpose();
@@ -67,7 +67,7 @@ void PathSampler<Model>::correct(PoseBelief& belief, const PlacedSighting& seen,
   }
   const Eigen::Vector3d shared_range = whitened.col(0).head<3>();
   const Eigen::Vector3d shared_bearing = whitened.col(1).head<3>();
-  belief.mean = displace(belief.mean, shared_range * whitened(3, 0) + shared_bearing * whitened(3, 1));
+  belief.mean = boxplus(belief.mean, shared_range * whitened(3, 0) + shared_bearing * whitened(3, 1));
   for (int j = 0; j < 3; ++j)
     belief.covariance.col(j) -= shared_range * shared_range[j] + shared_bearing * shared_bearing[j];
 }

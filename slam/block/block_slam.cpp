@@ -37,7 +37,7 @@ template <class Model>
 void BlockSlam<Model>::Hypothesis::descend_from(const Hypothesis& other) {
   start = other.start.descendant();
   now = other.now;
-  fates = other.fates;
+  outcomes = other.outcomes;
 }
 
 template <class Model>
@@ -102,7 +102,7 @@ void BlockSlam<Model>::absorb(const Frame& frame) {
     follow(mine.now, frame.motion);
     worth_[i] = correct(mine, frame, targets, std::span(expected_).subspan(i * width, width));
     if (known_in_block_ < slots_of_block_.size()) add_new(mine, frame);
-    for (const Target& target : targets) mine.fates.push_back(target.fate);
+    for (const Target& target : targets) mine.outcomes.push_back(target.outcome);
   }
 }
 
@@ -132,16 +132,16 @@ ExpectedSighting BlockSlam<Model>::use(Hypothesis& mine, const Sighting& sightin
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
   const int place = place_of(sighting.slot);
-  const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
+  const JointInnovation seen = innovation(model_, mine.now, place, sighting.observation, repairs);
   const Eigen::Vector2d expected = sighting.observation.range_bearing - seen.residual;
   ExpectedSighting expectation{true, expected, seen.covariance};
   const double squared_length = seen.squared_length();
-  target = {squared_length <= gate_ ? Fate::kUse : Fate::kRefuse, sighting.slot};
-  if (target.fate == Fate::kRefuse) ++counters_.gated_measurements;
-  if (target.fate == Fate::kUse && repairs != before) return expectation;  // all is certain
-  const double cost = target.fate == Fate::kUse ? squared_length : gate_;
+  target = {squared_length <= gate_ ? Outcome::kUse : Outcome::kRefuse, sighting.slot};
+  if (target.outcome == Outcome::kRefuse) ++counters_.gated_measurements;
+  if (target.outcome == Outcome::kUse && repairs != before) return expectation;  // all is certain
+  const double cost = target.outcome == Outcome::kUse ? squared_length : gate_;
   expectation.log_likelihood = -0.5 * (cost + seen.factor.log_det_2_pi());
-  if (target.fate == Fate::kUse) slam::correct(mine.now, place, seen, whitened_, repairs);
+  if (target.outcome == Outcome::kUse) slam::correct(mine.now, place, seen, whitened_, repairs);
   return expectation;
 }
 
@@ -168,7 +168,7 @@ void BlockSlam<Model>::add_new(Hypothesis& mine, const Frame& frame) {
       continue;
     }
     const long before = repairs;
-    const JointSurprise seen = surprise(model_, mine.now, place, sighting.observation, repairs);
+    const JointInnovation seen = innovation(model_, mine.now, place, sighting.observation, repairs);
     if (repairs == before)  // else all is certain
       slam::correct(mine.now, place, seen, whitened_, repairs);
   }
@@ -183,9 +183,9 @@ void BlockSlam<Model>::reweigh() {
   Moments<3> moments;
   for (std::size_t i = 0; i < weights_.size(); ++i) {
     const JointBelief& belief = hypotheses_[i].now;
-    moments.add(weights_[i], displacement(belief.pose, reference), belief.covariance.pose());
+    moments.add(weights_[i], boxminus(belief.pose, reference), belief.covariance.pose());
   }
-  belief_ = {displace(reference, moments.mean()), moments.covariance()};
+  belief_ = {boxplus(reference, moments.mean()), moments.covariance()};
 }
 
 template <class Model>
@@ -200,7 +200,7 @@ void BlockSlam<Model>::note_decisions(std::span<const Sighting> frame) {
   for (std::size_t k = 0; k < frame.size(); ++k) {
     const int slot = frame[k].slot;
     const int origin = is_mapped(slot) ? origins_[static_cast<std::size_t>(slot)] : kUnknown;
-    decided_.push_back({frame[k].number, targets[k].fate, origin});
+    decided_.push_back({frame[k].number, targets[k].outcome, origin});
   }
   std::ranges::sort(decided_, {}, &Decision::sighting);
 }
@@ -237,7 +237,7 @@ void BlockSlam<Model>::draw_block(Hypothesis& mine) {
   mine.start.pose = mine.now.pose = path.back();
   mine.now.landmarks.clear();
   mine.now.covariance.clear();
-  mine.fates.clear();
+  mine.outcomes.clear();
 }
 
 /// What a particle believes of the block's sightings, of landmarks whose places are drawn.
@@ -248,7 +248,7 @@ void BlockSlam<Model>::place_sightings(const Hypothesis& mine) {
   for (std::size_t k = 0; k < block_.size(); ++k) {
     steps_[k].seen.clear();
     for (const Sighting& sighting : block_[k].sightings) {
-      if (mine.fates[next++] == Fate::kRefuse) continue;
+      if (mine.outcomes[next++] == Outcome::kRefuse) continue;
       steps_[k].seen.push_back(
           {places[static_cast<std::size_t>(place_of(sighting.slot))], sighting.observation});
     }
@@ -265,7 +265,7 @@ void BlockSlam<Model>::learn(Hypothesis& mine, std::span<const Pose> path) {
   std::size_t next = 0;
   for (std::size_t k = 0; k < block_.size(); ++k) {
     for (const Sighting& sighting : block_[k].sightings) {
-      if (mine.fates[next++] == Fate::kRefuse) continue;
+      if (mine.outcomes[next++] == Outcome::kRefuse) continue;
       const auto place = static_cast<std::size_t>(place_of(sighting.slot));
       const auto slot = static_cast<std::size_t>(sighting.slot);
       Landmark& landmark = learnt_[place];

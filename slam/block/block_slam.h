@@ -71,7 +71,7 @@ class BlockSlam {
   struct Hypothesis {
     Particle start;
     JointBelief now;
-    std::vector<Fate> fates;  ///< of all sightings of the block
+    std::vector<Outcome> outcomes;  ///< of all sightings of the block
 
     void descend_from(const Hypothesis& other);
   };

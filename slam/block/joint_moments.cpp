@@ -41,13 +41,13 @@ Line line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, con
 
 }  // namespace
 
-JointSurprise surprise(const Linearised&, const JointBelief& belief, int landmark,
-                       const Observation& observation, long& repairs) {
-  return surprise(belief, landmark, observation, repairs);
+JointInnovation innovation(const Linearised&, const JointBelief& belief, int landmark,
+                           const Observation& observation, long& repairs) {
+  return innovation(belief, landmark, observation, repairs);
 }
 
-JointSurprise surprise(const Unscented& model, const JointBelief& belief, int landmark,
-                       const Observation& observation, long& repairs) {
+JointInnovation innovation(const Unscented& model, const JointBelief& belief, int landmark,
+                           const Observation& observation, long& repairs) {
   const Eigen::Vector2d& place = belief.landmarks[static_cast<std::size_t>(landmark)];
   const Eigen::Vector2d apart(place.x() - belief.pose.x_m, place.y() - belief.pose.y_m);
   const Eigen::Vector2d centre = polar(apart);
@@ -79,7 +79,7 @@ void find(const Unscented& model, JointBelief& belief, int landmark, const Obser
   covariance.bottomRightCorner<2, 2>() = noise_at(observation, observation.range_bearing);
   const Eigen::Vector2d centre = locate(belief.pose, observation.range_bearing);
   const auto found = [&](const Vector5& step) -> Eigen::Vector2d {
-    return locate(displace(belief.pose, step.head<3>()), observation.range_bearing + step.tail<2>()) - centre;
+    return locate(boxplus(belief.pose, step.head<3>()), observation.range_bearing + step.tail<2>()) - centre;
   };
   const auto off = [&](const Vector5& step) {
     Eigen::Matrix2d both;

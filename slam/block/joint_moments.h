@@ -10,8 +10,8 @@ namespace stereobench::slam {
 /// Looks for a landmark where it should be, by the slopes at the belief's mean.
 ///
 /// @param repairs counts covariances that had to be mended
-JointSurprise surprise(const Linearised& model, const JointBelief& belief, int landmark,
-                       const Observation& observation, long& repairs);
+JointInnovation innovation(const Linearised& model, const JointBelief& belief, int landmark,
+                           const Observation& observation, long& repairs);
 
 /// The same by sigma points over pose and landmark with what ties them together.
 ///
@@ -19,8 +19,8 @@ JointSurprise surprise(const Linearised& model, const JointBelief& belief, int l
 /// Lefebvre, Bruyninckx and De Schutter 2002). All else is jointly Gaussian with pose and landmark, so that A
 /// says what it shares with the sighting as well, and the correction is the linearised one's. S has what the
 /// points are off that line beyond A P A' + R.
-JointSurprise surprise(const Unscented& model, const JointBelief& belief, int landmark,
-                       const Observation& observation, long& repairs);
+JointInnovation innovation(const Unscented& model, const JointBelief& belief, int landmark,
+                           const Observation& observation, long& repairs);
 
 /// Takes a landmark for what is seen from an uncertain pose: one more than the last.
 ///

@@ -42,7 +42,7 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
     if (auto fitted = fit_at_once(predicted, decided)) {
       belief_ = *std::move(fitted);
       counters_.gated_measurements = gated_before;
-      for (const std::size_t k : decided.order) decided.targets[k].fate = Fate::kUse;
+      for (const std::size_t k : decided.order) decided.targets[k].outcome = Outcome::kUse;
       for (NormalisedInnovation& innovation : report_.innovations) innovation.refused = false;
     }
   }
@@ -50,7 +50,7 @@ void EkfSlam::update(std::span<const RangeBearing> sightings) {
   for (Mapped& landmark : map_) landmark.claimed = false;
   for (const std::size_t k : decided.order) learn(decided.targets[k], frame[k]);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (decided.targets[k].fate == Fate::kAdd) decided_[k].fate = add(frame[k]);
+    if (decided.targets[k].outcome == Outcome::kAdd) decided_[k].outcome = add(frame[k]);
   }
   weaken_unseen();
 }
@@ -62,14 +62,14 @@ EkfSlam::Decided EkfSlam::associate(std::span<const Sighting> frame) {
     if (frame[k].slot == kUnknown) {
       find_candidates(frame[k], static_cast<int>(k), candidates);
     } else if (static_cast<std::size_t>(frame[k].slot) < landmark_of_slot_.size()) {
-      decided.targets[k] = {Fate::kUse, landmark_of_slot_[static_cast<std::size_t>(frame[k].slot)]};
+      decided.targets[k] = {Outcome::kUse, landmark_of_slot_[static_cast<std::size_t>(frame[k].slot)]};
     }
   }
   if (config_.association == Association::kJoint && !(near_m_ > 0.0) && compete(candidates))
     associate_jointly(frame, candidates);
   if (!candidates.empty()) assign(candidates, near_m_ > 0.0, decided.targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (decided.targets[k].fate == Fate::kUse) decided.order.push_back(k);
+    if (decided.targets[k].outcome == Outcome::kUse) decided.order.push_back(k);
   }
   std::ranges::sort(decided.order, {},
                     [&](std::size_t k) { return std::pair(decided.targets[k].landmark, k); });
@@ -83,8 +83,8 @@ void EkfSlam::find_candidates(const Sighting& sighting, int index, std::vector<C
     if (map_[j].slot != kUnknown || map_[j].colour_class != sighting.colour_class) continue;
     if (Existence::is_dead(map_[j].log_odds)) continue;
     const auto landmark = static_cast<int>(j);
-    const JointSurprise seen =
-        surprise(belief_, landmark, sighting.observation, counters_.covariance_repairs);
+    const JointInnovation seen =
+        innovation(belief_, landmark, sighting.observation, counters_.covariance_repairs);
     const double cost = seen.squared_length() + seen.factor.log_det_2_pi();
     const bool gated = !(seen.squared_length() <= gate_ && cost <= cost_of_new);
     if (gated && !((place - belief_.landmarks[j]).norm() < near_m_)) continue;
@@ -95,15 +95,15 @@ void EkfSlam::find_candidates(const Sighting& sighting, int index, std::vector<C
 /// Drops the candidates that do not go with the rest of the frame.
 void EkfSlam::associate_jointly(std::span<const Sighting> frame, std::vector<Candidate>& candidates) {
   std::vector<Pairing> pairings;
-  std::vector<JointSurprise> surprises;
+  std::vector<JointInnovation> innovations;
   for (const Candidate& pair : candidates) {
     const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
-    surprises.push_back(surprise(belief_, pair.landmark, observation, counters_.covariance_repairs));
-    pairings.push_back({surprises.back().residual, surprises.back().covariance});
+    innovations.push_back(innovation(belief_, pair.landmark, observation, counters_.covariance_repairs));
+    pairings.push_back({innovations.back().residual, innovations.back().covariance});
   }
   const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
-    return surprises[a].slope * belief_.covariance.between(candidates[a].landmark, candidates[b].landmark) *
-           surprises[b].slope.transpose();
+    return innovations[a].slope * belief_.covariance.between(candidates[a].landmark, candidates[b].landmark) *
+           innovations[b].slope.transpose();
   };
   keep_joint(candidates, pairings, tie, config_.gate_probability, counters_.joint_searches_cut);
 }
@@ -113,41 +113,41 @@ void EkfSlam::note_decisions(const Decided& decided) {
     const Target& target = decided.targets[k];
     const int origin =
         target.landmark >= 0 ? map_[static_cast<std::size_t>(target.landmark)].origin : kUnknown;
-    decided_.push_back({decided.frame[k].number, target.fate, origin});
+    decided_.push_back({decided.frame[k].number, target.outcome, origin});
   }
 }
 
 void EkfSlam::correct_one_by_one(Decided& decided) {
-  bool vouched = false;
+  bool corroborated = false;
   for (const std::size_t k : decided.order) {
     Target& target = decided.targets[k];
-    target.fate = use(target.landmark, decided.frame[k], vouched);
-    vouched |= target.fate == Fate::kUse;
+    target.outcome = use(target.landmark, decided.frame[k], corroborated);
+    corroborated |= target.outcome == Outcome::kUse;
   }
 }
 
-/// @param vouched whether some landmark has corrected the pose in this frame
-Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
+/// @param corroborated whether some landmark has corrected the pose in this frame
+Outcome EkfSlam::use(int landmark, const Sighting& sighting, bool corroborated) {
   const Observation& observation = sighting.observation;
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
-  JointSurprise seen = surprise(belief_, landmark, observation, repairs);
+  JointInnovation seen = innovation(belief_, landmark, observation, repairs);
   if (config_.report_updates) report_.innovations.push_back({sighting.index, seen.squared_length()});
   if (!(seen.squared_length() <= gate_)) {
     ++counters_.gated_measurements;
     const auto j = static_cast<std::size_t>(landmark);
     const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
-    const Fate fate = judge_contradiction(map_[j].record, certain, vouched);
-    if (fate != Fate::kUse) {
+    const Outcome outcome = judge_contradiction(map_[j].record, certain, corroborated);
+    if (outcome != Outcome::kUse) {
       if (config_.report_updates) report_.innovations.back().refused = true;
-      return fate;
+      return outcome;
     }
     belief_.covariance.move_pose(Eigen::Vector2d::Zero(),
                                  drift_covariance(belief_.pose, belief_.landmarks[j], observation));
-    seen = surprise(belief_, landmark, observation, repairs);
+    seen = innovation(belief_, landmark, observation, repairs);
   }
   if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
-  return Fate::kUse;
+  return Outcome::kUse;
 }
 
 /// The iterated filter (Bell and Cathey, 1993): all sightings of a frame linearised at the state that they
@@ -158,8 +158,8 @@ Fate EkfSlam::use(int landmark, const Sighting& sighting, bool vouched) {
 std::optional<JointBelief> EkfSlam::fit_at_once(const JointBelief& predicted, const Decided& decided) {
   constexpr int kIterations = 8;
   constexpr double kConverged = 1e-7;  // m and rad
-  const double limit =
-      chi_square_quantile(config_.gate_probability, 2.0 * static_cast<double>(decided.order.size()));
+  const double limit = approximate_chi_square_quantile(config_.gate_probability,
+                                                       2.0 * static_cast<double>(decided.order.size()));
   JointBelief at = predicted;
   const long before = counters_.covariance_repairs;
   for (int i = 0; i < kIterations; ++i) {
@@ -167,12 +167,12 @@ std::optional<JointBelief> EkfSlam::fit_at_once(const JointBelief& predicted, co
     double squared_length = 0.0;
     for (const std::size_t k : decided.order) {
       const int landmark = decided.targets[k].landmark;
-      const JointSurprise seen =
-          surprise(fitted, at, landmark, decided.frame[k].observation, counters_.covariance_repairs);
+      const JointInnovation seen =
+          innovation(fitted, at, landmark, decided.frame[k].observation, counters_.covariance_repairs);
       squared_length += seen.squared_length();
       correct(fitted, landmark, seen, counters_.covariance_repairs);
     }
-    const double step = displacement(fitted.pose, at.pose).norm();
+    const double step = boxminus(fitted.pose, at.pose).norm();
     at = std::move(fitted);
     if (counters_.covariance_repairs != before) return std::nullopt;
     if (step < kConverged) return squared_length <= limit ? std::optional(at) : std::nullopt;
@@ -184,9 +184,9 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
   Mapped& landmark = map_[static_cast<std::size_t>(target.landmark)];
   TrackRecord& record = landmark.record;
   landmark.claimed = true;
-  if (target.fate == Fate::kRefuse) {
+  if (target.outcome == Outcome::kRefuse) {
     record.contradict();
-  } else if (target.fate == Fate::kMove) {
+  } else if (target.outcome == Outcome::kMove) {
     long& repairs = counters_.covariance_repairs;
     place(belief_, target.landmark, model_.found(belief_.pose, sighting.observation, repairs), repairs);
     record = {};
@@ -199,18 +199,18 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
 }
 
 /// @return kAdd, or kIgnore for what is no new landmark
-Fate EkfSlam::add(const Sighting& sighting) {
+Outcome EkfSlam::add(const Sighting& sighting) {
   const auto slot = static_cast<std::size_t>(sighting.slot);
   if (sighting.slot != kUnknown &&
       slot < landmark_of_slot_.size()) {  // seen twice in the frame that found it
     const int landmark = landmark_of_slot_[slot];
     learn({use(landmark, sighting, true), landmark}, sighting);
-    return Fate::kAdd;
+    return Outcome::kAdd;
   }
   const LandmarkBelief found = model_.found(belief_.pose, sighting.observation, counters_.covariance_repairs);
   if (sighting.slot == kUnknown && may_be_mapped(sighting, found)) {
     ++counters_.gated_measurements;  // no other landmark of this colour can be here
-    return Fate::kIgnore;
+    return Outcome::kIgnore;
   }
   const int landmark = place_for_new();
   if (sighting.slot != kUnknown) landmark_of_slot_.push_back(landmark);
@@ -218,7 +218,7 @@ Fate EkfSlam::add(const Sighting& sighting) {
   map_[static_cast<std::size_t>(landmark)] = {sighting.slot,   sighting.colour_class, {},
                                               sighting.number, existence_.founded(),  true};
   place(belief_, landmark, found, counters_.covariance_repairs);
-  return Fate::kAdd;
+  return Outcome::kAdd;
 }
 
 /// @return whether a sighting is of no new landmark: none can be there, or it may be one that no other
@@ -232,7 +232,7 @@ bool EkfSlam::may_be_mapped(const Sighting& sighting, const LandmarkBelief& foun
     if ((belief_.landmarks[j] - found.mean).norm() < near_m_) return true;
     if (near_m_ > 0.0 || map_[j].claimed) continue;
     const double squared_length =
-        surprise(belief_, static_cast<int>(j), sighting.observation, counters_.covariance_repairs)
+        innovation(belief_, static_cast<int>(j), sighting.observation, counters_.covariance_repairs)
             .squared_length();
     if (!(squared_length <= nearest)) continue;
     nearest = squared_length;

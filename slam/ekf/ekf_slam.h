@@ -26,7 +26,7 @@ namespace stereobench::slam {
 ///
 /// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
 /// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
-/// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapUpkeep.
+/// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapManagement.
 class EkfSlam {
  public:
   EkfSlam(const FilterConfig& config, const Pose& start);
@@ -61,10 +61,10 @@ class EkfSlam {
   void associate_jointly(std::span<const Sighting> frame, std::vector<Candidate>& candidates);
   void note_decisions(const Decided& decided);
   void correct_one_by_one(Decided& decided);
-  Fate use(int landmark, const Sighting& sighting, bool vouched);
+  Outcome use(int landmark, const Sighting& sighting, bool corroborated);
   std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
-  Fate add(const Sighting& sighting);
+  Outcome add(const Sighting& sighting);
   bool may_be_mapped(const Sighting& sighting, const LandmarkBelief& found);
   int place_for_new() const;
   void weaken_unseen();

@@ -18,8 +18,8 @@ Eigen::Matrix<double, 2, 5> slope_of(const LinearSighting& linear) {
 }
 
 /// A sighting against what is expected of it, by slopes that say how that depends on (pose, landmark).
-JointSurprise against(const JointBelief& belief, int landmark, const Eigen::Matrix<double, 2, 5>& slope,
-                      const Eigen::Vector2d& expected, const Observation& observation, long& repairs) {
+JointInnovation against(const JointBelief& belief, int landmark, const Eigen::Matrix<double, 2, 5>& slope,
+                        const Eigen::Vector2d& expected, const Observation& observation, long& repairs) {
   Eigen::Matrix<double, 2, 5> near;
   near.noalias() = slope * belief.covariance.pose_and_landmark(landmark);
   const Eigen::Matrix2d noise = noise_at(observation, expected);
@@ -35,35 +35,35 @@ JointSurprise against(const JointBelief& belief, int landmark, const Eigen::Matr
 
 void follow(JointBelief& belief, const PoseBelief& motion) {
   const PoseBelief moved = follow(belief.pose, motion);
-  belief.covariance.move_pose(swing(belief.pose, {moved.mean.x_m, moved.mean.y_m}), moved.covariance);
+  belief.covariance.move_pose(heading_lever(belief.pose, {moved.mean.x_m, moved.mean.y_m}), moved.covariance);
   belief.pose = moved.mean;
 }
 
-JointSurprise surprise(const JointBelief& belief, int landmark, const Observation& observation,
-                       long& repairs) {
+JointInnovation innovation(const JointBelief& belief, int landmark, const Observation& observation,
+                           long& repairs) {
   const LinearSighting linear =
       linearise_sighting(belief.pose, belief.landmarks[static_cast<std::size_t>(landmark)]);
   return against(belief, landmark, slope_of(linear), linear.expected, observation, repairs);
 }
 
-JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
-                       const Observation& observation, long& repairs) {
+JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int landmark,
+                           const Observation& observation, long& repairs) {
   const auto j = static_cast<std::size_t>(landmark);
   const LinearSighting linear = linearise_sighting(at.pose, at.landmarks[j]);
   const Eigen::Matrix<double, 2, 5> slope = slope_of(linear);
   Eigen::Matrix<double, 5, 1> off;
-  off.head<3>() = displacement(belief.pose, at.pose);
+  off.head<3>() = boxminus(belief.pose, at.pose);
   off.tail<2>() = belief.landmarks[j] - at.landmarks[j];
   return against(belief, landmark, slope, linear.expected + slope * off, observation, repairs);
 }
 
-void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs) {
+void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs) {
   JointCovariance::Columns whitened;
   correct(belief, landmark, seen, whitened, repairs);
 }
 
-void correct(JointBelief& belief, int landmark, const JointSurprise& seen, JointCovariance::Columns& whitened,
-             long& repairs) {
+void correct(JointBelief& belief, int landmark, const JointInnovation& seen,
+             JointCovariance::Columns& whitened, long& repairs) {
   belief.covariance.with_sighting(landmark, seen.slope, seen.near, whitened);
   seen.factor.whiten_in_place(whitened);
   const Eigen::Vector2d residual = seen.factor.whiten<1>(seen.residual.transpose()).transpose();
@@ -75,7 +75,7 @@ void correct(JointBelief& belief, int landmark, const JointSurprise& seen, Joint
     return whitened.col(0).segment<kRows>(row) * residual.x() +
            whitened.col(1).segment<kRows>(row) * residual.y();
   };
-  belief.pose = displace(belief.pose, shift(0, std::integral_constant<int, 3>()));
+  belief.pose = boxplus(belief.pose, shift(0, std::integral_constant<int, 3>()));
   for (std::size_t j = 0; j < belief.landmarks.size(); ++j)
     belief.landmarks[j] +=
         shift(JointCovariance::row_of(static_cast<int>(j)), std::integral_constant<int, 2>());

@@ -17,7 +17,7 @@ struct JointBelief {
 };
 
 /// A sighting held against what its landmark should look like.
-struct JointSurprise {
+struct JointInnovation {
   Eigen::Matrix<double, 2, 5> slope;  ///< H: of (range, bearing) by (pose, landmark)
   Eigen::Matrix<double, 2, 5> near;   ///< H P: covariance with (pose, landmark)
   Eigen::Matrix2d covariance;         ///< S = H P H' + R
@@ -35,21 +35,21 @@ void follow(JointBelief& belief, const PoseBelief& motion);
 /// Looks for a landmark where it should be.
 ///
 /// @param repairs counts covariances that had to be mended
-JointSurprise surprise(const JointBelief& belief, int landmark, const Observation& observation,
-                       long& repairs);
+JointInnovation innovation(const JointBelief& belief, int landmark, const Observation& observation,
+                           long& repairs);
 
 /// The same, linearised elsewhere.
 ///
 /// @param at a better guess of what the belief will become
-JointSurprise surprise(const JointBelief& belief, const JointBelief& at, int landmark,
-                       const Observation& observation, long& repairs);
+JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int landmark,
+                           const Observation& observation, long& repairs);
 
 /// The Kalman update in gain form, O(n^2): K = P H' S^-1, so a singular P is nothing special.
-void correct(JointBelief& belief, int landmark, const JointSurprise& seen, long& repairs);
+void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs);
 
 /// The same with memory that many updates can share.
-void correct(JointBelief& belief, int landmark, const JointSurprise& seen, JointCovariance::Columns& whitened,
-             long& repairs);
+void correct(JointBelief& belief, int landmark, const JointInnovation& seen,
+             JointCovariance::Columns& whitened, long& repairs);
 
 /// Takes a landmark for what is seen now: one that is new, or one whose place turned out to be wrong.
 ///

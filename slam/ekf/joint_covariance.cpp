@@ -9,7 +9,7 @@ namespace stereobench::slam {
 namespace {
 
 /// By its leading minors (Sylvester). What is left of a heading once x and y are known may be nothing up to
-/// rounding: that is no news to mend(), which would leave it as it is.
+/// rounding: that is no news to project_to_psd(), which would leave it as it is.
 bool is_semidefinite(const Eigen::Matrix3d& p) {
   constexpr double kClear = 1e-6;
   constexpr double kRounding = 1e-8;
@@ -71,15 +71,15 @@ Eigen::Matrix<double, 5, 5> JointCovariance::between(int one, int other) const {
   return block;
 }
 
-void JointCovariance::move_pose(const Eigen::Vector2d& swing, const Eigen::Matrix3d& noise) {
-  const Eigen::Matrix3d moved = swung(pose(), swing);
+void JointCovariance::move_pose(const Eigen::Vector2d& heading_lever, const Eigen::Matrix3d& noise) {
+  const Eigen::Matrix3d moved = with_heading_error(pose(), heading_lever);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) row(i)[j] = moved(i, j) + noise(i, j);
   }
   for (Eigen::Index i = 3; i < size_; ++i) {
     double* with_pose = row(i);
-    with_pose[0] += swing.x() * with_pose[2];
-    with_pose[1] += swing.y() * with_pose[2];
+    with_pose[0] += heading_lever.x() * with_pose[2];
+    with_pose[1] += heading_lever.y() * with_pose[2];
   }
 }
 
@@ -97,7 +97,7 @@ void JointCovariance::place(int index, const Eigen::Matrix<double, 2, 3>& by_pos
     at(first + 1, j) = with_other.y();
   }
   Eigen::Matrix2d own = by_pose * pose() * by_pose.transpose() + noise;
-  mend<2>(own, repairs);
+  project_to_psd<2>(own, repairs);
   at(first, first) = own(0, 0);
   at(first + 1, first) = own(1, 0);
   at(first + 1, first + 1) = own(1, 1);
@@ -162,7 +162,7 @@ void JointCovariance::mend_block(Eigen::Index first, long& repairs) {
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j < kSize; ++j) block(i, j) = at(first + i, first + j);
   }
-  mend<kSize>(block, repairs);
+  project_to_psd<kSize>(block, repairs);
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j <= i; ++j) at(first + i, first + j) = block(i, j);
   }

@@ -36,7 +36,7 @@ class JointCovariance {
 
   /// The pose moves, which no landmark feels: O(n).
   /// @param swing by which errors in x and y grow with that of the heading, m/rad
-  void move_pose(const Eigen::Vector2d& swing, const Eigen::Matrix3d& noise);
+  void move_pose(const Eigen::Vector2d& heading_lever, const Eigen::Matrix3d& noise);
 
   /// A landmark becomes by_pose * pose + noise: O(n).
   ///

@@ -18,7 +18,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
       model_(config.unscented),
       reader_(config),
       correction_(config, proposal == Proposal::kMotion ? Updates::kToJudge : updates),
-      upkeep_(config),
+      management_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
       log_weights_(particles_.size()),
@@ -59,7 +59,7 @@ void FastSlam<Model>::update(std::span<const RangeBearing> sightings) {
     draw_poses();
   }
   for (std::size_t i = 0; i < particles_.size(); ++i) update_map(i, frame);
-  for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].fate = targets_of(decider_)[k].fate;
+  for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].outcome = targets_of(decider_)[k].outcome;
 }
 
 template <class Model>
@@ -87,7 +87,7 @@ bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
     if (config_.report_updates) keep_expected(i);
   }
   return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
-    return target.fate != Fate::kRefuse && target.fate != Fate::kIgnore;
+    return target.outcome != Outcome::kRefuse && target.outcome != Outcome::kIgnore;
   });
 }
 
@@ -97,8 +97,8 @@ void FastSlam<Model>::draw_from_motion(std::span<const Sighting> frame) {
   long& repairs = counters_.covariance_repairs;
   const Eigen::Matrix3d root = semidefinite_root<3>(motion_.covariance, repairs);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    if (posteriors_[i].pulled) continue;
-    const Pose drawn = compose(particles_[i].pose, headings_[i], displace(motion_.mean, root * normals()));
+    if (posteriors_[i].relocalised) continue;
+    const Pose drawn = compose(particles_[i].pose, headings_[i], boxplus(motion_.mean, root * normals()));
     posteriors_[i] = {{drawn, Eigen::Matrix3d::Zero()},
                       correction_.log_likelihood(particles_[i], drawn, frame, targets_of(i), repairs)};
     if (config_.report_updates) keep_expected(i);
@@ -121,7 +121,7 @@ void FastSlam<Model>::note_decisions(std::span<const Sighting> frame) {
     const Target& target = targets_of(decider_)[k];
     const bool held = target.landmark >= 0;
     const int origin = held ? landmark_of(particles_[decider_], frame[k], target).origin : kUnknown;
-    decided_.push_back({frame[k].number, target.fate, origin});
+    decided_.push_back({frame[k].number, target.outcome, origin});
   }
 }
 
@@ -145,9 +145,9 @@ void FastSlam<Model>::draw_poses() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const PoseBelief& belief = posteriors_[i].pose;
     particles_[i].pose = belief.mean;
-    if (proposal_ == Proposal::kMotion && !posteriors_[i].pulled) continue;
+    if (proposal_ == Proposal::kMotion && !posteriors_[i].relocalised) continue;
     const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, counters_.covariance_repairs);
-    particles_[i].pose = displace(belief.mean, root * normals());
+    particles_[i].pose = boxplus(belief.mean, root * normals());
   }
   motion_ = {};
 }
@@ -164,52 +164,52 @@ void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting>
   const std::span<Target> targets = targets_of(particle);
   Particle& mine = particles_[particle];
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark >= 0 && targets[k].fate != Fate::kIgnore) learn(mine, frame[k], targets[k]);
+    if (targets[k].landmark >= 0 && targets[k].outcome != Outcome::kIgnore) learn(mine, frame[k], targets[k]);
   }
-  upkeep_.survey(mine, frame, targets);
+  management_.survey(mine, frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].fate == Fate::kAdd) targets[k].fate = add(mine, frame[k]);
+    if (targets[k].outcome == Outcome::kAdd) targets[k].outcome = add(mine, frame[k]);
   }
-  upkeep_.weaken_unseen(mine);
+  management_.weaken_unseen(mine);
 }
 
 template <class Model>
 void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const Target& target) {
   Landmark landmark = landmark_of(particle, sighting, target);
   long& repairs = counters_.covariance_repairs;
-  if (target.fate == Fate::kRefuse) {
+  if (target.outcome == Outcome::kRefuse) {
     landmark.record.contradict();
-  } else if (target.fate == Fate::kMove) {
+  } else if (target.outcome == Outcome::kMove) {
     landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
     landmark.origin = sighting.number;
-    landmark.log_odds = upkeep_.existence().founded();
-  } else if (target.fate == Fate::kUse || target.fate == Fate::kConfirm) {
+    landmark.log_odds = management_.existence().founded();
+  } else if (target.outcome == Outcome::kUse || target.outcome == Outcome::kConfirm) {
     landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
     landmark.record.agree();
-    landmark.log_odds = upkeep_.existence().seen(landmark.log_odds, sighting.observation);
+    landmark.log_odds = management_.existence().seen(landmark.log_odds, sighting.observation);
   }
   map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);
 }
 
 /// @return kAdd, or kIgnore for what is no new landmark
 template <class Model>
-Fate FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
+Outcome FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
   long& repairs = counters_.covariance_repairs;
   const auto slot = static_cast<std::size_t>(sighting.slot);
   if (sighting.slot != kUnknown && slot < particle.known.size()) {  // seen twice in the frame that found it
-    learn(particle, sighting, {Fate::kUse, sighting.slot});
-    return Fate::kAdd;
+    learn(particle, sighting, {Outcome::kUse, sighting.slot});
+    return Outcome::kAdd;
   }
   const LandmarkBelief found = model_.found(particle.pose, sighting.observation, repairs);
   if (sighting.slot != kUnknown) {
     Landmark landmark{found, sighting.colour_class};
     landmark.origin = sighting.number;
     particle.known.push_back(landmark);
-  } else if (!upkeep_.add(particle, sighting, found)) {
+  } else if (!management_.add(particle, sighting, found)) {
     ++counters_.gated_measurements;  // no other landmark of this colour can be here
-    return Fate::kIgnore;
+    return Outcome::kIgnore;
   }
-  return Fate::kAdd;
+  return Outcome::kAdd;
 }
 
 template <class Model>

@@ -72,14 +72,14 @@ class FastSlam {
   Eigen::Vector3d normals();
   void update_map(std::size_t particle, std::span<const Sighting> frame);
   void learn(Particle& particle, const Sighting& sighting, const Target& target);
-  Fate add(Particle& particle, const Sighting& sighting);
+  Outcome add(Particle& particle, const Sighting& sighting);
 
   FilterConfig config_;
   Proposal proposal_;
   Model model_;
   FrameReader reader_;
   PoseCorrection<Model> correction_;
-  MapUpkeep upkeep_;
+  MapManagement management_;
   RandomStream random_;
   std::vector<Particle> particles_;
   std::vector<double> log_weights_;         ///< normalised

@@ -53,7 +53,7 @@ FrameFit fit_frame(const PoseBelief& predicted, std::span<const Match> matches, 
   for (int i = 0; i < kIterations; ++i) {
     const Eigen::Vector3d step = -around.information.ldlt().solve(around.gradient);
     u += step;
-    pose = displace(predicted.mean, root * u);
+    pose = boxplus(predicted.mean, root * u);
     around = expand(pose, root, u, matches, repairs);
     if (step.norm() < kConverged) break;
   }

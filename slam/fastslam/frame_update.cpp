@@ -19,10 +19,10 @@ Posterior correct_at_once(const PoseBelief& predicted, std::span<const Expectati
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   Eigen::Vector3d evidence = Eigen::Vector3d::Zero();
   double cost = 0.0;
-  for (const auto& [innovation, residual] : frame) {
-    const Eigen::Matrix<double, 3, 2> w = in_u.solve(by_sd.asDiagonal() * innovation.cross);
+  for (const auto& [expected, residual] : frame) {
+    const Eigen::Matrix<double, 3, 2> w = in_u.solve(by_sd.asDiagonal() * expected.cross);
     const long before = repairs;
-    const Factor2 apart(innovation.covariance - w.transpose() * w, repairs);  // from the pose
+    const Factor2 apart(expected.covariance - w.transpose() * w, repairs);  // from the pose
     if (repairs != before) continue;  // certain in some direction: it cannot be weighed against others
     const Eigen::Matrix<double, 3, 2> weighted = apart.divide<3>(w);
     information += weighted * w.transpose();
@@ -33,7 +33,7 @@ Posterior correct_at_once(const PoseBelief& predicted, std::span<const Expectati
   const Eigen::Vector3d u = factor.solve(evidence);
   const double log_det = 2.0 * logarithm(factor.matrixLLT().diagonal().prod());
   const Eigen::Matrix3d covariance = root * factor.solve(root.transpose());
-  return {{displace(predicted.mean, root * u), 0.5 * (covariance + covariance.transpose())},
+  return {{boxplus(predicted.mean, root * u), 0.5 * (covariance + covariance.transpose())},
           -0.5 * (cost - evidence.dot(u) + log_det),
           true};
 }

@@ -9,7 +9,7 @@ namespace stereobench::slam {
 
 /// What a landmark should look like, beside what was seen.
 struct Expectation {
-  Innovation innovation;
+  PredictedMeasurement predicted;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();  ///< wrapped
 };
 

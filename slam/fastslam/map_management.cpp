@@ -16,13 +16,13 @@ bool contains(const std::vector<int>& indices, std::size_t index) {
 
 }  // namespace
 
-MapUpkeep::MapUpkeep(const FilterConfig& config)
+MapManagement::MapManagement(const FilterConfig& config)
     : existence_(config.sector),
       gate_(chi_square_2_quantile(config.gate_probability)),
       near_m_(0.5 * config.colour_spacing_m) {}
 
-void MapUpkeep::survey(const Particle& particle, std::span<const Sighting> frame,
-                       std::span<const Target> targets) {
+void MapManagement::survey(const Particle& particle, std::span<const Sighting> frame,
+                           std::span<const Target> targets) {
   claimed_.clear();
   unseen_.clear();
   vacant_.clear();
@@ -44,7 +44,7 @@ void MapUpkeep::survey(const Particle& particle, std::span<const Sighting> frame
       });
 }
 
-bool MapUpkeep::add(Particle& particle, const Sighting& sighting, const LandmarkBelief& found) {
+bool MapManagement::add(Particle& particle, const Sighting& sighting, const LandmarkBelief& found) {
   Landmark landmark{found, sighting.colour_class};
   landmark.origin = sighting.number;
   landmark.log_odds = existence_.founded();
@@ -66,7 +66,7 @@ bool MapUpkeep::add(Particle& particle, const Sighting& sighting, const Landmark
   return true;
 }
 
-void MapUpkeep::weaken_unseen(Particle& particle) const {
+void MapManagement::weaken_unseen(Particle& particle) const {
   for (const int j : unseen_) {
     const auto index = static_cast<std::size_t>(j);
     Landmark landmark = particle.classed[index];
@@ -76,7 +76,7 @@ void MapUpkeep::weaken_unseen(Particle& particle) const {
 }
 
 /// @return whether the map has a landmark of the same colour too near for another
-bool MapUpkeep::has_neighbour(const LandmarkMap& map, const Landmark& landmark) const {
+bool MapManagement::has_neighbour(const LandmarkMap& map, const Landmark& landmark) const {
   const Eigen::Vector2d& place = landmark.belief.mean;
   bool found = false;
   map.visit(
@@ -92,7 +92,7 @@ bool MapUpkeep::has_neighbour(const LandmarkMap& map, const Landmark& landmark) 
 
 /// @return the landmark that a sighting from a known pose may be of, among those that are not claimed; -1 for
 /// none
-int MapUpkeep::lookalike(const Particle& particle, const Sighting& sighting) const {
+int MapManagement::lookalike(const Particle& particle, const Sighting& sighting) const {
   const Observation& observation = sighting.observation;
   const PoseBelief known{particle.pose, Eigen::Matrix3d::Zero()};
   const SightingPlace place(known, observation, {gate_, near_m_});
@@ -101,7 +101,8 @@ int MapUpkeep::lookalike(const Particle& particle, const Sighting& sighting) con
   visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
     if (contains(claimed_, j)) return;
     long mended = 0;  // for a comparison only
-    const Innovation seen = Linearised().expect(particle.pose, landmark.belief, observation, mended);
+    const PredictedMeasurement seen =
+        Linearised().expect(particle.pose, landmark.belief, observation, mended);
     const double squared_length =
         Factor2(seen.covariance, mended)
             .squared_length(sighting_residual(observation.range_bearing, seen.expected));

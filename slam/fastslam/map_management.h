@@ -16,9 +16,9 @@ namespace stereobench::slam {
 /// dead stays where it is in the map, unseen by all searches, until a new landmark nearby takes its place: a
 /// map does not grow with the clutter of one place. A frame that shows nothing at all is no evidence, as it
 /// is none at all.
-class MapUpkeep {
+class MapManagement {
  public:
-  explicit MapUpkeep(const FilterConfig& config);
+  explicit MapManagement(const FilterConfig& config);
 
   const Existence& existence() const { return existence_; }
 

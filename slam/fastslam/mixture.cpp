@@ -31,9 +31,9 @@ PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vecto
   Moments<3> moments;
   for (std::size_t i = 0; i < posteriors.size(); ++i) {
     const PoseBelief& belief = posteriors[i].pose;
-    moments.add(weights[i], displacement(belief.mean, reference), belief.covariance);
+    moments.add(weights[i], boxminus(belief.mean, reference), belief.covariance);
   }
-  return {displace(reference, moments.mean()), moments.covariance()};
+  return {boxplus(reference, moments.mean()), moments.covariance()};
 }
 
 LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& weights,

@@ -21,8 +21,8 @@ struct Particle {
 struct Posterior {
   PoseBelief pose;
   double log_likelihood = 0.0;  ///< of the whole frame, given the particle's path and map
-  bool vouched = false;         ///< some landmark has corrected it in this frame
-  bool pulled = false;          ///< a contradiction was settled against the odometry
+  bool corroborated = false;    ///< some landmark has corrected it in this frame
+  bool relocalised = false;     ///< a contradiction was settled against the odometry
 };
 
 /// The map that a sighting's landmark is in: by identity, or by colour alone.

@@ -25,34 +25,34 @@ bool is_finite(const Posterior& posterior) {
          posterior.pose.covariance.allFinite() && std::isfinite(posterior.log_likelihood);
 }
 
-/// A sighting's surprise, measured by what was expected.
-struct Surprise {
-  Surprise(const Innovation& innovation, const Observation& observation, long& repairs)
-      : expected(innovation),
-        factor(innovation.covariance, repairs),
-        residual(sighting_residual(observation.range_bearing, innovation.expected)),
+/// A sighting's innovation, measured by what was expected.
+struct Innovation {
+  Innovation(const PredictedMeasurement& predicted, const Observation& observation, long& repairs)
+      : expected(predicted),
+        factor(predicted.covariance, repairs),
+        residual(sighting_residual(observation.range_bearing, predicted.expected)),
         squared_length(factor.squared_length(residual)) {}
 
   double log_likelihood() const { return -0.5 * (squared_length + factor.log_det_2_pi()); }
 
-  Innovation expected;
+  PredictedMeasurement expected;
   Factor2 factor;
   Eigen::Vector2d residual;
   double squared_length;
 };
 
-ExpectedSighting expectation(const Innovation& innovation, double log_likelihood) {
-  return {true, innovation.expected, innovation.covariance, log_likelihood};
+ExpectedSighting expectation(const PredictedMeasurement& predicted, double log_likelihood) {
+  return {true, predicted.expected, predicted.covariance, log_likelihood};
 }
 
 /// The Kalman update in gain form, K = P_xz S^-1: a singular P is nothing special, and P^-1 is never needed.
-void apply(const Surprise& surprise, Posterior& posterior) {
-  const Eigen::Matrix<double, 3, 2> gain = surprise.factor.template divide<3>(surprise.expected.cross);
-  const Eigen::Matrix3d covariance = posterior.pose.covariance - gain * surprise.expected.cross.transpose();
-  posterior.pose.mean = displace(posterior.pose.mean, gain * surprise.residual);
+void apply(const Innovation& innovation, Posterior& posterior) {
+  const Eigen::Matrix<double, 3, 2> gain = innovation.factor.template divide<3>(innovation.expected.cross);
+  const Eigen::Matrix3d covariance = posterior.pose.covariance - gain * innovation.expected.cross.transpose();
+  posterior.pose.mean = boxplus(posterior.pose.mean, gain * innovation.residual);
   posterior.pose.covariance = 0.5 * (covariance + covariance.transpose());
-  posterior.log_likelihood += surprise.log_likelihood();
-  posterior.vouched = true;
+  posterior.log_likelihood += innovation.log_likelihood();
+  posterior.corroborated = true;
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
     const double before = posterior.log_likelihood;
     const bool contradicted = counters.gated_measurements > gated_before;
     const bool read = updates_ != Updates::kToJudge || k != order_.back() || contradicted;
-    targets[k].fate = use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
+    targets[k].outcome =
+        use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
     if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
   }
   if (refit_ && counters.gated_measurements > gated_before) {
@@ -95,7 +96,7 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
     if (joint) {
       posterior = *joint;
       counters.gated_measurements = gated_before;
-      for (const std::size_t k : order_) targets[k].fate = Fate::kUse;
+      for (const std::size_t k : order_) targets[k].outcome = Outcome::kUse;
     }
   }
   posterior.log_likelihood += log_density_of_new(frame, targets);
@@ -111,13 +112,13 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
   if (report_) expected_.assign(frame.size(), {});
   double sum = log_density_of_new(frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark < 0 || targets[k].fate == Fate::kConfirm) continue;
+    if (targets[k].landmark < 0 || targets[k].outcome == Outcome::kConfirm) continue;
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
-    const Surprise surprise(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
-    const double squared_length = targets[k].fate == Fate::kUse ? surprise.squared_length : gate_;
-    const double log_likelihood = -0.5 * (squared_length + surprise.factor.log_det_2_pi());
-    if (report_) expected_[k] = expectation(surprise.expected, log_likelihood);
+    const Innovation innovation(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
+    const double squared_length = targets[k].outcome == Outcome::kUse ? innovation.squared_length : gate_;
+    const double log_likelihood = -0.5 * (squared_length + innovation.factor.log_det_2_pi());
+    if (report_) expected_[k] = expectation(innovation.expected, log_likelihood);
     sum += log_likelihood;
   }
   return sum;
@@ -133,7 +134,7 @@ void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief
     if (frame[k].slot == kUnknown) {
       find_candidates(particle, predicted, frame[k], static_cast<int>(k), counters);
     } else if (static_cast<std::size_t>(frame[k].slot) < particle.known.size()) {
-      targets[k] = {Fate::kUse, frame[k].slot};
+      targets[k] = {Outcome::kUse, frame[k].slot};
     }
   }
   if (association_ == Association::kJoint && !(near_m_ > 0.0) && compete(candidates_))
@@ -141,9 +142,9 @@ void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief
   if (candidates_.empty()) return;
   assign(candidates_, near_m_ > 0.0, targets);
   for (std::size_t k = 0; existence_.is_tracked() && k < frame.size(); ++k) {
-    if (frame[k].slot != kUnknown || targets[k].fate != Fate::kUse) continue;
+    if (frame[k].slot != kUnknown || targets[k].outcome != Outcome::kUse) continue;
     if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).log_odds))
-      targets[k].fate = Fate::kConfirm;
+      targets[k].outcome = Outcome::kConfirm;
   }
 }
 
@@ -180,8 +181,9 @@ double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame
   if (!existence_.is_tracked()) return 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    const Fate fate = targets[k].fate;
-    const bool of_none = fate == Fate::kAdd || fate == Fate::kIgnore || fate == Fate::kConfirm;
+    const Outcome outcome = targets[k].outcome;
+    const bool of_none =
+        outcome == Outcome::kAdd || outcome == Outcome::kIgnore || outcome == Outcome::kConfirm;
     if (of_none && frame[k].slot == kUnknown) sum -= 0.5 * existence_.cost_of_new(frame[k].observation);
   }
   return sum;
@@ -195,10 +197,10 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
   const double cost_of_new = existence_.cost_of_new(observation);
   visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
     long& repairs = counters.covariance_repairs;
-    const Surprise surprise(model_.expect(predicted, landmark.belief, observation, repairs), observation,
-                            repairs);
-    const double cost = -2.0 * surprise.log_likelihood();
-    const bool gated = !(surprise.squared_length <= gate_ && cost <= cost_of_new);
+    const Innovation innovation(model_.expect(predicted, landmark.belief, observation, repairs), observation,
+                                repairs);
+    const double cost = -2.0 * innovation.log_likelihood();
+    const bool gated = !(innovation.squared_length <= gate_ && cost <= cost_of_new);
     if (gated && !((place.mean_m() - landmark.belief.mean).norm() < near_m_)) return;
     candidates_.push_back({index, static_cast<int>(j), cost, gated});
   });
@@ -209,7 +211,8 @@ void PoseCorrection<Model>::find_candidates(const Particle& particle, const Pose
 template <class Model>
 std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& predicted,
                                                            const Posterior& refusing, long& repairs) const {
-  const double limit = chi_square_quantile(gate_probability_, 2.0 * static_cast<double>(matches_.size()));
+  const double limit =
+      approximate_chi_square_quantile(gate_probability_, 2.0 * static_cast<double>(matches_.size()));
   const Eigen::Matrix3d covariance = predicted.covariance + bend_covariance(predicted);
   const FrameFit bent = fit_frame({predicted.mean, covariance}, matches_, repairs);
   if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
@@ -226,7 +229,7 @@ template <class Model>
 void PoseCorrection<Model>::order_by_age(std::span<const Target> targets) {
   order_.clear();
   for (std::size_t k = 0; k < targets.size(); ++k) {
-    if (targets[k].fate == Fate::kUse) order_.push_back(k);
+    if (targets[k].outcome == Outcome::kUse) order_.push_back(k);
   }
   std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
     return std::pair(targets[a].landmark, a) < std::pair(targets[b].landmark, b);
@@ -244,11 +247,11 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
   for (const std::size_t k : order_) {
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
-    const Surprise surprise(model_.expect(posterior.pose, landmark, observation, repairs), observation,
-                            repairs);
-    if (surprise.squared_length <= gate_) {
-      expectations_.push_back({surprise.expected, surprise.residual});
-      if (report_) expected_[k] = expectation(surprise.expected, surprise.log_likelihood());
+    const Innovation innovation(model_.expect(posterior.pose, landmark, observation, repairs), observation,
+                                repairs);
+    if (innovation.squared_length <= gate_) {
+      expectations_.push_back({innovation.expected, innovation.residual});
+      if (report_) expected_[k] = expectation(innovation.expected, innovation.log_likelihood());
     } else {
       late_.push_back(k);
     }
@@ -257,32 +260,32 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
 }
 
 template <class Model>
-Fate PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
-                                FilterCounters& counters, const Wanted& wanted) const {
+Outcome PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
+                                   FilterCounters& counters, const Wanted& wanted) const {
   long& repairs = counters.covariance_repairs;
   const Observation& observation = sighting.observation;
   const long before = repairs;
-  const Surprise surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
-                          repairs);
-  if (wanted.expected != nullptr) *wanted.expected = expectation(surprise.expected, 0.0);
-  if (surprise.squared_length <= gate_) {
+  const Innovation innovation(model_.expect(posterior.pose, landmark.belief, observation, repairs),
+                              observation, repairs);
+  if (wanted.expected != nullptr) *wanted.expected = expectation(innovation.expected, 0.0);
+  if (innovation.squared_length <= gate_) {
     const bool teaches = repairs == before;  // else all is certain
-    if (wanted.pose && teaches) apply(surprise, posterior);
-    return Fate::kUse;
+    if (wanted.pose && teaches) apply(innovation, posterior);
+    return Outcome::kUse;
   }
   ++counters.gated_measurements;
   const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
-  const Fate fate = judge_contradiction(landmark.record, certain, posterior.vouched);
-  if (fate == Fate::kUse) {
-    posterior.pulled = true;
+  const Outcome outcome = judge_contradiction(landmark.record, certain, posterior.corroborated);
+  if (outcome == Outcome::kUse) {
+    posterior.relocalised = true;
     posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);
-    apply(
-        Surprise(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation, repairs),
-        posterior);
+    apply(Innovation(model_.expect(posterior.pose, landmark.belief, observation, repairs), observation,
+                     repairs),
+          posterior);
   } else {
-    posterior.log_likelihood -= 0.5 * (gate_ + surprise.factor.log_det_2_pi());
+    posterior.log_likelihood -= 0.5 * (gate_ + innovation.factor.log_det_2_pi());
   }
-  return fate;
+  return outcome;
 }
 
 template class PoseCorrection<Linearised>;

@@ -21,7 +21,7 @@ namespace stereobench::slam {
 enum class Updates {
   kOneByOne,  ///< each from where the one before left the pose: the paper's refreshed sigma points (eq. 24)
   kAtOnce,   ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
-  kToJudge,  ///< one by one, but for their fates alone: the pose is drawn without them (FastSLAM 1.0)
+  kToJudge,  ///< one by one, but for their outcomes alone: the pose is drawn without them (FastSLAM 1.0)
 };
 
 /// Corrects the predicted pose of a particle by the landmarks it knows, one after the other, oldest first.
@@ -44,7 +44,7 @@ enum class Updates {
 /// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
 /// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
 /// A landmark that is contradicted several times in a row is no outlier: either the pose or the landmark is
-/// wrong. When an older landmark has vouched for the pose in this frame, or the landmark itself was seen
+/// wrong. When an older landmark has corroborated the pose in this frame, or the landmark itself was seen
 /// rarely, the landmark is found anew. Otherwise the pose has drifted, as at the end of a loop, and the
 /// filter was too sure of it: the covariance grows by the smallest drift that explains the sighting, and the
 /// sighting is used. Its likelihood falls with the square of that drift, so that particles which close the
@@ -64,7 +64,7 @@ class PoseCorrection {
   /// @param particle its map; the pose is not read
   /// @param predicted where the particle should be by its odometry
   /// @param frame what was seen
-  /// @param targets one for each sighting; receives its fate
+  /// @param targets one for each sighting; receives its outcome
   Posterior correct(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
                     std::span<Target> targets, FilterCounters& counters);
 
@@ -79,7 +79,7 @@ class PoseCorrection {
   std::span<const ExpectedSighting> expected() const { return expected_; }
 
  private:
-  /// What one sighting is looked at for, besides its fate.
+  /// What one sighting is looked at for, besides its outcome.
   struct Wanted {
     ExpectedSighting* expected = nullptr;  ///< receives what was expected; null where nobody asks
     bool pose = true;                      ///< whether anything reads the pose that the sighting leaves
@@ -97,8 +97,8 @@ class PoseCorrection {
   void order_by_age(std::span<const Target> targets);
   void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
                    Posterior& posterior, FilterCounters& counters);
-  Fate use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior, FilterCounters& counters,
-           const Wanted& wanted) const;
+  Outcome use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
+              FilterCounters& counters, const Wanted& wanted) const;
 
   Model model_;
   Updates updates_;

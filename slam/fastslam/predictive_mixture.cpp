@@ -70,7 +70,7 @@ std::optional<NormalisedInnovation> innovation(const Expectations& all, std::siz
     const ExpectedSighting& one = all.expected[all.at(i, k)];
     if (!one.exists) continue;
     moments.add(weight, sighting_residual(one.range_bearing, centre), one.covariance);
-    if (all.targets[all.at(i, k)].fate != Fate::kUse) refusing += weight;
+    if (all.targets[all.at(i, k)].outcome != Outcome::kUse) refusing += weight;
   }
   if (!(moments.total >= 0.5 * total) || !(total > 0.0)) return {};
   const Eigen::Vector2d mean = centre + moments.mean();

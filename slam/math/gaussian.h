@@ -93,7 +93,7 @@ Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double
 ///
 /// @param repairs incremented when something was mended
 template <int kSize>
-void mend(Eigen::Matrix<double, kSize, kSize>& covariance, long& repairs) {
+void project_to_psd(Eigen::Matrix<double, kSize, kSize>& covariance, long& repairs) {
   const long before = repairs;
   const Eigen::Matrix<double, kSize, kSize> root = semidefinite_root<kSize>(covariance, repairs);
   if (repairs != before) covariance = root * root.transpose();
@@ -167,7 +167,7 @@ inline double chi_square_2_quantile(double probability) {
 }
 
 /// The same for any number of degrees of freedom, by Wilson and Hilferty's cube: within 5 % from two on.
-inline double chi_square_quantile(double probability, double degrees_of_freedom) {
+inline double approximate_chi_square_quantile(double probability, double degrees_of_freedom) {
   if (!(probability < 1.0)) return std::numeric_limits<double>::infinity();
   const double spread = 2.0 / (9.0 * degrees_of_freedom);
   const double root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);

@@ -24,7 +24,7 @@ struct Moments {
   Eigen::Matrix<double, kSize, kSize> covariance() const {
     Eigen::Matrix<double, kSize, kSize> difference = second / total - mean() * mean().transpose();
     long of_the_report = 0;  // where the reference lies far from the weight; no belief is mended
-    mend<kSize>(difference, of_the_report);
+    project_to_psd<kSize>(difference, of_the_report);
     return difference;
   }
 };

@@ -21,7 +21,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& p, SineCosine heading) {
 
 Eigen::Matrix<double, 2, 3> lever(const Pose& pose, const Eigen::Vector2d& point) {
   Eigen::Matrix<double, 2, 3> slope = Eigen::Matrix<double, 2, 3>::Identity();
-  slope.col(2) = swing(pose, point);
+  slope.col(2) = heading_lever(pose, point);
   return slope;
 }
 
@@ -36,8 +36,8 @@ PoseBelief follow(const Pose& world_from_start, SineCosine heading, const PoseBe
 
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now) {
   PoseBelief now = follow(world_from_start.mean, start_from_now);
-  now.covariance +=
-      swung(world_from_start.covariance, swing(world_from_start.mean, {now.mean.x_m, now.mean.y_m}));
+  now.covariance += with_heading_error(world_from_start.covariance,
+                                       heading_lever(world_from_start.mean, {now.mean.x_m, now.mean.y_m}));
   return now;
 }
 

@@ -29,34 +29,36 @@ struct Observation {
 };
 
 /// What a landmark should look like from an uncertain pose: moments of the sighting before it is used.
-struct Innovation {
+struct PredictedMeasurement {
   Eigen::Vector2d expected = Eigen::Vector2d::Zero();    ///< range, bearing
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< S: pose, landmark and sensor together
   Eigen::Matrix<double, 3, 2> cross = Eigen::Matrix<double, 3, 2>::Zero();  ///< of pose and sighting
 };
 
 /// The mean of poses moved by a small vector (dx, dy, dheading).
-inline Pose displace(const Pose& pose, const Eigen::Vector3d& step) {
+inline Pose boxplus(const Pose& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.heading_rad + step.z())};
 }
 
 /// The vector (dx, dy, dheading) from one pose to another, the heading wrapped.
-inline Eigen::Vector3d displacement(const Pose& to, const Pose& from) {
+inline Eigen::Vector3d boxminus(const Pose& to, const Pose& from) {
   return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.heading_rad - from.heading_rad)};
 }
 
 /// How far a point that is fixed to the robot swings when its heading is off by a little, m/rad.
-inline Eigen::Vector2d swing(const Pose& pose, const Eigen::Vector2d& point) {
+inline Eigen::Vector2d heading_lever(const Pose& pose, const Eigen::Vector2d& point) {
   return {-(point.y() - pose.y_m), point.x() - pose.x_m};
 }
 
 /// T P T' for a pose whose errors in x and y grow by swing times that of its heading.
-inline Eigen::Matrix3d swung(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& swing) {
+inline Eigen::Matrix3d with_heading_error(const Eigen::Matrix3d& covariance,
+                                          const Eigen::Vector2d& heading_lever) {
   Eigen::Matrix3d half;  // T P
   for (int j = 0; j < 3; ++j)
-    half.col(j) = covariance.col(j) + covariance(2, j) * Eigen::Vector3d(swing.x(), swing.y(), 0.0);
+    half.col(j) =
+        covariance.col(j) + covariance(2, j) * Eigen::Vector3d(heading_lever.x(), heading_lever.y(), 0.0);
   Eigen::Matrix3d result;
-  for (int j = 0; j < 2; ++j) result.col(j) = half.col(j) + swing[j] * half.col(2);
+  for (int j = 0; j < 2; ++j) result.col(j) = half.col(j) + heading_lever[j] * half.col(2);
   result.col(2) = half.col(2);
   return result;
 }

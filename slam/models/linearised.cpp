@@ -36,47 +36,47 @@ PoseBelief Linearised::move(const PoseBelief& belief, const Control& control,
   return {moved.mean, 0.5 * (covariance + covariance.transpose())};
 }
 
-Innovation Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
-                              const Observation& observation, long&) const {
+PredictedMeasurement Linearised::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
+                                        const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(belief.mean, landmark.mean);
   const Eigen::Matrix2d& by_landmark = linear.by_landmark;
   const Eigen::Matrix<double, 2, 3> by_pose = linear.by_pose();
-  Innovation innovation;
-  innovation.expected = linear.expected;
+  PredictedMeasurement predicted;
+  predicted.expected = linear.expected;
   // Products that are not told so go through temporaries of their own.
-  innovation.cross.noalias() = belief.covariance * by_pose.transpose();
-  innovation.covariance.noalias() = by_pose * innovation.cross;
+  predicted.cross.noalias() = belief.covariance * by_pose.transpose();
+  predicted.covariance.noalias() = by_pose * predicted.cross;
   Eigen::Matrix2d from_landmark;
   from_landmark.noalias() = by_landmark * landmark.covariance;
-  innovation.covariance.noalias() += from_landmark * by_landmark.transpose();
-  innovation.covariance += noise_at(observation, innovation.expected);
-  return innovation;
+  predicted.covariance.noalias() += from_landmark * by_landmark.transpose();
+  predicted.covariance += noise_at(observation, predicted.expected);
+  return predicted;
 }
 
-Innovation Linearised::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                              const Observation& observation, long&) const {
+PredictedMeasurement Linearised::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                                        const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(belief.mean, place);
   const Eigen::Matrix2d by_place = -linear.by_landmark;  // of the robot; its heading takes from the bearing
-  Innovation innovation;
-  innovation.expected = linear.expected;
-  innovation.cross.noalias() = belief.covariance.leftCols<2>() * by_place.transpose();
-  innovation.cross.col(1) -= belief.covariance.col(2);
-  innovation.covariance = noise_at(observation, innovation.expected);
-  innovation.covariance.noalias() += by_place * innovation.cross.topRows<2>();
-  innovation.covariance.row(1) -= innovation.cross.row(2);
-  return innovation;
+  PredictedMeasurement predicted;
+  predicted.expected = linear.expected;
+  predicted.cross.noalias() = belief.covariance.leftCols<2>() * by_place.transpose();
+  predicted.cross.col(1) -= belief.covariance.col(2);
+  predicted.covariance = noise_at(observation, predicted.expected);
+  predicted.covariance.noalias() += by_place * predicted.cross.topRows<2>();
+  predicted.covariance.row(1) -= predicted.cross.row(2);
+  return predicted;
 }
 
-Innovation Linearised::expect(const Pose& robot, const LandmarkBelief& landmark,
-                              const Observation& observation, long&) const {
+PredictedMeasurement Linearised::expect(const Pose& robot, const LandmarkBelief& landmark,
+                                        const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(robot, landmark.mean);
-  Innovation innovation;
-  innovation.expected = linear.expected;
+  PredictedMeasurement predicted;
+  predicted.expected = linear.expected;
   Eigen::Matrix2d from_landmark;
   from_landmark.noalias() = linear.by_landmark * landmark.covariance;
-  innovation.covariance.noalias() = from_landmark * linear.by_landmark.transpose();
-  innovation.covariance += noise_at(observation, innovation.expected);
-  return innovation;
+  predicted.covariance.noalias() = from_landmark * linear.by_landmark.transpose();
+  predicted.covariance += noise_at(observation, predicted.expected);
+  return predicted;
 }
 
 LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& robot,
@@ -91,12 +91,12 @@ LandmarkBelief Linearised::refine(const LandmarkBelief& landmark, const Pose& ro
   const Factor2 factor(seen, repairs);
   if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
-  const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
+  const Eigen::Vector2d innovation = sighting_residual(observation.range_bearing, expected);
   // Joseph's form stays semidefinite under rounding.
   const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * slope;
   const Eigen::Matrix2d covariance =
       kept * landmark.covariance * kept.transpose() + gain * noise * gain.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  return {landmark.mean + gain * innovation, 0.5 * (covariance + covariance.transpose())};
 }
 
 LandmarkBelief Linearised::found(const Pose& robot, const Observation& observation, long&) const {

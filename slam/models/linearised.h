@@ -16,16 +16,16 @@ class Linearised {
                   long& repairs) const;
 
   /// What a landmark should look like: S = Hx P Hx' + Hm Sigma Hm' + R, cross = P Hx'.
-  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
-                    long& repairs) const;
+  PredictedMeasurement expect(const PoseBelief& belief, const LandmarkBelief& landmark,
+                              const Observation& observation, long& repairs) const;
 
   /// The same from a pose that is known: S = Hm Sigma Hm' + R, and nothing to correct.
-  Innovation expect(const Pose& robot, const LandmarkBelief& landmark, const Observation& observation,
-                    long& repairs) const;
+  PredictedMeasurement expect(const Pose& robot, const LandmarkBelief& landmark,
+                              const Observation& observation, long& repairs) const;
 
   /// What a point should look like whose place is known: S = Hx P Hx' + R.
-  Innovation expect(const PoseBelief& belief, const Eigen::Vector2d& place, const Observation& observation,
-                    long& repairs) const;
+  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                              const Observation& observation, long& repairs) const;
 
   /// The landmark after a sighting from a known pose: the extended Kalman update.
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,

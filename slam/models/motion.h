@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Core>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/math/random.h"
 #include "slam/types.h"
@@ -14,7 +14,6 @@ namespace stereobench::slam {
 
 /// Brings an angle into (-pi, pi].
 inline double wrap_angle(double angle_rad) {
-  constexpr double kPi = std::numbers::pi;
   if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
   const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;

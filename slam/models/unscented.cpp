@@ -17,30 +17,30 @@ PoseBelief Unscented::move(const PoseBelief& belief, const Control& control,
     const double reach = point % 2 == 0 ? five_.spread : -five_.spread;
     Pose from = belief.mean;
     Control by = control;
-    if (dimension < 3) from = displace(from, reach * root.col(dimension));
+    if (dimension < 3) from = boxplus(from, reach * root.col(dimension));
     if (dimension == 3) by.v_mps += reach * control_sd.x();
     if (dimension == 4) by.w_radps += reach * control_sd.y();
-    residuals.col(point) = displacement(advance(from, by), centre);
+    residuals.col(point) = boxminus(advance(from, by), centre);
   }
   const Eigen::Vector3d mean = sigma_mean<3, 5>(residuals, five_);
-  return {displace(centre, mean), sigma_covariance<3, 5>(residuals, mean, five_)};
+  return {boxplus(centre, mean), sigma_covariance<3, 5>(residuals, mean, five_)};
 }
 
-Innovation Unscented::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
-                             const Observation& observation, long& repairs) const {
+PredictedMeasurement Unscented::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
+                                       const Observation& observation, long& repairs) const {
   const PivotedRoot<2> root = pivoted_root<2>(landmark.covariance, landmark.covariance.diagonal(), repairs);
   return expect(belief, landmark.mean, root, observation, repairs);
 }
 
-Innovation Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                             const Observation& observation, long& repairs) const {
+PredictedMeasurement Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                                       const Observation& observation, long& repairs) const {
   return expect(belief, place, {}, observation, repairs);
 }
 
 /// @param spread root of the landmark's covariance about its place
-Innovation Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                             const PivotedRoot<2>& spread, const Observation& observation,
-                             long& repairs) const {
+PredictedMeasurement Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                                       const PivotedRoot<2>& spread, const Observation& observation,
+                                       long& repairs) const {
   const PivotedRoot<3> root = pivoted_root<3>(belief.covariance, belief.covariance.diagonal(), repairs);
   const Eigen::Vector2d centre = predict_sighting(belief.mean, place);
   SigmaResiduals<2, 5> residuals = SigmaResiduals<2, 5>::Zero();  // beyond a rank points are the centre
@@ -51,19 +51,19 @@ Innovation Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& pl
   };
   for (int i = 0; i < root.rank; ++i) {
     const Eigen::Vector3d step = five_.spread * root.lower.col(i);
-    look(i, {displace(belief.mean, step), place}, {displace(belief.mean, -step), place});
+    look(i, {boxplus(belief.mean, step), place}, {boxplus(belief.mean, -step), place});
   }
   for (int i = 0; i < spread.rank; ++i) {
     const Eigen::Vector2d step = five_.spread * spread.lower.col(i);
     look(3 + i, {belief.mean, place + step}, {belief.mean, place - step});
   }
   const Eigen::Vector2d mean = sigma_mean<2, 5>(residuals, five_);
-  Innovation innovation;
-  innovation.expected = {centre.x() + mean.x(), wrap_angle(centre.y() + mean.y())};
-  innovation.covariance =
-      sigma_covariance<2, 5>(residuals, mean, five_) + noise_at(observation, innovation.expected);
-  innovation.cross = sigma_cross<3, 2, 5>(root.lower, 0, residuals, five_);
-  return innovation;
+  PredictedMeasurement predicted;
+  predicted.expected = {centre.x() + mean.x(), wrap_angle(centre.y() + mean.y())};
+  predicted.covariance =
+      sigma_covariance<2, 5>(residuals, mean, five_) + noise_at(observation, predicted.expected);
+  predicted.cross = sigma_cross<3, 2, 5>(root.lower, 0, residuals, five_);
+  return predicted;
 }
 
 LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& robot,
@@ -86,9 +86,9 @@ LandmarkBelief Unscented::refine(const LandmarkBelief& landmark, const Pose& rob
                        repairs);
   if (repairs != before) return landmark;  // neither is uncertain: nothing can be learnt
   const Eigen::Matrix2d gain = factor.divide<2>(cross);
-  const Eigen::Vector2d surprise = sighting_residual(observation.range_bearing, expected);
+  const Eigen::Vector2d innovation = sighting_residual(observation.range_bearing, expected);
   const Eigen::Matrix2d covariance = landmark.covariance - gain * cross.transpose();
-  return {landmark.mean + gain * surprise, 0.5 * (covariance + covariance.transpose())};
+  return {landmark.mean + gain * innovation, 0.5 * (covariance + covariance.transpose())};
 }
 
 LandmarkBelief Unscented::found(const Pose& robot, const Observation& observation, long& repairs) const {

@@ -24,18 +24,18 @@ class Unscented {
 
   /// What a landmark should look like: sigma points over (pose, landmark), drawn from the belief it is given,
   /// which is the updated one for every landmark after the first (eq. 17-20 and 24).
-  Innovation expect(const PoseBelief& belief, const LandmarkBelief& landmark, const Observation& observation,
-                    long& repairs) const;
+  PredictedMeasurement expect(const PoseBelief& belief, const LandmarkBelief& landmark,
+                              const Observation& observation, long& repairs) const;
 
   /// The same from a pose that is known.
-  Innovation expect(const Pose& robot, const LandmarkBelief& landmark, const Observation& observation,
-                    long& repairs) const {
+  PredictedMeasurement expect(const Pose& robot, const LandmarkBelief& landmark,
+                              const Observation& observation, long& repairs) const {
     return expect(PoseBelief{robot}, landmark, observation, repairs);
   }
 
   /// What a point should look like whose place is known.
-  Innovation expect(const PoseBelief& belief, const Eigen::Vector2d& place, const Observation& observation,
-                    long& repairs) const;
+  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                              const Observation& observation, long& repairs) const;
 
   /// The landmark after a sighting from a known pose: sigma points over the landmark (eq. 28-34).
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,
@@ -47,8 +47,9 @@ class Unscented {
   const SigmaWeights<5>& weights() const { return five_; }  ///< of points over five dimensions
 
  private:
-  Innovation expect(const PoseBelief& belief, const Eigen::Vector2d& place, const PivotedRoot<2>& spread,
-                    const Observation& observation, long& repairs) const;
+  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
+                              const PivotedRoot<2>& spread, const Observation& observation,
+                              long& repairs) const;
 
   SigmaWeights<5> five_;
   SigmaWeights<2> two_;

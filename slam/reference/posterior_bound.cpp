@@ -16,7 +16,7 @@ namespace {
 /// d(x, y, heading) / d(x0, y0, heading0) of any motion that leads from one pose to another.
 Eigen::Matrix3d lever(const Pose& from, const Pose& to) {
   Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
-  slope.col(2).head<2>() = swing(from, {to.x_m, to.y_m});
+  slope.col(2).head<2>() = heading_lever(from, {to.x_m, to.y_m});
   return slope;
 }
 
@@ -116,7 +116,7 @@ void PosteriorBound::inform(std::span<const TrueSighting> frame) {
   const auto rows = static_cast<Eigen::Index>(2 * frame.size());
   auto joint = joint_.topLeftCorner(size_, size_);
   Eigen::SparseMatrix<double> slope(rows, size_);
-  Eigen::MatrixXd surprise = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::MatrixXd innovation = Eigen::MatrixXd::Zero(rows, rows);
   for (Eigen::Index k = 0; k < rows; k += 2) {
     const TrueSighting& sighting = frame[static_cast<std::size_t>(k / 2)];
     const auto index = static_cast<std::size_t>(sighting.landmark);
@@ -125,11 +125,11 @@ void PosteriorBound::inform(std::span<const TrueSighting> frame) {
       for (Eigen::Index j = 0; j < 3; ++j) slope.insert(i, j) = linear.by_pose()(i - k, j);
       for (Eigen::Index j = 0; j < 2; ++j) slope.insert(i, row_[index] + j) = linear.by_landmark(i - k, j);
     }
-    surprise.block<2, 2>(k, k) = sighting.noise;
+    innovation.block<2, 2>(k, k) = sighting.noise;
   }
   const Eigen::MatrixXd cross = slope * joint;
-  surprise += cross * slope.transpose();
-  const Eigen::MatrixXd white = whitener(surprise);
+  innovation += cross * slope.transpose();
+  const Eigen::MatrixXd white = whitener(innovation);
   const Eigen::MatrixXd white_cross = white * cross;
   joint.selfadjointView<Eigen::Lower>().rankUpdate(white_cross.transpose(), -1.0);
   joint.triangularView<Eigen::StrictlyUpper>() = joint.transpose();

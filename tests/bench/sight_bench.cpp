@@ -74,7 +74,7 @@ void look_along_walls(benchmark::State& state) {
 void look_along_a_mesh(benchmark::State& state) {
   worlds::Scenario scenario = office();
   worlds::MeshInstance mesh;
-  mesh.solid = std::make_shared<const worlds::TriangleTree>(
+  mesh.occluder = std::make_shared<const worlds::TriangleBvh>(
       strips_of(scenario.world.walls, static_cast<int>(state.range(0))));
   scenario.world.meshes = {mesh};
   scenario.world.walls.clear();
@@ -83,7 +83,7 @@ void look_along_a_mesh(benchmark::State& state) {
 
 void grow_a_tree(benchmark::State& state) {
   const auto corners = strips_of(office().world.walls, static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(worlds::TriangleTree(corners));
+  for (auto _ : state) benchmark::DoNotOptimize(worlds::TriangleBvh(corners));
 }
 
 BENCHMARK(look_along_walls)->Name("sight/30_balls/walls")->Unit(benchmark::kMillisecond);

@@ -13,31 +13,31 @@ struct TruthBench : Bench {
   explicit TruthBench(const std::string& scenario)
       : Bench(scenario_scene(scenario)),
         geometry(scene.world),
-        sight(renderer.sight(scene.pose, scene.pose)) {}
+        ids(renderer.id_buffers(scene.pose, scene.pose)) {}
 
   renderer::SceneGeometry geometry;
-  renderer::StereoSight sight;
+  renderer::StereoIdBuffers ids;
 };
 
 void truth_pair_sight(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   bench.run(state,
-            [&] { benchmark::DoNotOptimize(bench.renderer.sight(bench.scene.pose, bench.scene.pose)); });
+            [&] { benchmark::DoNotOptimize(bench.renderer.id_buffers(bench.scene.pose, bench.scene.pose)); });
 }
 
 void truth_pair_range_normal_surface(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   bench.run(state, [&] {
-    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.sight.left));
-    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.sight.right));
+    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.ids.left));
+    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.ids.right));
   });
 }
 
 void truth_pair_disparity(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   bench.run(state, [&] {
-    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.sight.left, bench.sight.right));
-    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.sight.right, bench.sight.left));
+    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.ids.left, bench.ids.right));
+    benchmark::DoNotOptimize(renderer::correspond(bench.geometry, bench.ids.right, bench.ids.left));
   });
 }
 
@@ -45,7 +45,7 @@ void truth_pair_balls(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   bench.run(state, [&] {
     const worlds::World& world = bench.scene.world;
-    const auto& [left, right] = bench.sight;
+    const auto& [left, right] = bench.ids;
     benchmark::DoNotOptimize(renderer::ball_truths(world, left.view, bench.frame.left.ball_id));
     benchmark::DoNotOptimize(renderer::ball_truths(world, right.view, bench.frame.right.ball_id));
   });
@@ -59,8 +59,8 @@ void smooth_pair(benchmark::State& state, const std::string& scenario) {
     const auto smooth = [&](const renderer::EyeView& view, renderer::EyeFrame& frame) {
       renderer::mix_edges(smoother.mixes(view, frame), {}, frame);
     };
-    smooth(bench.sight.left.view, bench.frame.left);
-    smooth(bench.sight.right.view, bench.frame.right);
+    smooth(bench.ids.left.view, bench.frame.left);
+    smooth(bench.ids.right.view, bench.frame.right);
   });
 }
 

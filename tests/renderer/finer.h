@@ -61,7 +61,7 @@ inline std::array<FinerEye, 2> finer_pair(const worlds::World& world, const visi
                                           const slam::Pose& pose) {
   Renderer renderer(world, finer(rig));
   const StereoFrame frame = renderer.render(pose);
-  const StereoSight sight = renderer.sight(pose, pose);
+  const StereoIdBuffers sight = renderer.id_buffers(pose, pose);
   return {FinerEye{frame.left.colour, sight.left.facet}, FinerEye{frame.right.colour, sight.right.facet}};
 }
 

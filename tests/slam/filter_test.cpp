@@ -139,7 +139,7 @@ TYPED_TEST(EveryFilter, PredictsTheSpreadOfManyDrives) {
   for (int i = 0; i < kDrives; ++i) {
     Pose pose{1.0, 1.0, 2.0};
     for (int k = 0; k < 10; ++k) pose = advance(pose, perturb(control, config.odometry_noise, random));
-    const Eigen::Vector3d off = displacement(pose, believed.pose);
+    const Eigen::Vector3d off = boxminus(pose, believed.pose);
     second += off * off.transpose() / kDrives;
   }
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(believed.covariance(i, i) / second(i, i), 1.0, 0.07);

@@ -1,16 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
+#include "slam/math/angles.h"
 #include "slam/math/random.h"
 #include "tests/studies/photograph.h"
 
 namespace stereobench::photograph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLeastRadius_px = 11.0;
 constexpr int kMostBalls = 7;
 
@@ -18,9 +17,9 @@ const std::array<Light, 5> kPaints = {Light(0.52, 0.035, 0.03), Light(0.80, 0.21
                                       Light(0.80, 0.58, 0.045), Light(0.035, 0.10, 0.48),
                                       Light(0.60, 0.05, 0.27)};
 
-class Draws {
+class KeyedSampler {
  public:
-  explicit Draws(std::uint64_t seed) : stream_(seed, slam::Stream::kWorld) {}
+  explicit KeyedSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kWorld) {}
 
   double between(double low, double high) { return low + (high - low) * stream_.uniform(); }
   int below(int count) { return static_cast<int>(stream_.uniform() * count); }
@@ -34,7 +33,7 @@ class Draws {
   slam::RandomStream stream_;
 };
 
-Ball ball_of(Draws& draws, const Scene& scene) {
+Ball ball_of(KeyedSampler& draws, const Scene& scene) {
   Ball ball;
   const double lowest_px = scene.height_px + 20.0;
   const double nearest_px = scene.horizon_px + kLeastRadius_px / scene.ball_radius;
@@ -48,15 +47,15 @@ Ball ball_of(Draws& draws, const Scene& scene) {
   ball.second = draws.once_in(2.0) ? Light(0.75, 0.75, 0.72) : Light(0.03, 0.03, 0.03);
   ball.sheen = ball.dress == Dress::kFelt ? 0.0 : draws.between(0.0, 0.5);
   ball.sharpness = std::exp(draws.between(std::log(8.0), std::log(150.0)));
-  ball.turn = (Eigen::AngleAxisd(draws.between(0.0, 2.0 * kPi), Eigen::Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(draws.between(0.0, kPi), Eigen::Vector3d::UnitX()) *
-               Eigen::AngleAxisd(draws.between(0.0, 2.0 * kPi), Eigen::Vector3d::UnitZ()))
+  ball.turn = (Eigen::AngleAxisd(draws.between(0.0, 2.0 * slam::kPi), Eigen::Vector3d::UnitZ()) *
+               Eigen::AngleAxisd(draws.between(0.0, slam::kPi), Eigen::Vector3d::UnitX()) *
+               Eigen::AngleAxisd(draws.between(0.0, 2.0 * slam::kPi), Eigen::Vector3d::UnitZ()))
                   .matrix();
   return ball;
 }
 
 /// Balls are apart, but one in five may stand before another.
-void add_balls(Draws& draws, Scene& scene) {
+void add_balls(KeyedSampler& draws, Scene& scene) {
   const int count = 2 + draws.below(kMostBalls - 1);
   for (int tries = 0; tries < 100 && static_cast<int>(scene.balls.size()) < count; ++tries) {
     const Ball ball = ball_of(draws, scene);
@@ -69,14 +68,14 @@ void add_balls(Draws& draws, Scene& scene) {
   std::ranges::sort(scene.balls, {}, &Ball::radius_px);
 }
 
-Light odd_paint(Draws& draws) {
+Light odd_paint(KeyedSampler& draws) {
   const double grey = draws.between(0.03, 0.6);
   if (!draws.once_in(3.0)) return draws.near(Light::Constant(grey), 0.3);
   return {draws.between(0.02, 0.7), draws.between(0.02, 0.7), draws.between(0.02, 0.7)};
 }
 
 /// Boxes on the horizon, leaves on the ground, and now and then a post before all.
-void add_clutter(Draws& draws, Scene& scene) {
+void add_clutter(KeyedSampler& draws, Scene& scene) {
   const int boxes = draws.below(7);
   for (int i = 0; i < boxes; ++i)
     scene.behind.push_back(
@@ -93,7 +92,7 @@ void add_clutter(Draws& draws, Scene& scene) {
     scene.behind.push_back(
         {{draws.between(0.0, scene.width_px), draws.between(scene.horizon_px + 30.0, scene.height_px)},
          {size_px, draws.between(0.3, 0.7) * size_px},
-         draws.between(0.0, kPi),
+         draws.between(0.0, slam::kPi),
          true,
          draws.near(autumn[static_cast<std::size_t>(draws.below(4))], 0.2)});
   }
@@ -105,7 +104,7 @@ void add_clutter(Draws& draws, Scene& scene) {
                             odd_paint(draws)});
 }
 
-Light ground_paint_of(Draws& draws, Ground ground) {
+Light ground_paint_of(KeyedSampler& draws, Ground ground) {
   switch (ground) {
     case Ground::kGrass:
       return draws.near({0.09, 0.17, 0.035}, 0.25);
@@ -122,7 +121,7 @@ Light ground_paint_of(Draws& draws, Ground ground) {
 }  // namespace
 
 Scene scene_of(std::uint64_t seed) {
-  Draws draws(seed);
+  KeyedSampler draws(seed);
   Scene scene;
   scene.seed = seed;
   scene.horizon_px = draws.between(0.02, 0.35) * scene.height_px;
@@ -133,7 +132,7 @@ Scene scene_of(std::uint64_t seed) {
   const double clear = draws.between(0.0, 1.0);  // 0: overcast, or indoors
   scene.sky = draws.near(Light(0.50, 0.53, 0.58) * (1.0 - 0.5 * clear), 0.05);
   scene.sun = draws.near(Light(0.95, 0.88, 0.78) * (0.1 + 0.75 * clear), 0.05);
-  const double azimuth = draws.between(-kPi, kPi);
+  const double azimuth = draws.between(-slam::kPi, slam::kPi);
   const double height = draws.between(0.5, 1.3);
   scene.to_sun = {std::cos(height) * std::sin(azimuth), std::sin(height),
                   std::cos(height) * std::cos(azimuth)};
@@ -143,11 +142,11 @@ Scene scene_of(std::uint64_t seed) {
 }
 
 Camera camera_of(std::uint64_t seed) {
-  Draws draws(seed + 1'000'000);
+  KeyedSampler draws(seed + 1'000'000);
   Camera camera;
   camera.exposure = draws.between(0.7, 1.25);
   camera.defocus_sd_px = draws.between(0.4, 1.0);
-  const double angle = draws.between(0.0, kPi);
+  const double angle = draws.between(0.0, slam::kPi);
   const double way_px = draws.once_in(3.0) ? draws.between(1.0, 5.0) : 0.0;
   camera.motion_px = way_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   camera.noise_sd_levels = draws.between(0.5, 2.5);

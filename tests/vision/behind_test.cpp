@@ -28,7 +28,7 @@ Scene pair_of_balls(std::uint64_t seed) {
   Scene scene;
   scene.balls = {{near, colour}, {near + beside, other}};
   scene.backdrop = painter::Backdrop::kPlain;
-  scene.towards_lamp = {dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 0.3), dice.uniform(-1.0, 0.2)};
+  scene.towards_light_source = {dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 0.3), dice.uniform(-1.0, 0.2)};
   return scene;
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/camera/rig.h"
 #include "vision/observe.h"
 #include "vision/palette.h"
@@ -125,9 +125,9 @@ TEST(StripedBackdrop, CostsWhereItsEdgesAre) {
 
 class NotMatt : public testing::TestWithParam<double> {};
 
-// The lamp's light on balls that are dusty or satin does not go with Lambert's cosine. What is seen beside an
-// arc tells, and is allowed for. Mutation: the shading believed blindly (NIS / 2 of 1.4 where balls are
-// satin).
+// The light source's light on balls that are dusty or satin does not go with Lambert's cosine. What is seen
+// beside an arc tells, and is allowed for. Mutation: the shading believed blindly (NIS / 2 of 1.4 where balls
+// are satin).
 TEST_P(NotMatt, BallsAreMeasuredAsWellAsTheyClaim) {
   const Pulls pulls =
       measure({.backdrop = painter::Backdrop::kPlain, .sheen = GetParam(), .noise_sd_levels = 2.0});
@@ -137,13 +137,15 @@ TEST_P(NotMatt, BallsAreMeasuredAsWellAsTheyClaim) {
   EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 1.45);
 }
 
-// Where the lamp stands behind the balls, of each no more than a sliver at its rim is lit, and its own pixels
-// say little of the lamp; all of them together do. What a camera makes of a rim pixel in which the sliver
-// ends is not known, and costs some. Mutation: each ball by itself (NIS / 2 of 2.7, 1.9 times the bound).
+// Where the light source stands behind the balls, of each no more than a sliver at its rim is lit, and its
+// own pixels say little of the light source; all of them together do. What a camera makes of a rim pixel in
+// which the sliver ends is not known, and costs some. Mutation: each ball by itself (NIS / 2 of 2.7, 1.9
+// times the bound).
 TEST(LampBehindTheBalls, IsToldByAllOfThem) {
-  const Pulls pulls = measure(
-      {.backdrop = painter::Backdrop::kPlain, .towards_lamp = {0.6, -0.6, 0.7}, .noise_sd_levels = 2.0}, 14,
-      kTolerance_m);
+  const Pulls pulls = measure({.backdrop = painter::Backdrop::kPlain,
+                               .towards_light_source = {0.6, -0.6, 0.7},
+                               .noise_sd_levels = 2.0},
+                              14, kTolerance_m);
   ASSERT_GT(pulls.balls, 200);
   const double n = pulls.balls;
   EXPECT_GT(pulls.nis / n / 2.0, 1.0 - 3.0 / std::sqrt(n));  // honest is 1; 1.71 is what is reached
@@ -175,7 +177,7 @@ TEST_P(OutOfFocus, BallsAreMeasuredAsWellAsTheyClaim) {
 // the shade taken from where the pixel is (a pull of -0.43, errors of 8.1 times the bound in focus for 5.1).
 TEST(OutOfFocusBesides, LampFromTheSidePullsNoBallAside) {
   const Pulls pulls = measure({.backdrop = painter::Backdrop::kPlain,
-                               .towards_lamp = {-0.9, -0.2, -0.4},
+                               .towards_light_source = {-0.9, -0.2, -0.4},
                                .blur_px = 1.4,
                                .noise_sd_levels = 0.5},
                               3);

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/camera/rig.h"
 #include "vision/stereo/sphere.h"
 

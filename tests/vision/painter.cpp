@@ -1,4 +1,4 @@
-#include "painter.h"
+#include "tests/vision/painter.h"
 
 #include <algorithm>
 #include <array>
@@ -163,7 +163,7 @@ class EyePainter {
     if (hit.ball != kNothing) {
       const auto ball = static_cast<std::size_t>(hit.ball);
       const Eigen::Vector3d normal = (ray(p) * hit.depth_m - in_eye(ball)) / scene_.balls[ball].radius_m;
-      const Eigen::Vector3d light = scene_.towards_lamp.normalized();
+      const Eigen::Vector3d light = scene_.towards_light_source.normalized();
       const double shading = kAmbient + kDiffuse * std::pow(std::max(0.0, normal.dot(light)), scene_.sheen);
       const PaletteColour& colour = kPalette[static_cast<std::size_t>(scene_.balls[ball].colour)];
       return shading * Eigen::Vector3d(colour.b, colour.g, colour.r);

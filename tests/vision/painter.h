@@ -33,8 +33,9 @@ struct Scene {
   std::vector<Panel> panels;
   Backdrop backdrop = Backdrop::kTextured;
   Eigen::Vector3d plain_bgr = {150.0, 155.0, 160.0};
-  Eigen::Vector3d towards_lamp = {-0.2, -0.9, -0.3};  ///< any length but zero
-  double sheen = 1.0;    ///< power of the lamp's cosine on the balls: 1 is matt, more is satin, less is dusty
+  Eigen::Vector3d towards_light_source = {-0.2, -0.9, -0.3};  ///< any length but zero
+  double sheen =
+      1.0;  ///< power of the light source's cosine on the balls: 1 is matt, more is satin, less is dusty
   double blur_px = 0.0;  ///< standard deviation of the Gaussian that the lens makes of a point
   double noise_sd_levels = 0.0;
   std::uint64_t seed = 0;

@@ -1,19 +1,17 @@
 // Rigs that are not as they are believed to be: what is found all the same, claimed of it, and learnt of the
 // rig.
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "slam/math/angles.h"
+#include "tests/vision/painter.h"
 #include "vision/camera/rig.h"
 #include "vision/observe.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// What is believed of a rig without faults: a turn of its right eye, and a baseline that is too long.
 struct Fault {
@@ -57,11 +55,11 @@ Outcome drive_with(const Fault& fault) {
   const Sequence& seen = sequence();
   Outcome outcome;
   outcome.believed = seen.rig;
-  outcome.believed.right_turn_rad = kDegree * fault.turn_deg;
+  outcome.believed.right_turn_rad = slam::kRadPerDegree * fault.turn_deg;
   outcome.believed.baseline_m *= 1.0 + fault.baseline;
   const Rectification rectification(outcome.believed);
   for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
-    const Look look = observe(seen.pairs[i], rectification, {.noise_sd_levels = 2.0}, outcome.watch);
+    const ObservedPair look = observe(seen.pairs[i], rectification, {.noise_sd_levels = 2.0}, outcome.watch);
     outcome.watch = look.watch;
     outcome.strangers += static_cast<int>(look.balls.size());
     for (const painter::PaintedBall& ball : seen.scenes[i].balls) {
@@ -96,7 +94,7 @@ TEST_P(OfThisRig, BallsAreFoundAndTheFaultIsTold) {
   EXPECT_LT(outcome.range_nis, 2.0);
   const RigFault told = outcome.watch.belief(outcome.believed.camera).fault;
   for (int axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(told[axis] / kDegree, -fault.turn_deg[axis], 0.012) << axis;
+    EXPECT_NEAR(told[axis] / slam::kRadPerDegree, -fault.turn_deg[axis], 0.012) << axis;
   EXPECT_NEAR(told[3], 1.0 / (1.0 + fault.baseline) - 1.0, 0.002);
 }
 
@@ -111,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, OfThisRig,
 TEST(RowsWithin, LimitsWhatAnOutlineIsMatchedWith) {
   const Sequence& seen = sequence();
   StereoRig believed = seen.rig;
-  believed.right_turn_rad.x() = 0.5 * kDegree;
+  believed.right_turn_rad.x() = 0.5 * slam::kRadPerDegree;
   const double off_px = believed.right_turn_rad.x() * believed.camera.focal_px;
   const Rectification rectification(believed);
   for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
@@ -129,7 +127,7 @@ TEST(RowsWithin, LimitsWhatAnOutlineIsMatchedWith) {
 TEST(RowsWithin, LimitsNoColumns) {
   const Sequence& seen = sequence();
   StereoRig believed = seen.rig;
-  believed.right_turn_rad = {0.05 * kDegree, 0.5 * kDegree, 0.0};
+  believed.right_turn_rad = {0.05 * slam::kRadPerDegree, 0.5 * slam::kRadPerDegree, 0.0};
   const Rectification rectification(believed);
   const ObserverSettings settings{.noise_sd_levels = 2.0, .rows_within_px = 2.0};
   EXPECT_EQ(observe(seen.pairs[0], rectification, settings).size(), seen.scenes[0].balls.size());
@@ -143,7 +141,8 @@ TEST(RigWithoutFault, IsBelievedIn) {
   const Sequence& seen = sequence();
   const Rectification rectification(seen.rig);
   const auto alone = observe(seen.pairs.back(), seen.rig, {.noise_sd_levels = 2.0});
-  const Look with_watch = observe(seen.pairs.back(), rectification, {.noise_sd_levels = 2.0}, outcome.watch);
+  const ObservedPair with_watch =
+      observe(seen.pairs.back(), rectification, {.noise_sd_levels = 2.0}, outcome.watch);
   ASSERT_EQ(alone.size(), with_watch.balls.size());
   for (std::size_t i = 0; i < alone.size(); ++i)
     EXPECT_EQ(alone[i].range_bearing.covariance, with_watch.balls[i].range_bearing.covariance);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/observe.h"
 
 #if defined(__SANITIZE_ADDRESS__)

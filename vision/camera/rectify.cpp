@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/distortion.h"
 #include "vision/camera/rig.h"
@@ -120,7 +120,7 @@ Eigen::Vector2d Rectification::pixel_for(const Eigen::Vector2d& rectified_px, Ey
 bool Rectification::shows(const Eigen::Vector2d& centre_px, double radius_px, Eye eye) const {
   constexpr int kPoints = 32;
   for (int i = 0; i < kPoints; ++i) {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / kPoints);
+    const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * i / kPoints);
     if (!is_inside(eyes_[index_of(eye)].camera,
                    pixel_for(centre_px + radius_px * Eigen::Vector2d(c, s), eye)))
       return false;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 
 namespace stereobench::vision {
@@ -25,7 +25,7 @@ constexpr double kLeastStep_levels = 6.0;  // of a mean: JPEG's own steps are sm
 using Steps = std::array<Eigen::Vector3d, 2 * kRings + 1>;
 
 Eigen::Vector2d direction_of(int spoke) {
-  const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kSpokes);
+  const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * spoke / kSpokes);
   return {c, s};
 }
 
@@ -152,7 +152,7 @@ double outside_share(const cv::Mat& image, const Circle& circle) {
   for (int ring = 0; ring < kCircles; ++ring) {
     const double radius = circle.radius_px * std::sqrt((ring + 0.5) / kCircles);  // rings of equal area
     for (int spoke = 0; spoke < kAngles; ++spoke) {
-      const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * spoke / kAngles);
+      const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * spoke / kAngles);
       const Eigen::Vector2d at = circle.centre_px + radius * Eigen::Vector2d(c, s);
       const bool is_inside =
           at.x() >= -0.5 && at.y() >= -0.5 && at.x() <= image.cols - 0.5 && at.y() <= image.rows - 0.5;

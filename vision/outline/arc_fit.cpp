@@ -34,7 +34,7 @@ constexpr double kContradictionSigmas = 3.0;
 constexpr int kReweightings = 4;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kCutOff = 3.0;  // times the Huber threshold
-constexpr double kMinArcShare = 0.2;
+constexpr double kMinInlierRatio = 0.2;
 constexpr std::size_t kTriples = 24;                             // of arcs, around the outline
 constexpr std::array<std::size_t, 3> kTripleParts = {12, 8, 5};  // of the outline, from one to the next
 
@@ -128,8 +128,8 @@ double crossed_reach_px(const OutlineModel& outline, double ramp_half_width_px) 
 
 // What the arcs' variances are to be multiplied by where they contradict each other more than by chance
 // (Birge's ratio, squared).
-double contradiction(const ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
-                     double tolerance_px) {
+double reduced_chi_square(const ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_px,
+                          double tolerance_px) {
   double squares = 0.0;
   double freedom = -3.0;
   for (const ArcOffset& arc : arcs) {
@@ -218,7 +218,7 @@ std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tol
       share += arc.weight;
     }
     step.share = share / count;
-    if (!(step.share > kMinArcShare)) return std::nullopt;
+    if (!(step.share > kMinInlierRatio)) return std::nullopt;
     const Eigen::LDLT<Eigen::Matrix3d> solver(normal_matrix);
     step.change_px = solver.solve(right_side);
     step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());
@@ -227,8 +227,8 @@ std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tol
     if (pass == 0 && any_denied(arcs))
       weigh(arcs, most_agreed(arcs, step.change_px, tolerance_px), tolerance_px);
   }
-  step.contradiction = contradiction(arcs, step.change_px, tolerance_px);
-  step.covariance_px2 *= step.contradiction;
+  step.reduced_chi_square = reduced_chi_square(arcs, step.change_px, tolerance_px);
+  step.covariance_px2 *= step.reduced_chi_square;
   return step;
 }
 

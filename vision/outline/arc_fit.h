@@ -25,7 +25,7 @@ struct OutlineStep {
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
   /// How much more the arcs scatter than they should, as a ratio of variances; 1 if no more than by chance.
   /// The covariance allows for it.
-  double contradiction = 1.0;
+  double reduced_chi_square = 1.0;
   double share = 0.0;  ///< of the arcs, that the change is the mean of, in (0, 1]
 };
 

@@ -8,10 +8,11 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kDarkSigmas = 3.0;     // a channel that shows no more of a ball tells no ratio
-constexpr double kLeastScatter = 0.01;  // sd of m between balls: rounding, and lamps that are not so distant
-constexpr double kWellKnown = 0.01;     // sd of m of a ball that needs no others, and the pixels
-constexpr double kManyPixels = 200.0;   // of such a ball
+constexpr double kDarkSigmas = 3.0;  // a channel that shows no more of a ball tells no ratio
+constexpr double kLeastScatter =
+    0.01;  // sd of m between balls: rounding, and light sources that are not so distant
+constexpr double kWellKnown = 0.01;    // sd of m of a ball that needs no others, and the pixels
+constexpr double kManyPixels = 200.0;  // of such a ball
 constexpr double kFewestBalls = 2.0;
 
 // How (c0, l) becomes l - m c0.
@@ -30,7 +31,8 @@ Eigen::Matrix3d ratio_covariance(const Eigen::Matrix4d& information, const Eigen
 
 }  // namespace
 
-SharedLamp::SharedLamp(const Eigen::Matrix3d& ratio, const std::array<Eigen::Matrix3d, 3>& information)
+SharedLightSource::SharedLightSource(const Eigen::Matrix3d& ratio,
+                                     const std::array<Eigen::Matrix3d, 3>& information)
     : ratio_(ratio) {
   for (int channel = 0; channel < 3; ++channel) {
     const auto i = static_cast<std::size_t>(channel);
@@ -39,7 +41,8 @@ SharedLamp::SharedLamp(const Eigen::Matrix3d& ratio, const std::array<Eigen::Mat
   }
 }
 
-LightColours SharedLamp::colours(const Eigen::Matrix4d& information, const LightColours& products) const {
+LightColours SharedLightSource::colours(const Eigen::Matrix4d& information,
+                                        const LightColours& products) const {
   LightColours colours;
   for (int channel = 0; channel < 3; ++channel) {
     const Eigen::Matrix4d both = information + information_[static_cast<std::size_t>(channel)];
@@ -48,8 +51,8 @@ LightColours SharedLamp::colours(const Eigen::Matrix4d& information, const Light
   return colours;
 }
 
-void LampPool::count(const BallLight& light, double sign) {
-  if (!light.shows_lamp) return;
+void LightSourcePool::count(const BallLight& light, double sign) {
+  if (!light.shows_light_source) return;
   const Eigen::Matrix3d least_scatter = kLeastScatter * kLeastScatter * Eigen::Matrix3d::Identity();
   for (int channel = 0; channel < 3; ++channel) {
     const Eigen::Vector4d colours = light.colours.col(channel);
@@ -66,17 +69,17 @@ void LampPool::count(const BallLight& light, double sign) {
   }
 }
 
-bool LampPool::tells_lamp(const BallLight& light) const {
+bool LightSourcePool::tells_light_source(const BallLight& light) const {
   Eigen::Index brightest = 0;
   const double c0 = light.colours.row(0).maxCoeff(&brightest);
-  if (!light.shows_lamp || !(c0 > 0.0) || !(light.information(0, 0) > kManyPixels)) return false;
+  if (!light.shows_light_source || !(c0 > 0.0) || !(light.information(0, 0) > kManyPixels)) return false;
   return ratio_covariance(light.information, light.colours.col(brightest), noise_variance_).trace() <
          kWellKnown * kWellKnown;
 }
 
-std::optional<SharedLamp> LampPool::without(const BallLight& own) const {
-  if (tells_lamp(own)) return std::nullopt;
-  LampPool others = *this;
+std::optional<SharedLightSource> LightSourcePool::without(const BallLight& own) const {
+  if (tells_light_source(own)) return std::nullopt;
+  LightSourcePool others = *this;
   others.count(own, -1.0);
   Eigen::Matrix3d ratio = Eigen::Matrix3d::Zero();
   std::array<Eigen::Matrix3d, 3> information;
@@ -98,7 +101,7 @@ std::optional<SharedLamp> LampPool::without(const BallLight& own) const {
     is_known = true;
   }
   if (!is_known) return std::nullopt;
-  return SharedLamp(ratio, information);
+  return SharedLightSource(ratio, information);
 }
 
 }  // namespace stereobench::vision

@@ -1,4 +1,4 @@
-/// The lamp that the balls of a picture share.
+/// The light source that the balls of a picture share.
 #pragma once
 
 #include <array>
@@ -8,32 +8,33 @@
 
 namespace stereobench::vision {
 
-/// The colours of a ball's light by channel, BGR levels: the rows c0, from all around, and l, the lamp's.
+/// The colours of a ball's light by channel, BGR levels: the rows c0, from all around, and l, the light
+/// source's.
 using LightColours = Eigen::Matrix<double, 4, 3>;
 
 /// The light on one ball, as its pixels tell it.
 struct BallLight {
   LightColours colours = LightColours::Zero();
   /// Of (c0, l) in each channel, in units of one pixel's: the sum of squares of (1, n) over the lit pixels
-  /// and of (1, 0) over the others, and next to nothing of a lamp that no pixel shows. Zero where nothing is
-  /// known.
+  /// and of (1, 0) over the others, and next to nothing of a light source that no pixel shows. Zero where
+  /// nothing is known.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  /// Whether the ball shows its lamp at all: more than chance makes of a ball that is seen from its unlit
-  /// side.
-  bool shows_lamp = false;
+  /// Whether the ball shows its light source at all: more than chance makes of a ball that is seen from its
+  /// unlit side.
+  bool shows_light_source = false;
 };
 
 /// What is known of a ball's light before its pixels are looked at: in each channel l is about m c0.
-class SharedLamp {
+class SharedLightSource {
  public:
   /// @param ratio the column m of each channel
   /// @param information of l - m c0 in each channel, in units of one pixel's; zero where nothing is known
-  SharedLamp(const Eigen::Matrix3d& ratio, const std::array<Eigen::Matrix3d, 3>& information);
+  SharedLightSource(const Eigen::Matrix3d& ratio, const std::array<Eigen::Matrix3d, 3>& information);
 
-  /// Where the lamp shines from, times its brightness in all channels over that of all other light.
+  /// Where the light source shines from, times its brightness in all channels over that of all other light.
   Eigen::Vector3d direction() const { return ratio_.rowwise().sum(); }
 
-  /// The colours that suit pixels and lamp best.
+  /// The colours that suit pixels and light source best.
   /// @param information, products of the pixels: the sums of squares of BallLight and of (1, n) times colours
   LightColours colours(const Eigen::Matrix4d& information, const LightColours& products) const;
 
@@ -42,22 +43,22 @@ class SharedLamp {
   std::array<Eigen::Matrix4d, 3> information_;  // of (c0, l)
 };
 
-/// Gathers what the balls of a picture tell of their lamp.
+/// Gathers what the balls of a picture tell of their light source.
 ///
-/// Paints differ, the lamp does not: l / c0 is the same for all matt balls under one distant lamp. How well
-/// it is the same is read off the balls (random effects, DerSimonian and Laird 1986), so that lamps near by,
-/// shadows and gloss make it count for less, down to nothing.
-class LampPool {
+/// Paints differ, the light source does not: l / c0 is the same for all matt balls under one distant light
+/// source. How well it is the same is read off the balls (random effects, DerSimonian and Laird 1986), so
+/// that light sources near by, shadows and gloss make it count for less, down to nothing.
+class LightSourcePool {
  public:
   /// @param noise_variance of a pixel's channel, levels^2, > 0
-  explicit LampPool(double noise_variance) : noise_variance_(noise_variance) {}
+  explicit LightSourcePool(double noise_variance) : noise_variance_(noise_variance) {}
 
   void add(const BallLight& light) { count(light, 1.0); }
 
-  /// What all the others say of a ball's lamp; empty where too few do, and where the ball tells it well
-  /// itself.
+  /// What all the others say of a ball's light source; empty where too few do, and where the ball tells it
+  /// well itself.
   /// @param own light of the ball, that was added
-  std::optional<SharedLamp> without(const BallLight& own) const;
+  std::optional<SharedLightSource> without(const BallLight& own) const;
 
  private:
   /// Sums over the balls of one channel, of m with the information I.
@@ -70,7 +71,7 @@ class LampPool {
   };
 
   void count(const BallLight& light, double sign);
-  bool tells_lamp(const BallLight& light) const;
+  bool tells_light_source(const BallLight& light) const;
 
   double noise_variance_;
   std::array<Channel, 3> channels_;

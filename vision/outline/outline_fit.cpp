@@ -26,11 +26,11 @@ constexpr double kStraight_px = 0.02;  // of an outline's way, along which cover
 constexpr int kSharpSteps = 12;
 constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
 constexpr int kMostShadedSteps = 8;
-constexpr int kShadedLooks = 3;                // at most
-constexpr double kConverged_px = 0.02;         // before the shading is looked at
-constexpr double kTolerance_px = 0.02;         // between arcs of one sharp outline, whatever the noise says
-constexpr double kRimDepth_px = 1.2;           // inside of it a pixel is wholly the ball's
-constexpr double kRimSd_px = 0.0006;           // of all arcs together: what a camera and a lamp make of a rim
+constexpr int kShadedLooks = 3;         // at most
+constexpr double kConverged_px = 0.02;  // before the shading is looked at
+constexpr double kTolerance_px = 0.02;  // between arcs of one sharp outline, whatever the noise says
+constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ball's
+constexpr double kRimSd_px = 0.0006;  // of all arcs together: what a camera and a light source make of a rim
 constexpr double kResampledRimSd_px = 0.0025;  // the same of a picture that was interpolated
 constexpr double kCentreSd_px = 0.0003;        // the same of opposite ones
 constexpr double kCentreSdPerBlur = 0.0007;    // more of that for each px of blur
@@ -50,8 +50,8 @@ struct Fit {
   ScratchVector<ArcOffset> arcs;  // as the outline was when they were compared, moved along with it
   double moved_px = 0.0;          // since they were
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();
-  double contradiction = 1.0;
-  double arc_share = 0.0;
+  double reduced_chi_square = 1.0;
+  double inlier_ratio = 0.0;
   BallLight light;
 };
 
@@ -96,8 +96,8 @@ std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp
   fit.outline =
       OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius, settings.blur_px);
   fit.covariance_px2 = step->covariance_px2;
-  fit.contradiction = step->contradiction;
-  fit.arc_share = step->share;
+  fit.reduced_chi_square = step->reduced_chi_square;
+  fit.inlier_ratio = step->share;
   move_outline(fit.arcs, change);
   fit.moved_px += change.cwiseAbs().maxCoeff();
   return change.cwiseAbs().maxCoeff();
@@ -123,7 +123,7 @@ double support(const Fit& fit) {
 
 // Begins with a sharp edge where a whole ball's first guess is about right, as most are.
 bool starts_sharp(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix) {
-  look(fit, image, unmix, 0.0, std::nullopt, Detail::kGlance);
+  look(fit, image, unmix, 0.0, std::nullopt, Detail::kCoarse);
   const auto change = improve(fit, settings, 0.0, kFirstSharp_px);
   return change && *change < kLookAgainAbove_px && support(fit) >= kWhole * fit.outline.radius_px();
 }
@@ -144,10 +144,10 @@ bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& setting
 
 // Looks at the rim by the shades that the ball must have there.
 void look_by_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
-                    const std::optional<SharedLamp>& lamp) {
+                    const std::optional<SharedLightSource>& light_source) {
   const Shades shades(unmix.ball_bgr, settings.noise_sd_levels);
   const auto shading = fit_shading(image, settings.camera, fit.outline, shades,
-                                   pixel_variance(settings.noise_sd_levels), lamp);
+                                   pixel_variance(settings.noise_sd_levels), light_source);
   if (shading) fit.light = shading->light();
   look(fit, image, unmix, 0.0, shading);
 }
@@ -166,10 +166,10 @@ bool settle(Fit& fit, const FitSettings& settings) {
 // The last steps, by the shades that the ball must have at its rim; they are looked at again from where that
 // leads.
 bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
-                 const std::optional<SharedLamp>& lamp) {
+                 const std::optional<SharedLightSource>& light_source) {
   for (int i = 0; i < kShadedLooks; ++i) {
     const OutlineModel before = fit.outline;
-    look_by_shades(fit, image, settings, unmix, lamp);
+    look_by_shades(fit, image, settings, unmix, light_source);
     if (!settle(fit, settings)) return false;
     if (distance_px(before, fit.outline) < kLookAgainAbove_px) break;
   }
@@ -287,8 +287,8 @@ MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettin
   const double centre_sd = kCentreSd_px + kCentreSdPerBlur * fit.outline.blur_px();
   const double rim_sd = fit.is_resampled ? kResampledRimSd_px : kRimSd_px;
   result.covariance_px2.diagonal() += Eigen::Vector3d(centre_sd, centre_sd, rim_sd).cwiseAbs2();
-  result.contradiction = fit.contradiction;
-  result.arc_share = fit.arc_share;
+  result.reduced_chi_square = fit.reduced_chi_square;
+  result.inlier_ratio = fit.inlier_ratio;
   const Shades shades(unmix.ball_bgr, unmix.noise_sd_levels);
   result.hidden_fraction = hidden_area(image, fit, shades) / (kPi * radius * radius);
   result.outside_fraction = outside_area(image, fit.outline) / (kPi * radius * radius);
@@ -308,12 +308,12 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   return measured(*fit, image, unmix, {.colour = blob.colour, .seen_px = blob.area_px});
 }
 
-MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
-                               const FitSettings& settings) {
+MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline,
+                               const SharedLightSource& light_source, const FitSettings& settings) {
   const UnmixSettings unmix{palette_bgr(outline.colour), settings.noise_sd_levels};
   Fit fit{.outline = {settings.camera, outline.centre_px, outline.radius_px, settings.blur_px},
           .is_resampled = settings.resampled};
-  if (!suit_shades(fit, image, settings, unmix, lamp)) return outline;
+  if (!suit_shades(fit, image, settings, unmix, light_source)) return outline;
   return measured(fit, image, unmix, outline);
 }
 

@@ -22,8 +22,9 @@ struct MeasuredOutline {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();       ///< of the ellipse
   double radius_px = 0.0;                                    ///< of the circle of the same area
   Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Zero();  ///< of (centre, radius)
-  double contradiction = 1.0;     ///< how much more its arcs scatter than they should (variances), at least 1
-  double arc_share = 0.0;         ///< of the outline, that speaks for it; above 0.25, or 0.2 if learned
+  double reduced_chi_square =
+      1.0;                        ///< how much more its arcs scatter than they should (variances), at least 1
+  double inlier_ratio = 0.0;      ///< of the outline, that speaks for it; above 0.25, or 0.2 if learned
   double hidden_fraction = 0.0;   ///< of the outline's area, hidden by something in front of it, in [0, 1]
   double outside_fraction = 0.0;  ///< of the outline's area, beyond the image border, in [0, 1]
   long seen_px = 0;               ///< pixels of the patch that it was found by
@@ -53,11 +54,11 @@ struct FitSettings {
 std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blob,
                                            const FitSettings& settings);
 
-/// Measures an outline once more by what other balls tell of the lamp, which matters where a ball's own
-/// pixels tell little: small ones, and those whose lit part is a sliver at the rim.
+/// Measures an outline once more by what other balls tell of the light source, which matters where a ball's
+/// own pixels tell little: small ones, and those whose lit part is a sliver at the rim.
 /// @param outline as fit_outline left it
 /// @return `outline` itself where the arcs no longer make one
-MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline, const SharedLamp& lamp,
-                               const FitSettings& settings);
+MeasuredOutline refine_outline(const cv::Mat& image, const MeasuredOutline& outline,
+                               const SharedLightSource& light_source, const FitSettings& settings);
 
 }  // namespace stereobench::vision

@@ -12,13 +12,13 @@ namespace stereobench::vision {
 namespace {
 
 constexpr double kArcLength_px = 3.0;
-constexpr double kGlanceLength_px = 6.0;
+constexpr double kCoarseLength_px = 6.0;
 constexpr double kFewestArcs = 9.0;
 constexpr double kMostArcs = 192.0;
 constexpr double kRingWidth_px = 2.0;
-constexpr double kWideRing_px = 5.0;  // the background's noise adds 1 / (4 . 5) of the edge's own variance
-constexpr double kGlancedAtFrom_px = 10.0;  // of radius
-constexpr double kSteep = 0.7;              // of the radius, above and below the centre
+constexpr double kWideRing_px = 5.0;     // the background's noise adds 1 / (4 . 5) of the edge's own variance
+constexpr double kCoarseFrom_px = 10.0;  // of radius
+constexpr double kSteep = 0.7;           // of the radius, above and below the centre
 constexpr double kPi = 3.14159265358979323846;
 
 // Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
@@ -54,12 +54,12 @@ class RimCollector {
       : image_(image),
         outline_(outline),
         shading_(shading),
-        glances_(detail == Detail::kGlance && outline.radius_px() > kGlancedAtFrom_px),
+        is_coarse_(detail == Detail::kCoarse && outline.radius_px() > kCoarseFrom_px),
         gap_px_(gap_px),
         near_px_(std::max(gap_px, kCrossed_px + outline.blur_reach_px())),
         inner_reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()),
         outer_reach_px_(gap_px + (shading ? kWideRing_px : kRingWidth_px) + outline.blur_reach_px()) {
-    const double arc_length_px = glances_ ? kGlanceLength_px : kArcLength_px;
+    const double arc_length_px = is_coarse_ ? kCoarseLength_px : kArcLength_px;
     const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / arc_length_px, kFewestArcs, kMostArcs);
     rim_.arcs.resize(static_cast<std::size_t>(arcs));
     rim_.has_shades = shading.has_value();
@@ -97,7 +97,7 @@ class RimCollector {
   }
 
   bool passes_over(int y, double below_px) const {
-    return glances_ && y % 2 == 1 && std::abs(below_px) < kSteep * outline_.radius_px();
+    return is_coarse_ && y % 2 == 1 && std::abs(below_px) < kSteep * outline_.radius_px();
   }
 
   void add_near(RimPixel&& pixel) {
@@ -118,7 +118,7 @@ class RimCollector {
   const cv::Mat& image_;
   const OutlineModel& outline_;
   const std::optional<Shading>& shading_;
-  bool glances_;
+  bool is_coarse_;
   double gap_px_;
   double near_px_;
   double inner_reach_px_;

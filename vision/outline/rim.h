@@ -88,7 +88,7 @@ inline constexpr double kCrossed_px = 1.5;
 
 /// How much of a rim is looked at: all of it, or of a large one every other row where rows cross it steeply,
 /// in arcs twice as long.
-enum class Detail { kAll, kGlance };
+enum class Detail { kAll, kCoarse };
 
 /// Collects the pixels near an outline, and the colours beside it in rings of two pixels' width, more where
 /// it is blurred; outside of an outline whose shading is known, of five.

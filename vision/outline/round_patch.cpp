@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Cholesky>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/colour/blobs.h"
 #include "vision/colour/circle_cover.h"
@@ -92,12 +92,12 @@ std::optional<double> covered(const std::vector<Eigen::Vector3d>& samples, int c
 /// Looks for the edge along rays, from `band_px` inside of a circle to as far outside.
 Edges look(const cv::Mat& image, const Circle& circle, double band_px, int colour, const ColourTable& table) {
   Edges edges;
-  const int rays = static_cast<int>(std::clamp(2.0 * std::numbers::pi * circle.radius_px, 24.0, 256.0));
+  const int rays = static_cast<int>(std::clamp(2.0 * slam::kPi * circle.radius_px, 24.0, 256.0));
   const auto count = static_cast<std::size_t>(2.0 * band_px / kStep_px);
   const double begin = circle.radius_px - 0.5 * kStep_px * static_cast<double>(count - 1);
   std::vector<Eigen::Vector3d> samples;
   for (int ray = 0; ray < rays; ++ray) {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * ray / rays);
+    const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * ray / rays);
     const Eigen::Vector2d direction(c, s);
     samples.clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -194,7 +194,7 @@ double share_beyond(const cv::Mat& image, const Circle& circle, int colour, cons
   constexpr int kRays = 72;
   int beyond = 0;
   for (int ray = 0; ray < kRays; ++ray) {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * ray / kRays);
+    const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * ray / kRays);
     beyond += goes_on(image, circle, Eigen::Vector2d(c, s), colour, table) ? 1 : 0;
   }
   return static_cast<double>(beyond) / kRays;
@@ -216,9 +216,9 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   }
   double seen = 0.0;
   for (const EdgePoint& point : edges.points) seen += point.weight > 0.0 ? 1.0 : 0.0;
-  const double arc_share = seen / (edges.rays + edges.outside);
+  const double inlier_ratio = seen / (edges.rays + edges.outside);
   const double rough = fit->spread_px / (kRough_px + kRough * circle.radius_px);
-  if (arc_share < kMinArc || rough > kRoughest ||
+  if (inlier_ratio < kMinArc || rough > kRoughest ||
       share_beyond(image, circle, blob.colour, table) > kMostBeyond)
     return std::nullopt;
   MeasuredOutline outline;
@@ -226,10 +226,10 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   outline.centre_px = circle.centre_px;
   outline.radius_px = circle.radius_px;
   outline.covariance_px2 = fit->covariance;
-  outline.arc_share = arc_share;
+  outline.inlier_ratio = inlier_ratio;
   outline.outside_fraction = outside_share(image, circle);
-  outline.hidden_fraction = std::max(
-      {hidden_share(image, circle, blob.colour, table), kKnownArc - arc_share, std::min(rough - 1.0, 1.0)});
+  outline.hidden_fraction = std::max({hidden_share(image, circle, blob.colour, table),
+                                      kKnownArc - inlier_ratio, std::min(rough - 1.0, 1.0)});
   outline.seen_px = blob.area_px;
   return outline;
 }
@@ -257,13 +257,13 @@ Blob with_pieces(const Blob& patch, const ScratchVector<Blob>& blobs) {
 
 /// Of two outlines around one patch, the one that more of its arc speaks for, in px.
 bool is_better(const MeasuredOutline& a, const MeasuredOutline& b) {
-  return a.arc_share * a.radius_px > b.arc_share * b.radius_px;
+  return a.inlier_ratio * a.radius_px > b.inlier_ratio * b.radius_px;
 }
 
 /// Whether a patch may be the inside of an outline: about it, and no larger.
 bool holds(const MeasuredOutline& outline, const Blob& patch) {
   const Eigen::Vector2d middle(0.5 * (patch.min_x + patch.max_x), 0.5 * (patch.min_y + patch.max_y));
-  const double area_px = std::numbers::pi * outline.radius_px * outline.radius_px;
+  const double area_px = slam::kPi * outline.radius_px * outline.radius_px;
   return (outline.centre_px - middle).norm() < outline.radius_px &&
          static_cast<double>(patch.area_px) <= kLargestPatch * area_px;
 }
@@ -293,7 +293,7 @@ bool is_within(const MeasuredOutline& piece, const MeasuredOutline& whole) {
 std::vector<MeasuredOutline> find_round_patches(const cv::Mat& image, const ColourTable& table,
                                                 double min_radius_px) {
   std::vector<MeasuredOutline> outlines;
-  const double smallest = kMinPatch * std::numbers::pi * min_radius_px * min_radius_px;
+  const double smallest = kMinPatch * slam::kPi * min_radius_px * min_radius_px;
   ScratchVector<Blob> blobs = find_blobs(image, std::lround(kLeastPiece * smallest) + 1, table);
   std::ranges::stable_sort(blobs, std::greater{}, &Blob::area_px);
   const std::size_t most = std::min(blobs.size(), kMostPatches);

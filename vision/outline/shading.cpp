@@ -13,11 +13,11 @@ constexpr double kSamplesPerRadius = 200.0;  // px: the noise of so many is smal
 constexpr double kSampledDepth = 0.25;       // radii; the rim's shade is told as well from near by as by all
 constexpr double kSampledDepth_px = 8.0;     // at least: all of a small ball
 constexpr std::size_t kFewestSamples = 24;
-constexpr std::size_t kFirstSamples = 100;  // tell about where the lamp is
+constexpr std::size_t kFirstSamples = 100;  // tell about where the light source is
 constexpr int kMostTurns = 12;
-constexpr double kByChance = 40.0;   // of chi-square with nine degrees of freedom, and a lit side to choose
-constexpr double kFaintLamp = 0.05;  // beside the light from all around: reflections do as much
-constexpr double kRidge = 1e-6;      // per sample: a lamp that nothing shows is none
+constexpr double kByChance = 40.0;  // of chi-square with nine degrees of freedom, and a lit side to choose
+constexpr double kFaintLightSource = 0.05;  // beside the light from all around: reflections do as much
+constexpr double kRidge = 1e-6;             // per sample: a light source that nothing shows is none
 
 // A pixel that shows the ball.
 struct Sample {
@@ -54,7 +54,7 @@ ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surfa
 }
 
 // Least squares of colours = c0 + [lit] n . l, whose samples may be turned on and off.
-class LampFit {
+class LightSourceFit {
  public:
   /// Takes a sample in, lit or not as it is said to be.
   void add(const Sample& sample) {
@@ -63,14 +63,14 @@ class LampFit {
     products_.row(0) += sample.bgr;
   }
 
-  /// @param sign 1 to let the lamp shine on a sample that was taken in, -1 to take it away again
+  /// @param sign 1 to let the light source shine on a sample that was taken in, -1 to take it away again
   void turn(const Sample& sample, double sign) {
-    Eigen::Vector4d lamp = sign * sample.light;
-    lamp[0] = 0.0;
-    add(lamp, sample);
+    Eigen::Vector4d light_source = sign * sample.light;
+    light_source[0] = 0.0;
+    add(light_source, sample);
   }
 
-  BallLight light(const std::optional<SharedLamp>& shared) const {
+  BallLight light(const std::optional<SharedLightSource>& shared) const {
     Eigen::Matrix4d information = squares_.selfadjointView<Eigen::Lower>();
     information.diagonal().tail<3>().array() += kRidge * squares_(0, 0);
     if (shared) return {shared->colours(information, products_), information};
@@ -87,30 +87,31 @@ class LampFit {
   LightColours products_ = LightColours::Zero();
 };
 
-Eigen::Vector3d lamp_of(const BallLight& light) {
+Eigen::Vector3d light_source_of(const BallLight& light) {
   return light.colours.bottomRows<3>().rowwise().sum();
 }
 
-bool is_lit_by(const Eigen::Vector3d& lamp, const Sample& sample) {
-  return lamp.dot(sample.light.tail<3>()) > 0.0;
+bool is_lit_by(const Eigen::Vector3d& light_source, const Sample& sample) {
+  return light_source.dot(sample.light.tail<3>()) > 0.0;
 }
 
-void light_by(const Eigen::Vector3d& lamp, ScratchVector<Sample>& samples) {
-  for (Sample& sample : samples) sample.is_lit = is_lit_by(lamp, sample);
+void light_by(const Eigen::Vector3d& light_source, ScratchVector<Sample>& samples) {
+  for (Sample& sample : samples) sample.is_lit = is_lit_by(light_source, sample);
 }
 
-// Fits every `stride`-th sample, whose sides towards the lamp are found in turns with the lamp.
-BallLight fit_lamp(ScratchVector<Sample>& samples, std::size_t stride,
-                   const std::optional<SharedLamp>& shared) {
-  LampFit fit;
+// Fits every `stride`-th sample, whose sides towards the light source are found in turns with the light
+// source.
+BallLight fit_light_source(ScratchVector<Sample>& samples, std::size_t stride,
+                           const std::optional<SharedLightSource>& shared) {
+  LightSourceFit fit;
   for (std::size_t i = 0; i < samples.size(); i += stride) fit.add(samples[i]);
   BallLight light = fit.light(shared);
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const Eigen::Vector3d lamp = lamp_of(light);
+    const Eigen::Vector3d light_source = light_source_of(light);
     bool any_turned = false;
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       Sample& sample = samples[i];
-      const bool is_lit = is_lit_by(lamp, sample);
+      const bool is_lit = is_lit_by(light_source, sample);
       if (is_lit == sample.is_lit) continue;
       sample.is_lit = is_lit;
       fit.turn(sample, is_lit ? 1.0 : -1.0);
@@ -122,15 +123,15 @@ BallLight fit_lamp(ScratchVector<Sample>& samples, std::size_t stride,
   return light;
 }
 
-// Whether there is a lamp. A ball that is seen from its unlit side suits none at all as well as any behind
-// it, and must not say which.
-bool shows_lamp(const BallLight& light, double noise_variance) {
-  const auto lamp = light.colours.bottomRows<3>();
-  if (!(lamp.norm() > kFaintLamp * light.colours.row(0).norm())) return false;
+// Whether there is a light source. A ball that is seen from its unlit side suits none at all as well as any
+// behind it, and must not say which.
+bool shows_light_source(const BallLight& light, double noise_variance) {
+  const auto light_source = light.colours.bottomRows<3>();
+  if (!(light_source.norm() > kFaintLightSource * light.colours.row(0).norm())) return false;
   const Eigen::Vector3d both = light.information.bottomLeftCorner<3, 1>();
-  const Eigen::Matrix3d of_lamp =
+  const Eigen::Matrix3d of_light_source =
       light.information.bottomRightCorner<3, 3>() - both * both.transpose() / light.information(0, 0);
-  return (lamp.transpose() * of_lamp * lamp).trace() > kByChance * noise_variance;
+  return (light_source.transpose() * of_light_source * light_source).trace() > kByChance * noise_variance;
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ BallSurface::BallSurface(const Intrinsics& camera, const OutlineModel& outline)
 
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
                                    const OutlineModel& outline, const Shades& shades, double noise_variance,
-                                   const std::optional<SharedLamp>& shared) {
+                                   const std::optional<SharedLightSource>& shared) {
   const BallSurface surface(camera, outline);
   ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades);
   if (samples.size() < kFewestSamples) return std::nullopt;
@@ -154,10 +155,10 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
   if (shared) {
     light_by(shared->direction(), samples);
   } else if (stride > 1) {
-    light_by(lamp_of(fit_lamp(samples, stride, std::nullopt)), samples);
+    light_by(light_source_of(fit_light_source(samples, stride, std::nullopt)), samples);
   }
-  BallLight light = fit_lamp(samples, 1, shared);
-  light.shows_lamp = shows_lamp(light, noise_variance);
+  BallLight light = fit_light_source(samples, 1, shared);
+  light.shows_light_source = shows_light_source(light, noise_variance);
   return Shading(surface, light);
 }
 

@@ -65,18 +65,19 @@ class BallSurface {
   double per_radius_;  ///< of the ball
 };
 
-/// What a ball shows of itself under one lamp and light from all around: c0 + max(0, n . l) in each channel
-/// (Lambert), n the surface's normal.
+/// What a ball shows of itself under one light source and light from all around: c0 + max(0, n . l) in each
+/// channel (Lambert), n the surface's normal.
 class Shading {
  public:
   Shading(const BallSurface& surface, const BallLight& light)
-      : surface_(surface), light_(light), lamp_(light.colours.bottomRows<3>().rowwise().sum()) {}
+      : surface_(surface), light_(light), light_source_(light.colours.bottomRows<3>().rowwise().sum()) {}
 
   /// What a pixel of the ball shows, BGR levels; beyond the outline what its nearest point shows.
   Eigen::Vector3d at(const Eigen::Vector2d& pixel_px) const {
     const Eigen::Vector3d normal = surface_.normal(pixel_px);
     Eigen::Vector3d colour = light_.colours.row(0).transpose();
-    if (lamp_.dot(normal) > 0.0) colour.noalias() += light_.colours.bottomRows<3>().transpose() * normal;
+    if (light_source_.dot(normal) > 0.0)
+      colour.noalias() += light_.colours.bottomRows<3>().transpose() * normal;
     return colour;
   }
 
@@ -85,18 +86,18 @@ class Shading {
  private:
   BallSurface surface_;
   BallLight light_;
-  Eigen::Vector3d lamp_;  ///< where it shines from, times its brightness in all channels
+  Eigen::Vector3d light_source_;  ///< where it shines from, times its brightness in all channels
 };
 
 /// Fits the shading of a ball to what is seen of it, by least squares; which samples are turned away from the
-/// lamp is found in turns with it.
+/// light source is found in turns with it.
 /// @param image CV_8UC3, BGR
 /// @param shades pixels of other colours are not the ball's
 /// @param noise_variance of a pixel's channel, levels^2
-/// @param shared what other balls tell of the lamp, if anything
+/// @param shared what other balls tell of the light source, if anything
 /// @return empty when too little of the ball is seen
 std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camera,
                                    const OutlineModel& outline, const Shades& shades, double noise_variance,
-                                   const std::optional<SharedLamp>& shared);
+                                   const std::optional<SharedLightSource>& shared);
 
 }  // namespace stereobench::vision

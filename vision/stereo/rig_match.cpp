@@ -9,17 +9,17 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kLeastArcShare = 1.0 / 3.0;  // of an outline in each eye, to be trusted
-constexpr double kMostContradiction = 6.0;    // beyond it arcs are of two things
-constexpr double kVague_px = 0.05;            // sd of a disparity that contradicting arcs may have
-constexpr double kRowsApart_px = 0.5;         // more than two outlines of one ball are in a straight rig
-constexpr double kSeenTimes = 6.0;            // a ball, with the same error of its size each time
-constexpr int kMostMatches = 3;               // by a belief that changes
-constexpr double kSameFault = 2e-5;           // rad, and relative: rows move by 0.02 px at f = 1000 px
+constexpr double kLeastArcShare = 1.0 / 3.0;   // of an outline in each eye, to be trusted
+constexpr double kMostReducedChiSquare = 6.0;  // beyond it arcs are of two things
+constexpr double kVague_px = 0.05;             // sd of a disparity that contradicting arcs may have
+constexpr double kRowsApart_px = 0.5;          // more than two outlines of one ball are in a straight rig
+constexpr double kSeenTimes = 6.0;             // a ball, with the same error of its size each time
+constexpr int kMostMatches = 3;                // by a belief that changes
+constexpr double kSameFault = 2e-5;            // rad, and relative: rows move by 0.02 px at f = 1000 px
 
 // Whether each eye sees enough of the outline.
 bool shows_enough(const OutlinePair& pair) {
-  return std::min(pair.left.arc_share, pair.right.arc_share) > kLeastArcShare;
+  return std::min(pair.left.inlier_ratio, pair.right.inlier_ratio) > kLeastArcShare;
 }
 
 double disparity_sd_px(const OutlinePair& pair, const StereoRig& rig) {
@@ -32,9 +32,9 @@ double disparity_sd_px(const OutlinePair& pair, const StereoRig& rig) {
 
 // Whether the arcs of an outline are of two things, as far as they tell.
 bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
-  const double contradiction = std::max(pair.left.contradiction, pair.right.contradiction);
-  return contradiction > kMostContradiction ||
-         (contradiction > 1.0 && disparity_sd_px(pair, rig) > kVague_px);
+  const double reduced_chi_square = std::max(pair.left.reduced_chi_square, pair.right.reduced_chi_square);
+  return reduced_chi_square > kMostReducedChiSquare ||
+         (reduced_chi_square > 1.0 && disparity_sd_px(pair, rig) > kVague_px);
 }
 
 // What a ball that is seen whole tells of the rig as it was believed to be.

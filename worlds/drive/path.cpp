@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
 
@@ -77,7 +77,7 @@ std::vector<Corner> corners_of(const PolylinePath& path) {
     const Eigen::Vector2d in = path.points_m[i] - path.points_m[(i + n - 1) % n];
     const Eigen::Vector2d out = path.points_m[(i + 1) % n] - path.points_m[i];
     const double turn_rad = slam::wrap_angle(heading_of(out) - heading_of(in));
-    if (std::abs(turn_rad) > 0.99 * std::numbers::pi) {
+    if (std::abs(turn_rad) > 0.99 * slam::kPi) {
       throw std::invalid_argument(fmt::format("expected no turning back (points_m[{}] does)", i));
     }
     corners[i] = {path.corner_radius_m * slam::tangent(std::abs(turn_rad) / 2.0), turn_rad};
@@ -165,7 +165,7 @@ GroundTruth drive_circle(const CirclePath& path) {
   require_positive(path.speed_mps, "speed_mps");
   require_positive(path.laps, "laps");
   const double turn_rate_radps = path.speed_mps / path.radius_m;
-  const double duration_s = path.laps * 2.0 * std::numbers::pi / turn_rate_radps;
+  const double duration_s = path.laps * 2.0 * slam::kPi / turn_rate_radps;
   return drive_controls(path.start, {{path.speed_mps, turn_rate_radps, duration_s}}, path.step_s,
                         path.odometry_s);
 }

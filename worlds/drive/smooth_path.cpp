@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
 #include "worlds/drive/biarc.h"
@@ -72,7 +72,7 @@ std::vector<Control> between(const TimedPose& from, const TimedPose& to) {
 GroundTruth drive_figure_eight(const CirclePath& path) {
   drive_circle(path);  // refuses what is no size
   const double turn_radps = path.speed_mps / path.radius_m;
-  const double circle_s = 2.0 * std::numbers::pi / turn_radps;
+  const double circle_s = 2.0 * slam::kPi / turn_radps;
   std::vector<Control> pieces;
   for (double left = 2.0 * path.laps; left > 0.0; left -= 1.0) {
     const double side = pieces.size() % 2 == 0 ? 1.0 : -1.0;

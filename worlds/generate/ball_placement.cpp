@@ -32,7 +32,7 @@ class Placement {
         rules_(rules),
         slack_m_(std::numbers::sqrt2 * scenario.placement_jitter_m),
         draws_(rules.seed, slam::Stream::kWorld, kDraws + start),
-        solids_(scenario.world) {}
+        occluders_(scenario.world) {}
 
   void fill() {
     for (const Eigen::Vector2d& at : rules_.first_m)
@@ -120,18 +120,18 @@ class Placement {
                                   return (Eigen::Vector2d(step.pose.x_m, step.pose.y_m) - at).norm() <
                                          own_m + rules_.clearance_m;
                                 }) &&
-           !solids_.meet(
-               upright_tube(at, own_m + rules_.wall_gap_m, kRim * rules_.radius_m, 2.0 * rules_.radius_m)) &&
-           is_outside_of_solids(at);
+           !occluders_.meet(upright_cylinder(at, own_m + rules_.wall_gap_m, kRim * rules_.radius_m,
+                                             2.0 * rules_.radius_m)) &&
+           is_outside_of_occluders(at);
   }
 
   /// Whether some of the drive could see a ball here, were it not for walls and distance: within a closed
   /// mesh nothing can.
-  bool is_outside_of_solids(const Eigen::Vector2d& at) const {
+  bool is_outside_of_occluders(const Eigen::Vector2d& at) const {
     const Sphere ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m};
     return std::ranges::any_of(scenario_.path, [&](const PathStep& step) {
       const Eigen::Vector3d eye_m(step.pose.x_m, step.pose.y_m, scenario_.rig.height_m);
-      return !solids_.meet(sight_tube(eye_m, ball, slack_m_));
+      return !occluders_.meet(sight_volume(eye_m, ball, slack_m_));
     });
   }
 
@@ -172,7 +172,7 @@ class Placement {
   const PlacementRules& rules_;
   double slack_m_;
   slam::RandomStream draws_;
-  Solids solids_;
+  Occluders occluders_;
   std::vector<int> in_view_;  ///< by step
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/math/random.h"
 #include "slam/models/motion.h"
@@ -24,9 +24,9 @@ constexpr int kWalls = 6;
 constexpr double kWallDistance = 1.2;  // of the farthest ball's depth
 constexpr double kWallHeight_m = 6.0;
 
-class Draws {
+class KeyedSampler {
  public:
-  explicit Draws(std::uint64_t seed) : stream_(seed, slam::Stream::kGallery) {}
+  explicit KeyedSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kGallery) {}
 
   double between(double low, double high) { return low + (high - low) * stream_.uniform(); }
   int below(int count) { return static_cast<int>(stream_.uniform() * count); }
@@ -37,13 +37,13 @@ class Draws {
 
 int looks_around(const vision::Intrinsics& camera) {
   const double half_view = slam::arc_tangent(0.5 * camera.width_px, camera.focal_px);
-  return std::max(1, static_cast<int>(std::numbers::pi / half_view));
+  return std::max(1, static_cast<int>(slam::kPi / half_view));
 }
 
 /// A place whose centre both eyes have in their pictures.
 /// @return in the robot's frame; empty where the draw gave none
 std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const GalleryDepths& depths,
-                                             double radius_m, Draws& draws) {
+                                             double radius_m, KeyedSampler& draws) {
   const double share = draws.between(0.0, 1.0);
   const double depth =
       depths.nearest_m * slam::exponential(share * slam::logarithm(depths.farthest_m / depths.nearest_m));
@@ -73,7 +73,7 @@ bool has_room(const Ball& ball, const std::vector<Ball>& others) {
 }
 
 void add_balls(const Scenario& scenario, const GalleryDepths& depths, const slam::Pose& robot,
-               double radius_m, Draws& draws, std::vector<Ball>& balls) {
+               double radius_m, KeyedSampler& draws, std::vector<Ball>& balls) {
   int missing = kBallsPerLook;
   for (int tries = 0; tries < kTries && missing > 0 && balls.size() < kMostBalls; ++tries) {
     const auto place = place_in_view(scenario.rig, depths, radius_m, draws);
@@ -86,14 +86,14 @@ void add_balls(const Scenario& scenario, const GalleryDepths& depths, const slam
   }
 }
 
-Material any_material(bool plain, Draws& draws) {
+Material any_material(bool plain, KeyedSampler& draws) {
   constexpr std::array<Material, 5> kAny = {Material::kPlain, Material::kTiles, Material::kPlaster,
                                             Material::kBricks, Material::kWood};
   const Material drawn = kAny[static_cast<std::size_t>(draws.below(static_cast<int>(kAny.size())))];
   return plain ? Material::kPlain : drawn;
 }
 
-Light any_light(Draws& draws) {
+Light any_light(KeyedSampler& draws) {
   Light light;
   light.towards_light = {draws.between(-1.0, 1.0), draws.between(-1.0, 1.0), draws.between(0.3, 1.0)};
   light.ambient = draws.between(0.3, 0.6);
@@ -101,10 +101,10 @@ Light any_light(Draws& draws) {
   return light;
 }
 
-std::vector<Wall> walls_around(double distance_m, bool plain, Draws& draws) {
+std::vector<Wall> walls_around(double distance_m, bool plain, KeyedSampler& draws) {
   std::vector<Wall> walls;
   const auto corner = [&](int i) -> Eigen::Vector2d {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / kWalls);
+    const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * i / kWalls);
     return distance_m * Eigen::Vector2d(c, s);
   };
   for (int i = 0; i < kWalls; ++i)
@@ -123,7 +123,7 @@ GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius
 }
 
 Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed) {
-  Draws draws(seed);
+  KeyedSampler draws(seed);
   Scenario made = scenario;
   made.seeds = {seed};
   made.shutter = {};
@@ -141,7 +141,7 @@ Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std:
   const double radius_m = scenario.world.ball_radius_m();
   const int looks = looks_around(scenario.rig.camera);
   for (int look = 0; look < looks; ++look) {
-    const double heading = slam::wrap_angle(2.0 * std::numbers::pi * look / looks);
+    const double heading = slam::wrap_angle(2.0 * slam::kPi * look / looks);
     made.path.push_back({.stamp_ns = look * std::int64_t{1'000'000'000}, .pose = {0.0, 0.0, heading}});
     add_balls(scenario, settings.depths, made.path.back().pose, radius_m, draws, made.world.balls);
   }

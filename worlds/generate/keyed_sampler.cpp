@@ -16,17 +16,17 @@ std::uint64_t number_of(std::string_view name) {
 
 }  // namespace
 
-double Draws::uniform(std::string_view key, std::uint64_t attempt) const {
+double KeyedSampler::uniform(std::string_view key, std::uint64_t attempt) const {
   return slam::RandomStream(seed_, slam::Stream::kRandomise, number_of(key) + attempt).uniform();
 }
 
-double Draws::number(const std::string& key, const Range& from, std::uint64_t attempt) {
+double KeyedSampler::number(const std::string& key, const Range& from, std::uint64_t attempt) {
   const double value = from.least + (from.most - from.least) * uniform(key, attempt);
   log_.push_back({.key = key, .value = std::min(value, from.most), .from = from});
   return log_.back().value;
 }
 
-int Draws::whole(const std::string& key, int least, int most, std::uint64_t attempt) {
+int KeyedSampler::whole(const std::string& key, int least, int most, std::uint64_t attempt) {
   const int count = most - least + 1;
   const int value = least + std::min(static_cast<int>(count * uniform(key, attempt)), count - 1);
   log_.push_back({.key = key,
@@ -36,7 +36,7 @@ int Draws::whole(const std::string& key, int least, int most, std::uint64_t atte
   return value;
 }
 
-std::size_t Draws::choice(const std::string& key, std::span<const std::string_view> names) {
+std::size_t KeyedSampler::choice(const std::string& key, std::span<const std::string_view> names) {
   const int index = whole(key, 0, static_cast<int>(names.size()) - 1);
   log_.back().names.assign(names.begin(), names.end());
   return static_cast<std::size_t>(index);

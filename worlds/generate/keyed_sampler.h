@@ -23,9 +23,9 @@ struct Draw {
 
 /// Draws by name. What a name gives depends on the seed and that name alone: whatever else is drawn, or no
 /// longer, changes nothing.
-class Draws {
+class KeyedSampler {
  public:
-  explicit Draws(std::uint64_t seed) : seed_(seed) {}
+  explicit KeyedSampler(std::uint64_t seed) : seed_(seed) {}
 
   /// A number in [least, most), or the one there is.
   double number(const std::string& key, const Range& from, std::uint64_t attempt = 0);

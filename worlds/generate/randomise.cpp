@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/math/random.h"
 #include "vision/palette.h"
@@ -51,7 +51,7 @@ void make_balls(std::uint64_t seed, World& world) {
 }
 
 /// Which colour takes the place of which (Fisher and Yates): all orders are equally likely.
-std::array<int, kColours> shuffled_palette(Draws& draws) {
+std::array<int, kColours> shuffled_palette(KeyedSampler& draws) {
   std::array<int, kColours> colours{};
   std::iota(colours.begin(), colours.end(), 0);
   for (int i = 0; i + 1 < kColours; ++i) {
@@ -61,7 +61,7 @@ std::array<int, kColours> shuffled_palette(Draws& draws) {
   return colours;
 }
 
-void recolour(const BallColours& rules, World& world, Draws& draws) {
+void recolour(const BallColours& rules, World& world, KeyedSampler& draws) {
   if (rules.shuffle) {
     const auto colours = shuffled_palette(draws);
     for (Ball& ball : world.balls) ball.colour = colours[static_cast<std::size_t>(ball.colour)];
@@ -71,17 +71,17 @@ void recolour(const BallColours& rules, World& world, Draws& draws) {
         draw_paint(draws, fmt::format("ball_colours[{}]", i), world.balls[i].colour, rules.shade, rules.tint);
 }
 
-void relight(const LightRanges& rules, Light& light, Draws& draws) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const auto azimuth = slam::sine_cosine(kDegree * draws.number("light.azimuth_deg", rules.azimuth_deg));
+void relight(const LightRanges& rules, Light& light, KeyedSampler& draws) {
+  const auto azimuth =
+      slam::sine_cosine(slam::kRadPerDegree * draws.number("light.azimuth_deg", rules.azimuth_deg));
   const auto elevation =
-      slam::sine_cosine(kDegree * draws.number("light.elevation_deg", rules.elevation_deg));
+      slam::sine_cosine(slam::kRadPerDegree * draws.number("light.elevation_deg", rules.elevation_deg));
   light.towards_light = {elevation.cosine * azimuth.cosine, elevation.cosine * azimuth.sine, elevation.sine};
   light.ambient = draws.number("light.ambient", rules.ambient);
   light.diffuse = draws.number("light.diffuse", rules.diffuse);
 }
 
-void resurface(const Randomisation& rules, World& world, Draws& draws) {
+void resurface(const Randomisation& rules, World& world, KeyedSampler& draws) {
   for (std::size_t i = 0; rules.walls && i < world.walls.size(); ++i) {
     const std::string name = fmt::format("walls[{}]", i);
     draw_surface(draws, name, *rules.walls, world.walls[i].material, world.walls[i].texture);
@@ -97,13 +97,13 @@ void resurface(const Randomisation& rules, World& world, Draws& draws) {
 SeedWorld seed_world(const Scenario& scenario, std::uint64_t seed) {
   const Randomisation& rules = scenario.randomise;
   SeedWorld made{scenario.world, {}, {}};
-  Draws draws(seed);
+  KeyedSampler draws(seed);
   jitter(scenario.placement_jitter_m, seed, made.world);
   make_balls(seed, made.world);
   if (rules.ball_colours) recolour(*rules.ball_colours, made.world, draws);
   resurface(rules, made.world, draws);
   if (rules.light) relight(*rules.light, made.world.light, draws);
-  made.left_out = strew(scenario, made.world, draws);
+  made.left_out = scatter(scenario, made.world, draws);
   made.draws = draws.log();
   return made;
 }

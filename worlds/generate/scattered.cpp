@@ -1,10 +1,10 @@
 #include "worlds/generate/scattered.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "slam/models/measurement.h"
 #include "vision/palette.h"
 #include "worlds/generate/paint.h"
@@ -15,7 +15,6 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGap_m = 0.02;  // between things
 constexpr std::uint64_t kTries = 300;
 
@@ -29,24 +28,24 @@ double floor_radius_m(const MeshInstance& thing) {
   return thing.shape == MeshShape::kBall ? 0.5 * size_m.x() : 0.5 * size_m.norm();
 }
 
-/// One world being strewn with things.
-class Strewing {
+/// One world being scattered with things.
+class Scattering {
  public:
-  Strewing(const Scenario& scenario, World& world, Draws& draws)
-      : scenario_(scenario), world_(world), draws_(draws), sight_(scenario, world), solids_(world) {}
+  Scattering(const Scenario& scenario, World& world, KeyedSampler& draws)
+      : scenario_(scenario), world_(world), draws_(draws), sight_(scenario, world), occluders_(world) {}
 
-  void strew(const Distractors& distractors) {
-    for_each("distractors", distractors.strewn,
+  void scatter(const Distractors& distractors) {
+    for_each("distractors", distractors.scattered,
              [&](const std::string& name) { return distractor(name, distractors); });
   }
-  void strew(const Clutter& clutter) {
-    for_each("clutter", clutter.strewn, [&](const std::string& name) { return box(name, clutter); });
+  void scatter(const Clutter& clutter) {
+    for_each("clutter", clutter.scattered, [&](const std::string& name) { return box(name, clutter); });
   }
   std::vector<std::string> left_out() const { return left_out_; }
 
  private:
   template <typename Make>
-  void for_each(const std::string& group, const Strewn& rules, Make make) {
+  void for_each(const std::string& group, const Scattered& rules, Make make) {
     const int count = draws_.whole(group + ".count", static_cast<int>(rules.count.least),
                                    static_cast<int>(rules.count.most));
     for (int i = 0; i < count; ++i) {
@@ -64,8 +63,8 @@ class Strewing {
   MeshInstance distractor(const std::string& name, const Distractors& rules) {
     MeshInstance thing{.material = Material::kPaint};
     thing.shape = draw_shape(draws_, name + ".shape", rules.shapes);
-    thing.scale = Eigen::Vector3d::Constant(draws_.number(name + ".size_m", rules.strewn.size_m));
-    thing.heading_rad = draws_.number(name + ".heading_deg", {0.0, 360.0}) * kDegree;
+    thing.scale = Eigen::Vector3d::Constant(draws_.number(name + ".size_m", rules.scattered.size_m));
+    thing.heading_rad = draws_.number(name + ".heading_deg", {0.0, 360.0}) * slam::kRadPerDegree;
     const int colour = draws_.whole(name + ".colour", 0, static_cast<int>(vision::kPalette.size()) - 1);
     thing.tint_rgb = draw_paint(draws_, name, colour, rules.shade, rules.tint);
     return thing;
@@ -74,21 +73,22 @@ class Strewing {
   MeshInstance box(const std::string& name, const Clutter& rules) {
     MeshInstance thing{.shape = MeshShape::kBox};
     for (const auto& [axis, side] : {std::pair{0, ".width_m"}, {1, ".depth_m"}, {2, ".height_m"}})
-      thing.scale[axis] = draws_.number(name + side, rules.strewn.size_m);
-    thing.heading_rad = draws_.number(name + ".heading_deg", {0.0, 360.0}) * kDegree;
+      thing.scale[axis] = draws_.number(name + side, rules.scattered.size_m);
+    thing.heading_rad = draws_.number(name + ".heading_deg", {0.0, 360.0}) * slam::kRadPerDegree;
     thing.material = draw_material(draws_, name, rules.looks);
     thing.tint_rgb = draw_tint(draws_, name, rules.looks);
     return thing;
   }
 
   /// Draws places until one will do.
-  bool place(const std::string& name, const Strewn& rules, MeshInstance& thing) {
+  bool place(const std::string& name, const Scattered& rules, MeshInstance& thing) {
     for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
       const std::size_t before = draws_.size();
       const auto step = static_cast<std::size_t>(
           draws_.whole(name + ".step", 0, static_cast<int>(scenario_.path.size()) - 1, attempt));
       const double range_m = draws_.number(name + ".range_m", rules.range_m, attempt);
-      const double bearing_rad = draws_.number(name + ".bearing_deg", rules.bearing_deg, attempt) * kDegree;
+      const double bearing_rad =
+          draws_.number(name + ".bearing_deg", rules.bearing_deg, attempt) * slam::kRadPerDegree;
       const slam::Pose& pose = scenario_.path[step].pose;
       thing.position_m.head<2>() = slam::locate(pose, {range_m, bearing_rad});
       if (is_clear(thing, rules, {pose.x_m, pose.y_m}) &&
@@ -106,11 +106,11 @@ class Strewing {
   }
 
   /// @param from where the drive looks at it from
-  bool is_clear(const MeshInstance& thing, const Strewn& rules, const Eigen::Vector2d& from) const {
+  bool is_clear(const MeshInstance& thing, const Scattered& rules, const Eigen::Vector2d& from) const {
     const Eigen::Vector2d at = thing.position_m.head<2>();
     const double own_m = floor_radius_m(thing);
     return is_clear_of_walls(at, own_m, from) && is_clear_of_drive(at, own_m + rules.clearance_m) &&
-           is_clear_of_solids(thing, from) &&
+           is_clear_of_occluders(thing, from) &&
            std::ranges::none_of(world_.balls,
                                 [&](const Ball& ball) {
                                   return (ball.centre_m.head<2>() - at).norm() <
@@ -129,12 +129,12 @@ class Strewing {
   }
 
   /// Mesh files that reach no higher than the gap are what things stand on.
-  bool is_clear_of_solids(const MeshInstance& thing, const Eigen::Vector2d& from) const {
+  bool is_clear_of_occluders(const MeshInstance& thing, const Eigen::Vector2d& from) const {
     const Sphere middle{thing.position_m + Eigen::Vector3d(0.0, 0.0, 0.5 * thing.scale.z()), kGap_m};
     const Eigen::Vector3d eye(from.x(), from.y(), scenario_.rig.height_m);
-    return !solids_.meet(upright_tube(thing.position_m.head<2>(), floor_radius_m(thing) + kGap_m, kGap_m,
-                                      thing.scale.z())) &&
-           !solids_.meet(sight_tube(eye, middle, 0.0));
+    return !occluders_.meet(upright_cylinder(thing.position_m.head<2>(), floor_radius_m(thing) + kGap_m,
+                                             kGap_m, thing.scale.z())) &&
+           !occluders_.meet(sight_volume(eye, middle, 0.0));
   }
 
   bool is_clear_of_drive(const Eigen::Vector2d& at, double least_m) const {
@@ -150,21 +150,21 @@ class Strewing {
 
   const Scenario& scenario_;
   World& world_;
-  Draws& draws_;
-  DriveSight sight_;
-  Solids solids_;
+  KeyedSampler& draws_;
+  DriveVisibility sight_;
+  Occluders occluders_;
   std::vector<std::string> left_out_;
 };
 
 }  // namespace
 
-std::vector<std::string> strew(const Scenario& scenario, World& world, Draws& draws) {
+std::vector<std::string> scatter(const Scenario& scenario, World& world, KeyedSampler& draws) {
   const Randomisation& rules = scenario.randomise;
   if (!rules.distractors && !rules.clutter) return {};
-  Strewing strewing(scenario, world, draws);
-  if (rules.distractors) strewing.strew(*rules.distractors);
-  if (rules.clutter) strewing.strew(*rules.clutter);
-  return strewing.left_out();
+  Scattering scattering(scenario, world, draws);
+  if (rules.distractors) scattering.scatter(*rules.distractors);
+  if (rules.clutter) scattering.scatter(*rules.clutter);
+  return scattering.left_out();
 }
 
 }  // namespace stereobench::worlds

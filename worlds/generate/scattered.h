@@ -1,4 +1,4 @@
-/// Things strewn beside a drive: clutter, and what could be taken for a ball.
+/// Things scattered beside a drive: clutter, and what could be taken for a ball.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ namespace stereobench::worlds {
 /// the drive, walls, meshes, balls and other things, with no wall and no mesh between it and the drive, and
 /// hides no more balls than `balls_in_view` leaves.
 ///
-/// @param world its balls in their places, its meshes of files with their solids
+/// @param world its balls in their places, its meshes of files with their occluders
 /// @param draws where all that is drawn goes; of a place's attempts, the last
 /// @return names of the things for which no place was found; they are not there
-std::vector<std::string> strew(const Scenario& scenario, World& world, Draws& draws);
+std::vector<std::string> scatter(const Scenario& scenario, World& world, KeyedSampler& draws);
 
 }  // namespace stereobench::worlds

@@ -1,6 +1,6 @@
-#include <numbers>
 #include <stdexcept>
 
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "worlds/scenario/generator.h"
 #include "worlds/scenario/scenario_parts.h"
@@ -18,7 +18,7 @@ std::vector<Eigen::Vector2d> read_ring(const YamlMap& map) {
   const Eigen::Vector2d centre_m = read_vector<2>(map, "centre_m", Eigen::Vector2d(0.0, 0.0));
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i < balls; ++i) {
-    const auto [s, c] = slam::sine_cosine(2.0 * std::numbers::pi * i / balls);
+    const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * i / balls);
     places.push_back(centre_m + radius_m * Eigen::Vector2d(c, s));
   }
   return places;

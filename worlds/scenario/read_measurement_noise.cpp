@@ -1,11 +1,10 @@
-#include <numbers>
 
+#include "slam/math/angles.h"
 #include "worlds/scenario/scenario_parts.h"
 
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kNoise = {0.0, 100.0};
 constexpr Interval kScale = {1e-3, 1e3};
 
@@ -17,7 +16,7 @@ MeasurementNoise read_stated_noise(const YamlMap& map) {
 
 MeasurementNoise read_constant_noise(const YamlMap& map) {
   return {.law = slam::NoiseLaw{.range_sd_m = map.number("range_sd_m"),
-                                .bearing_sd_rad = map.number("bearing_sd_deg") * kDegree}};
+                                .bearing_sd_rad = map.number("bearing_sd_deg") * slam::kRadPerDegree}};
 }
 
 MeasurementNoise read_stereo_noise(const YamlMap& map, const vision::StereoRig& rig) {

@@ -1,12 +1,11 @@
-#include <numbers>
 #include <span>
 
+#include "slam/math/angles.h"
 #include "worlds/scenario/scenario_parts.h"
 
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kTurn_deg = {-360.0, 360.0};
 
@@ -84,9 +83,9 @@ MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& fold
   read_form(value, map, folder, mesh);
   mesh.unit_m = map.number("unit_m", mesh.unit_m);
   mesh.up = read_choice(map, "up", mesh.up);
-  mesh.heading_rad = map.number("heading_deg", 0.0) * kDegree;
-  mesh.pitch_rad = map.number("pitch_deg", 0.0) * kDegree;
-  mesh.roll_rad = map.number("roll_deg", 0.0) * kDegree;
+  mesh.heading_rad = map.number("heading_deg", 0.0) * slam::kRadPerDegree;
+  mesh.pitch_rad = map.number("pitch_deg", 0.0) * slam::kRadPerDegree;
+  mesh.roll_rad = map.number("roll_deg", 0.0) * slam::kRadPerDegree;
   mesh.scale = read_vector<3>(map, "scale", mesh.scale);
   const auto ball = map.find("under_ball");
   if (ball && map.find("at_m")) value.refuse("expected either at_m or under_ball");

@@ -1,13 +1,12 @@
-#include <numbers>
 #include <stdexcept>
 
+#include "slam/math/angles.h"
 #include "worlds/drive/smooth_path.h"
 #include "worlds/scenario/scenario_parts.h"
 
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kPlace_m = {-1e4, 1e4};
 constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kStep_s = {1e-3, 1e3};
@@ -18,7 +17,7 @@ enum class Kind { kCircle, kPolyline, kTour, kSpline, kFigureEight, kRecorded };
 CirclePath read_circles(const YamlMap& map) {
   CirclePath path;
   const Eigen::Vector2d start_m = read_vector<2>(map, "start_m", Eigen::Vector2d(0.0, 0.0));
-  path.start = {start_m.x(), start_m.y(), map.number("start_heading_deg", 0.0) * kDegree};
+  path.start = {start_m.x(), start_m.y(), map.number("start_heading_deg", 0.0) * slam::kRadPerDegree};
   path.radius_m = map.number("radius_m");
   path.speed_mps = map.number("speed_mps");
   path.laps = map.number("laps", path.laps);

@@ -35,7 +35,7 @@ Key materials() {
 }
 
 /// @return the keys of things beside the drive, and then some
-KeyGroup strewn_keys(std::string_view count, std::string_view size_m, std::vector<Key> more) {
+KeyGroup scattered_keys(std::string_view count, std::string_view size_m, std::vector<Key> more) {
   KeyGroup keys = {
       .keys = {
           whole("count", 0, 1000, "How many things there are.").or_vector(2).otherwise(count),
@@ -101,18 +101,18 @@ LightRanges read_light_ranges(const YamlValue& value) {
   return light;
 }
 
-void read_strewn(const YamlMap& map, Strewn& strewn) {
-  read_range(map, "count", strewn.count);
-  read_range(map, "size_m", strewn.size_m);
-  read_range(map, "range_m", strewn.range_m);
-  read_range(map, "bearing_deg", strewn.bearing_deg);
-  strewn.clearance_m = map.number("clearance_m", strewn.clearance_m);
+void read_scattered(const YamlMap& map, Scattered& scattered) {
+  read_range(map, "count", scattered.count);
+  read_range(map, "size_m", scattered.size_m);
+  read_range(map, "range_m", scattered.range_m);
+  read_range(map, "bearing_deg", scattered.bearing_deg);
+  scattered.clearance_m = map.number("clearance_m", scattered.clearance_m);
 }
 
 Clutter read_clutter(const YamlValue& value) {
   const YamlMap map(value, clutter_keys());
   Clutter clutter;
-  read_strewn(map, clutter.strewn);
+  read_scattered(map, clutter.scattered);
   read_kinds(map, "materials", 0, clutter.looks.materials);
   read_range(map, "shade", clutter.looks.shade);
   read_range(map, "tint", clutter.looks.tint);
@@ -122,7 +122,7 @@ Clutter read_clutter(const YamlValue& value) {
 Distractors read_distractors(const YamlValue& value) {
   const YamlMap map(value, distractor_keys());
   Distractors distractors;
-  read_strewn(map, distractors.strewn);
+  read_scattered(map, distractors.scattered);
   read_kinds(map, "shapes", 1, distractors.shapes);
   read_range(map, "shade", distractors.shade);
   read_range(map, "tint", distractors.tint);
@@ -166,14 +166,14 @@ const KeyGroup& light_range_keys() {
 
 const KeyGroup& clutter_keys() {
   static const KeyGroup keys =
-      strewn_keys("[3, 8]", "[0.15, 0.5]",
-                  {materials().otherwise("[plain, plaster, bricks, wood, tiles]"), shade("[0.7, 1.1]"),
-                   tint("Part of the colour that each channel is brighter by.", "[-0.1, 0.1]")});
+      scattered_keys("[3, 8]", "[0.15, 0.5]",
+                     {materials().otherwise("[plain, plaster, bricks, wood, tiles]"), shade("[0.7, 1.1]"),
+                      tint("Part of the colour that each channel is brighter by.", "[-0.1, 0.1]")});
   return keys;
 }
 
 const KeyGroup& distractor_keys() {
-  static const KeyGroup keys = strewn_keys(
+  static const KeyGroup keys = scattered_keys(
       "[2, 5]", "[0.05, 0.3]",
       {choice("shapes", {kShapeNames.begin(), kShapeNames.end()}, "Shapes that one is drawn from.")
            .list(1, 100)

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
 #include "vision/camera/distortion.h"
 #include "vision/camera/pinhole_rig.h"
 #include "worlds/oracle.h"
@@ -12,7 +12,6 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kNoise = {0.0, 100.0};
 constexpr Interval kFocal_px = {1.0, 1e5};
@@ -68,8 +67,10 @@ void read_rig_parts(const YamlMap& map, vision::StereoRig& rig) {
   vision::Intrinsics& camera = rig.camera;
   camera.cx_px = read_centre_px(map, "cx_px", camera.width_px - 1.0, camera.cx_px);
   camera.cy_px = read_centre_px(map, "cy_px", camera.height_px - 1.0, camera.cy_px);
-  rig.pitch_down_rad = map.number("pitch_down_deg", rig.pitch_down_rad / kDegree) * kDegree;
-  if (map.find("right_turn_deg")) rig.right_turn_rad = read_vector<3>(map, "right_turn_deg") * kDegree;
+  rig.pitch_down_rad =
+      map.number("pitch_down_deg", rig.pitch_down_rad / slam::kRadPerDegree) * slam::kRadPerDegree;
+  if (map.find("right_turn_deg"))
+    rig.right_turn_rad = read_vector<3>(map, "right_turn_deg") * slam::kRadPerDegree;
   read_distortion(map, rig);
   check_field(map, rig);
 }
@@ -198,7 +199,7 @@ slam::OdometryNoise read_odometry_noise(const YamlValue& value) {
   noise.v_constant_mps = map.number("v_constant_mps", 0.0);
   noise.v_per_v = map.number("v_per_v", 0.0);
   noise.v_per_w = map.number("v_per_w", 0.0);
-  noise.w_constant_radps = map.number("w_constant_degps", 0.0) * kDegree;
+  noise.w_constant_radps = map.number("w_constant_degps", 0.0) * slam::kRadPerDegree;
   noise.w_per_v = map.number("w_per_v", 0.0);
   noise.w_per_w = map.number("w_per_w", 0.0);
   noise.correlation_s = map.number("correlation_s", 0.0);
@@ -246,9 +247,9 @@ OracleSensor read_oracle(const YamlValue& value) {
   const YamlMap map(value, oracle_keys());
   OracleSensor sensor;
   sensor.range_sd_m = map.number("range_sd_m");
-  sensor.bearing_sd_rad = map.number("bearing_sd_deg") * kDegree;
+  sensor.bearing_sd_rad = map.number("bearing_sd_deg") * slam::kRadPerDegree;
   sensor.max_range_m = map.number("max_range_m");
-  sensor.field_of_view_rad = map.number("field_of_view_deg") * kDegree;
+  sensor.field_of_view_rad = map.number("field_of_view_deg") * slam::kRadPerDegree;
   sensor.miss_probability = map.number("miss_probability", 0.0);
   sensor.false_per_look = map.number("false_per_look", 0.0);
   return sensor;
@@ -259,7 +260,7 @@ slam::SensorSector read_believed_oracle(const YamlValue& value, const OracleSens
   slam::SensorSector believed = sector_of(oracle);
   believed.range_m = map.number("max_range_m", believed.range_m);
   if (map.find("field_of_view_deg"))
-    believed.half_angle_rad = map.number("field_of_view_deg") * kDegree / 2.0;
+    believed.half_angle_rad = map.number("field_of_view_deg") * slam::kRadPerDegree / 2.0;
   believed.miss_probability = map.number("miss_probability", believed.miss_probability);
   believed.false_per_look = map.number("false_per_look", believed.false_per_look);
   return believed;

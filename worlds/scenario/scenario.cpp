@@ -120,8 +120,8 @@ void generate(const YamlValue& value, const Generator& generator, Scenario& scen
   }
 }
 
-void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder, const SolidReader& solids,
-                         Scenario& scenario) {
+void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder,
+                         const OccluderReader& occluders, Scenario& scenario) {
   const YamlMap world(map.at("world"), world_keys());
   const auto made = world.find("generator");
   std::optional<Generator> generator;
@@ -135,7 +135,7 @@ void read_world_and_path(const YamlMap& map, const std::filesystem::path& folder
   if (scenario.randomise.floor && !scenario.world.has_floor)
     world.at("floor").refuse("expected a floor, of which randomise.floor draws the material");
   if (generator || scenario.randomise.clutter || scenario.randomise.distractors)
-    give_solids(scenario.world, solids);
+    give_occluders(scenario.world, occluders);
   if (generator)
     generate(*made, *generator, scenario);
   else
@@ -203,7 +203,7 @@ const KeyGroup& scenario_keys() {
 }
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                       const SolidReader& solids) {
+                       const OccluderReader& occluders) {
   const YamlDocument document = load_yaml(file, overrides, &scenario_keys());
   const YamlValue top(document, "", document.root, document.root.Mark());
   check_keys(top, scenario_keys());
@@ -215,7 +215,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   read_sensing(map, file.parent_path(), scenario);
   read_odometry(map, scenario);
   scenario.placement_jitter_m = map.number("placement_jitter_m", 0.0);
-  read_world_and_path(map, file.parent_path(), solids, scenario);
+  read_world_and_path(map, file.parent_path(), occluders, scenario);
   return scenario;
 }
 

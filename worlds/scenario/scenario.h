@@ -19,13 +19,14 @@ namespace stereobench::worlds {
 /// @param file the YAML file; paths of meshes in it are relative to its folder
 /// @param overrides "key.path=value", put in place before reading, e.g. "camera.noise_sd_levels=4"; a list is
 ///        replaced whole
-/// @param solids reads mesh files; asked only where a generator, or things that are strewn, must know of them
+/// @param occluders reads mesh files; asked only where a generator, or things that are scattered, must know
+/// of them
 /// @return the scenario, its path already driven (poses and exact controls)
 /// @throws std::runtime_error of one line, "file:line: key.path: expected ... (got ...)", or
 ///         "--set key.path: ..." when an override is to blame
 /// @throws std::invalid_argument when there is no such reader and it would be asked
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                       const SolidReader& solids = {});
+                       const OccluderReader& occluders = {});
 
 /// The world of one seed (randomise.h): the scenario's, with each ball moved by a uniform draw of up to
 /// +-placement_jitter_m in x and in y, made as exactly as `ball_radius_sd_m` says (its lowest point stays

@@ -1,11 +1,11 @@
 #include "worlds/scenario/write_scenario.h"
 
-#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "slam/math/angles.h"
 #include "worlds/scenario/generator.h"
 #include "worlds/scenario/scenario.h"
 #include "worlds/scenario/scenario_parts.h"
@@ -67,14 +67,12 @@ YAML::Node lines_of(const Wall& wall) {
   return node;
 }
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// A shape that stands upright, as things that are strewn do.
+/// A shape that stands upright, as things that are scattered do.
 YAML::Node lines_of(const MeshInstance& mesh) {
   YAML::Node node;
   node["shape"] = std::string(kShapeNames[static_cast<std::size_t>(mesh.shape) - 1]);
   node["at_m"] = list_of(mesh.position_m);
-  node["heading_deg"] = digits(mesh.heading_rad / kDegree);
+  node["heading_deg"] = digits(mesh.heading_rad / slam::kRadPerDegree);
   node["scale"] = list_of(mesh.scale);
   node["material"] = name_of(mesh.material);
   node["tint_rgb"] = list_of(mesh.tint_rgb);
@@ -192,8 +190,8 @@ std::set<std::string> files_named_in(const std::filesystem::path& file,
 }
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                        std::optional<std::uint64_t> seed, const SolidReader& solids) {
-  const Scenario scenario = read_scenario(file, overrides, solids);
+                        std::optional<std::uint64_t> seed, const OccluderReader& occluders) {
+  const Scenario scenario = read_scenario(file, overrides, occluders);
   YamlDocument document = load_yaml(file, overrides, &scenario_keys());
   YAML::Node lines = document.root["world"];
   name_files_from_anywhere(file.parent_path(), document.root);

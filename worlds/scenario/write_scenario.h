@@ -17,10 +17,11 @@ namespace stereobench::worlds {
 /// world and the same drive, bit for bit.
 /// @param seed where there is one, nothing is left to chance: the world as that seed has it, line by line,
 ///   without jitter and without `randomise:`; the only seed is that one
-/// @param solids reads mesh files, as for read_scenario
+/// @param occluders reads mesh files, as for read_scenario
 /// @throws std::runtime_error, std::invalid_argument as read_scenario
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                        std::optional<std::uint64_t> seed = std::nullopt, const SolidReader& solids = {});
+                        std::optional<std::uint64_t> seed = std::nullopt,
+                        const OccluderReader& occluders = {});
 
 /// The lines of a scenario with its overrides put in place, and nothing else changed but that comments are
 /// lost: files have the names that they have there.

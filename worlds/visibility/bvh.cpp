@@ -25,7 +25,7 @@ bool is_outside(const Eigen::AlignedBox3d& box, const HalfSpace& half) {
 
 /// A line, ready to be held against boxes.
 struct Slabs {
-  explicit Slabs(const Sightline& line) : origin(line.origin_m), inverse(line.direction.cwiseInverse()) {}
+  explicit Slabs(const Ray& line) : origin(line.origin_m), inverse(line.direction.cwiseInverse()) {}
 
   /// Whether the line is in the box somewhere between two places.
   bool meet(const Eigen::AlignedBox3d& box, double from, double before) const {
@@ -44,7 +44,7 @@ struct Slabs {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) {
+Bvh::Bvh(const std::vector<Eigen::AlignedBox3d>& boxes) {
   std::vector<Boxed> things;
   things.reserve(boxes.size());
   for (const Eigen::AlignedBox3d& box : boxes)
@@ -54,7 +54,7 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) {
   for (const Boxed& boxed : things) things_.push_back(boxed.thing);
 }
 
-void BoxTree::add_node(std::vector<Boxed>& things, std::size_t first, std::size_t last) {
+void Bvh::add_node(std::vector<Boxed>& things, std::size_t first, std::size_t last) {
   const auto at = [&](std::size_t i) { return things.begin() + static_cast<std::ptrdiff_t>(i); };
   const std::size_t own = nodes_.size();
   Node node;
@@ -80,7 +80,7 @@ void BoxTree::add_node(std::vector<Boxed>& things, std::size_t first, std::size_
   nodes_[own].behind = nodes_.size();
 }
 
-std::vector<int> BoxTree::renumber() {
+std::vector<int> Bvh::renumber() {
   std::vector<int> before = things_;
   std::iota(things_.begin(), things_.end(), 0);
   return before;
@@ -89,7 +89,7 @@ std::vector<int> BoxTree::renumber() {
 /// Visits the things of leaves that are reached, until a visit is the last one.
 /// @return whether one was
 template <class Reach, class Visit>
-bool BoxTree::visit_until(const Reach& reaches, const Visit& visit) const {
+bool Bvh::visit_until(const Reach& reaches, const Visit& visit) const {
   for (std::size_t i = 0; i < nodes_.size();) {
     const Node& node = nodes_[i];
     if (!reaches(node.box)) {
@@ -103,15 +103,15 @@ bool BoxTree::visit_until(const Reach& reaches, const Visit& visit) const {
   return false;
 }
 
-bool BoxTree::any(std::span<const HalfSpace> within, const std::function<bool(int)>& test) const {
+bool Bvh::any(std::span<const HalfSpace> within, const std::function<bool(int)>& test) const {
   const auto reaches = [&](const Eigen::AlignedBox3d& box) {
     return std::ranges::none_of(within, [&](const HalfSpace& half) { return is_outside(box, half); });
   };
   return visit_until(reaches, test);
 }
 
-BoxTree::Met BoxTree::first(const Sightline& line, double from, double before,
-                            const std::function<double(int)>& enter) const {
+Bvh::Met Bvh::first(const Ray& line, double from, double before,
+                    const std::function<double(int)>& enter) const {
   const Slabs slabs(line);
   Met met{-1, before};
   const auto reaches = [&](const Eigen::AlignedBox3d& box) { return slabs.meet(box, from, met.at); };

@@ -11,7 +11,7 @@
 namespace stereobench::worlds {
 
 /// The points origin + t direction, t > 0.
-struct Sightline {
+struct Ray {
   Eigen::Vector3d origin_m;
   Eigen::Vector3d direction;
 };
@@ -20,10 +20,10 @@ struct Sightline {
 using HalfSpace = Eigen::Vector4d;
 
 /// A tree of boxes, each holding one half of what the box above it holds.
-class BoxTree {
+class Bvh {
  public:
   /// @param boxes around each thing, finite
-  explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
+  explicit Bvh(const std::vector<Eigen::AlignedBox3d>& boxes);
 
   /// Numbers things by the order in which they are asked: kept in this order they lie side by side.
   /// @return the numbers that they had
@@ -41,7 +41,7 @@ class BoxTree {
   /// @param from,before the stretch of the line that is looked at
   /// @param enter where the line enters a thing, +inf where it passes by; asked of those alone whose boxes it
   ///   meets, and of some others
-  Met first(const Sightline& line, double from, double before, const std::function<double(int)>& enter) const;
+  Met first(const Ray& line, double from, double before, const std::function<double(int)>& enter) const;
 
  private:
   /// Nodes lie in the order in which they are visited.

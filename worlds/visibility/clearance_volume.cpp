@@ -39,14 +39,14 @@ class Polygon {
   std::size_t size_;
 };
 
-/// The half-space, which is told in axes of the world, in a tube's.
-HalfSpace in_tube(const Eigen::Isometry3d& tube_from_world, const HalfSpace& world) {
-  return tube_from_world.inverse().matrix().transpose() * world;
+/// The half-space, which is told in axes of the world, in a clearance volume's.
+HalfSpace in_volume(const Eigen::Isometry3d& volume_from_world, const HalfSpace& world) {
+  return volume_from_world.inverse().matrix().transpose() * world;
 }
 
-/// The four planes of a pyramid, or a square column, around a tube.
-std::array<HalfSpace, 4> sides_of(const Tube& tube) {
-  const HalfSpace away(0.0, 0.0, tube.narrows ? tube.radius : 0.0, tube.narrows ? 0.0 : tube.radius);
+/// The four planes of a mip chain, or a square column, around a clearance volume.
+std::array<HalfSpace, 4> sides_of(const ClearanceVolume& volume) {
+  const HalfSpace away(0.0, 0.0, volume.narrows ? volume.radius : 0.0, volume.narrows ? 0.0 : volume.radius);
   const HalfSpace x = HalfSpace::UnitX(), y = HalfSpace::UnitY();
   return {away + x, away - x, away + y, away - y};
 }
@@ -74,17 +74,17 @@ bool meets_circle(std::span<const Eigen::Vector2d> corners, double radius) {
   return is_around;
 }
 
-/// @param corners in the tube's axes
-bool meets(const Tube& tube, const TriangleCorners& corners) {
+/// @param corners in the clearance volume's axes
+bool meets(const ClearanceVolume& volume, const TriangleCorners& corners) {
   Polygon polygon(corners);
-  for (const HalfSpace& cut : tube.cuts) polygon.cut(cut);
+  for (const HalfSpace& cut : volume.cuts) polygon.cut(cut);
   std::array<Eigen::Vector2d, 12> along_z;
   for (std::size_t i = 0; i < polygon.corners().size(); ++i) {
     const Eigen::Vector3d& corner = polygon.corners()[i];
-    along_z[i] = corner.head<2>() / (tube.narrows ? corner.z() : 1.0);
+    along_z[i] = corner.head<2>() / (volume.narrows ? corner.z() : 1.0);
   }
-  const Sphere& excused = tube.excused;
-  return meets_circle({along_z.data(), polygon.corners().size()}, tube.radius) &&
+  const Sphere& excused = volume.excused;
+  return meets_circle({along_z.data(), polygon.corners().size()}, volume.radius) &&
          !std::ranges::all_of(polygon.corners(), [&](const Eigen::Vector3d& corner) {
            return (corner - excused.centre_m).norm() < excused.radius_m;
          });
@@ -92,7 +92,7 @@ bool meets(const Tube& tube, const TriangleCorners& corners) {
 
 }  // namespace
 
-Tube sight_tube(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m) {
+ClearanceVolume sight_volume(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m) {
   const double core_m = (1.0 - kRim) * ball.radius_m;
   const double radius_m = core_m + slack_m;
   const double distance_m = (ball.centre_m - eye_m).norm();
@@ -110,11 +110,11 @@ Tube sight_tube(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m
           .radius = radius_m / std::sqrt(squared_tangent),
           .cuts = {{0.0, 0.0, 1.0, -kNear_m},
                    {0.0, 0.0, -1.0, squared_tangent / distance_m},
-                   in_tube(from_world, {0.0, 0.0, 1.0, -low_m})},
+                   in_volume(from_world, {0.0, 0.0, 1.0, -low_m})},
           .excused = {{0.0, 0.0, distance_m}, std::max(ball.radius_m - slack_m, 0.0)}};
 }
 
-Tube upright_tube(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m) {
+ClearanceVolume upright_cylinder(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m) {
   Eigen::Isometry3d from_world = Eigen::Isometry3d::Identity();
   from_world.translation().head<2>() = -at_m;
   return {.from_world = from_world,
@@ -122,14 +122,14 @@ Tube upright_tube(const Eigen::Vector2d& at_m, double radius_m, double low_m, do
           .cuts = {{0.0, 0.0, 1.0, -low_m}, {0.0, 0.0, -1.0, high_m}}};
 }
 
-bool meets(const Tube& tube, const TriangleTree& tree, const Eigen::Affine3d& world_from_tree) {
-  const Eigen::Affine3d tube_from_tree = tube.from_world * world_from_tree;
-  std::vector<HalfSpace> within(tube.cuts);
-  std::ranges::copy(sides_of(tube), std::back_inserter(within));
-  for (HalfSpace& half : within) half = (tube_from_tree.matrix().transpose() * half).eval();
+bool meets(const ClearanceVolume& volume, const TriangleBvh& tree, const Eigen::Affine3d& world_from_tree) {
+  const Eigen::Affine3d volume_from_tree = volume.from_world * world_from_tree;
+  std::vector<HalfSpace> within(volume.cuts);
+  std::ranges::copy(sides_of(volume), std::back_inserter(within));
+  for (HalfSpace& half : within) half = (volume_from_tree.matrix().transpose() * half).eval();
   return tree.any(within, [&](const TriangleCorners& corners) {
-    return meets(tube,
-                 {tube_from_tree * corners[0], tube_from_tree * corners[1], tube_from_tree * corners[2]});
+    return meets(volume, {volume_from_tree * corners[0], volume_from_tree * corners[1],
+                          volume_from_tree * corners[2]});
   });
 }
 

@@ -15,7 +15,7 @@ namespace stereobench::worlds {
 inline constexpr double kRim = 0.19;
 
 /// A cone from its origin along z, or a cylinder around z, between planes; in axes of its own.
-struct Tube {
+struct ClearanceVolume {
   Eigen::Isometry3d from_world;
   bool narrows = false;         ///< towards its origin: a cone
   double radius = 0.0;          ///< metres, of a cone for each metre from the origin
@@ -28,13 +28,13 @@ struct Tube {
 /// nearer to the eye than its picture begins.
 /// @param slack_m the ball may lie that far aside, at the same height
 /// @param ball the eye is not in it, slack included
-Tube sight_tube(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m);
+ClearanceVolume sight_volume(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m);
 
 /// An upright cylinder.
-Tube upright_tube(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m);
+ClearanceVolume upright_cylinder(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m);
 
-/// Whether a triangle has a point in common with a tube.
+/// Whether a triangle has a point in common with a clearance volume.
 /// @param world_from_tree where its triangles are
-bool meets(const Tube& tube, const TriangleTree& tree, const Eigen::Affine3d& world_from_tree);
+bool meets(const ClearanceVolume& volume, const TriangleBvh& tree, const Eigen::Affine3d& world_from_tree);
 
 }  // namespace stereobench::worlds

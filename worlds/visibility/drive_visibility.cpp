@@ -15,7 +15,7 @@ bool hidden(const Things& thing, const std::array<Cone, 2>& ball) {
 
 }  // namespace
 
-DriveSight::DriveSight(const Scenario& scenario, const World& world) {
+DriveVisibility::DriveVisibility(const Scenario& scenario, const World& world) {
   for (const PathStep& at : scenario.path) {
     Step step{{eye_at(scenario.rig, vision::Eye::kLeft, at.pose),
                eye_at(scenario.rig, vision::Eye::kRight, at.pose)},
@@ -30,7 +30,7 @@ DriveSight::DriveSight(const Scenario& scenario, const World& world) {
   }
 }
 
-bool DriveSight::allows(const Sphere& thing, int least) const {
+bool DriveVisibility::allows(const Sphere& thing, int least) const {
   return std::ranges::all_of(steps_, [&](const Step& step) {
     const Things cones = {cone_around(step.eyes[0], thing), cone_around(step.eyes[1], thing)};
     const auto left =
@@ -39,7 +39,7 @@ bool DriveSight::allows(const Sphere& thing, int least) const {
   });
 }
 
-void DriveSight::put(const Sphere& thing) {
+void DriveVisibility::put(const Sphere& thing) {
   for (Step& step : steps_) {
     const Things cones = {cone_around(step.eyes[0], thing), cone_around(step.eyes[1], thing)};
     std::erase_if(step.balls, [&](const Cones& ball) { return hidden(cones, ball); });

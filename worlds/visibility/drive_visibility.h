@@ -9,9 +9,9 @@
 namespace stereobench::worlds {
 
 /// The balls in view at each step of a scenario's drive through a world.
-class DriveSight {
+class DriveVisibility {
  public:
-  DriveSight(const Scenario& scenario, const World& world);
+  DriveVisibility(const Scenario& scenario, const World& world);
 
   /// Whether at each step `least` balls stay in view beside the thing, or all that are where there are fewer.
   bool allows(const Sphere& thing, int least) const;

@@ -7,25 +7,26 @@
 
 namespace stereobench::worlds {
 
-void give_solids(World& world, const SolidReader& read) {
+void give_occluders(World& world, const OccluderReader& read) {
   for (MeshInstance& mesh : world.meshes) {
-    if (mesh.shape != MeshShape::kFile || mesh.solid) continue;
+    if (mesh.shape != MeshShape::kFile || mesh.occluder) continue;
     if (!read) throw std::invalid_argument("expected a reader of mesh files: " + mesh.file);
-    mesh.solid = read(world, mesh);
+    mesh.occluder = read(world, mesh);
   }
 }
 
-Solids::Solids(const World& world) {
+Occluders::Occluders(const World& world) {
   for (const MeshInstance& mesh : world.meshes) {
     if (mesh.shape != MeshShape::kFile) continue;
-    if (!mesh.solid) throw std::invalid_argument("expected the solid of " + mesh.file);
-    placed_.push_back({mesh.solid, world_from_file(mesh)});
+    if (!mesh.occluder) throw std::invalid_argument("expected the solid of " + mesh.file);
+    placed_.push_back({mesh.occluder, world_from_file(mesh)});
   }
 }
 
-bool Solids::meet(const Tube& tube) const {
-  return std::ranges::any_of(
-      placed_, [&](const Placed& solid) { return meets(tube, *solid.tree, solid.world_from_tree); });
+bool Occluders::meet(const ClearanceVolume& volume) const {
+  return std::ranges::any_of(placed_, [&](const Placed& occluder) {
+    return meets(volume, *occluder.tree, occluder.world_from_tree);
+  });
 }
 
 }  // namespace stereobench::worlds

@@ -12,14 +12,14 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<TriangleCorners>& tr
 
 }  // namespace
 
-TriangleTree::TriangleTree(const std::vector<TriangleCorners>& triangles) : tree_(boxes_of(triangles)) {
+TriangleBvh::TriangleBvh(const std::vector<TriangleCorners>& triangles) : tree_(boxes_of(triangles)) {
   triangles_.reserve(triangles.size());
   for (const int triangle : tree_.renumber())
     triangles_.push_back(triangles[static_cast<std::size_t>(triangle)]);
 }
 
-bool TriangleTree::any(std::span<const HalfSpace> within,
-                       const std::function<bool(const TriangleCorners&)>& test) const {
+bool TriangleBvh::any(std::span<const HalfSpace> within,
+                      const std::function<bool(const TriangleCorners&)>& test) const {
   return tree_.any(within,
                    [&](int triangle) { return test(triangles_[static_cast<std::size_t>(triangle)]); });
 }

@@ -60,7 +60,8 @@ bool is_large(const EyeAt& eye, const Cone& cone, const Ball& ball, double slack
 }
 
 /// For each ball whether the eye sees all of it.
-std::vector<bool> seen_whole(const EyeAt& eye, const World& world, const Solids& solids, double slack_m) {
+std::vector<bool> seen_whole(const EyeAt& eye, const World& world, const Occluders& occluders,
+                             double slack_m) {
   std::vector<std::optional<Cone>> cones;
   for (const Ball& ball : world.balls) cones.push_back(cone_of(eye, ball, ball.radius_m + slack_m));
   std::vector<std::optional<Cone>> shapes;
@@ -77,7 +78,7 @@ std::vector<bool> seen_whole(const EyeAt& eye, const World& world, const Solids&
     return std::ranges::none_of(cones, in_front) && std::ranges::none_of(shapes, before) &&
            std::ranges::none_of(
                world.walls, [&](const Wall& wall) { return hides(wall, eye, ball.centre_m, radius_m); }) &&
-           !solids.meet(sight_tube(eye.centre_m, {ball.centre_m, ball.radius_m}, slack_m));
+           !occluders.meet(sight_volume(eye.centre_m, {ball.centre_m, ball.radius_m}, slack_m));
   };
   std::vector<bool> seen;
   for (std::size_t i = 0; i < world.balls.size(); ++i) seen.push_back(is_seen(i));
@@ -108,9 +109,10 @@ std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   std::vector<bool> left, right;
   if (stereo) {
-    const Solids solids(world);
-    left = seen_whole(eye_at(scenario.rig, vision::Eye::kLeft, world_from_robot), world, solids, slack_m);
-    right = seen_whole(eye_at(scenario.rig, vision::Eye::kRight, world_from_robot), world, solids, slack_m);
+    const Occluders occluders(world);
+    left = seen_whole(eye_at(scenario.rig, vision::Eye::kLeft, world_from_robot), world, occluders, slack_m);
+    right =
+        seen_whole(eye_at(scenario.rig, vision::Eye::kRight, world_from_robot), world, occluders, slack_m);
   }
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const bool seen =

@@ -18,7 +18,7 @@ inline constexpr double kBorder_px = 2.0;       ///< between its outline and the
 /// @param world the scenario's, or that of a seed
 /// @param slack_m each ball may lie this far from where it should: only those count that are seen anyway
 /// @return indices into world.balls, ascending
-/// @throws std::invalid_argument by stereo, where a mesh of a file has no solid (solids.h)
+/// @throws std::invalid_argument by stereo, where a mesh of a file has no solid (occluders.h)
 std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
                                const slam::Pose& world_from_robot, double slack_m = 0.0);
 

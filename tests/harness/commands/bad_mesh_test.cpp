@@ -52,9 +52,9 @@ TEST_P(BadMeshTest, IsBadInputWithinFiveSecondsAndLeavesNothing) {
   const std::string mesh = scratch.write(GetParam().name, GetParam().text);
   const std::string file = scratch.write("meshed.yaml", scenario_with(mesh, GetParam().limits));
   const std::filesystem::path out = scratch.path() / "out";
-  const std::vector<std::string> strewn = {"--set", "randomise={clutter: {}}"};
+  const std::vector<std::string> scattered = {"--set", "randomise={clutter: {}}"};
   for (const auto& [command, more] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"run", {}}, {"render", {}}, {"run", strewn}, {"world", {}}, {"world", strewn}}) {
+           {"run", {}}, {"render", {}}, {"run", scattered}, {"world", {}}, {"world", scattered}}) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::string> arguments = {command, file, "--out", out.string()};
     arguments.insert(arguments.end(), more.begin(), more.end());

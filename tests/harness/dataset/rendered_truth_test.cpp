@@ -61,18 +61,18 @@ TEST(RenderedTruth, FollowsTheEyesAtTheTimesTheyLook) {
   const slam::Pose next = drive.scenario.path[2].pose;
   const slam::Pose right = worlds::pose_near(drive.scenario.path, 1, 0.02);
   renderer::Renderer renderer(drive.scenario.world, drive.scenario.rig);
-  const renderer::StereoSight sight = renderer.sight(left, right);
+  const renderer::StereoIdBuffers sight = renderer.id_buffers(left, right);
   const renderer::SceneGeometry scene(drive.scenario.world);
   const auto disparity =
       renderer::disparity_px(renderer::correspond(scene, sight.left, sight.right), Eye::kLeft);
   EXPECT_EQ(cv::norm(picture(folder, "left_disparity/000001.pfm"), disparity, cv::NORM_INF), 0.0);
-  const auto flow = renderer::correspond(scene, sight.left, renderer.sight(next, next).left);
+  const auto flow = renderer::correspond(scene, sight.left, renderer.id_buffers(next, next).left);
   cv::Mat u;
   cv::extractChannel(picture(folder, "left_flow/000001.pfm"), u, 2);
   cv::Mat expected;
   cv::extractChannel(flow.shift_px, expected, 0);
   EXPECT_EQ(cv::countNonZero(u != expected), 0);
-  EXPECT_EQ(cv::norm(picture(folder, "left_flow_fate/000001.png"), flow.fate, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(picture(folder, "left_flow_fate/000001.png"), flow.occlusion, cv::NORM_INF), 0.0);
 }
 
 TEST(RenderedTruth, OfTheLastStepHasNoFlow) {

@@ -22,8 +22,8 @@ TEST(TruthPictures, KittisDisparityIs256TimesAsLargeAndZeroForNone) {
 
 renderer::Correspondence three_pixels() {
   const cv::Mat shifts = (cv::Mat_<float>(1, 6) << 1.5F, -2.0F, kNone, kNone, 600.0F, 0.0F);
-  const cv::Mat fates = (cv::Mat_<std::uint8_t>(1, 3) << 255, 0, 85);
-  return {shifts.reshape(2), fates};
+  const cv::Mat outcomes = (cv::Mat_<std::uint8_t>(1, 3) << 255, 0, 85);
+  return {shifts.reshape(2), outcomes};
 }
 
 // The file's order is red, green, blue: u, v, valid. Mutations: channels in OpenCV's order; no offset.

@@ -150,16 +150,17 @@ double longest_shift_px(const worlds::Scenario& scenario, renderer::Renderer& re
                         double to_s) {
   const auto sight = [&](double offset_s) {
     const slam::Pose pose = worlds::pose_near(scenario.path, 2, offset_s);
-    return renderer.sight(pose, pose);
+    return renderer.id_buffers(pose, pose);
   };
   const renderer::SceneGeometry scene(scenario.world);
-  const renderer::StereoSight from = sight(from_s), to = sight(to_s);
+  const renderer::StereoIdBuffers from = sight(from_s), to = sight(to_s);
   double longest_px = 0.0;
   for (const auto& [a, b] : {std::pair(from.left, to.left), {from.right, to.right}}) {
     const renderer::Correspondence found = renderer::correspond(scene, a, b);
-    for (int v = 0; v < found.fate.rows; ++v)
-      for (int u = 0; u < found.fate.cols; ++u)
-        if (static_cast<renderer::Fate>(found.fate.at<std::uint8_t>(v, u)) == renderer::Fate::kSeen)
+    for (int v = 0; v < found.occlusion.rows; ++v)
+      for (int u = 0; u < found.occlusion.cols; ++u)
+        if (static_cast<renderer::Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) ==
+            renderer::Occlusion::kSeen)
           longest_px = std::max(longest_px, cv::norm(found.shift_px.at<cv::Vec2f>(v, u)));
   }
   return longest_px;
@@ -217,7 +218,7 @@ TEST(Shutter, LooksLateAsOftenAsAsked) {
   scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.1, 0.1});
   renderer::Renderer renderer(scenario.world, scenario.rig);
   int late = 0;
-  const auto count_late = [&](const Look& look) {
+  const auto count_late = [&](const FrameEvent& look) {
     if (look.step + 1 == scenario.path.size()) return;  // the drive is over: late is no other place
     const auto looks_like = [&](double offset_s) {
       const renderer::StereoFrame then =
@@ -229,7 +230,7 @@ TEST(Shutter, LooksLateAsOftenAsAsked) {
     EXPECT_NE(is_late, looks_like(0.0));
     late += is_late ? 1 : 0;
   };
-  record(scenario, 1, {.on_look = count_late});
+  record(scenario, 1, {.on_frame = count_late});
   const double steps = static_cast<double>(scenario.path.size() - 1);
   EXPECT_NEAR(late, 0.5 * steps, 3.29 * std::sqrt(0.25 * steps));
 }
@@ -312,7 +313,7 @@ TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
     for (int i = 0; i < 45; ++i)
       scenario.path.push_back({i * 1'000'000'000LL, {0.0, -0.4 - 0.02 * i, 0.0}, {}});
     int measured = 0;
-    const auto check = [&](const Look& look) {
+    const auto check = [&](const FrameEvent& look) {
       const slam::Pose& pose = scenario.path[look.step].pose;
       const auto balls = ball_outlines({scenario.world, scenario.rig, pose, look.frame});
       for (const vision::BallObservation& seen : look.observations) {
@@ -320,7 +321,7 @@ TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
         measured += seen.trusted() ? 1 : 0;
       }
     };
-    record(scenario, 0, {.on_look = check});
+    record(scenario, 0, {.on_frame = check});
     EXPECT_GT(measured, 5);
   }
 }
@@ -330,7 +331,7 @@ TEST(Frames, AreLostAsOftenAsAsked) {
   scenario.shutter.drop_probability = 1.0;
   const auto looks = [&] {
     int count = 0;
-    const Recording recording = record(scenario, 1, {.on_look = [&](const Look&) { ++count; }});
+    const Recording recording = record(scenario, 1, {.on_frame = [&](const FrameEvent&) { ++count; }});
     EXPECT_EQ(recording.log.steps.size(), scenario.path.size());
     return count;
   };

@@ -8,8 +8,8 @@
 namespace stereobench::harness {
 namespace {
 
-using slam::Fate;
 using slam::kUnknown;
+using slam::Outcome;
 
 std::vector<long> counts(const AssociationScore& score) {
   return {score.correct, score.wrong, score.missed, score.imagined, score.duplicated, score.spurious};
@@ -30,26 +30,26 @@ TEST(AssociationScore, EachDecisionIsOneOfFourThings) {
   const std::vector<long> wrong = {0, 1, 0, 0, 0, 0};
   const std::vector<long> missed = {0, 0, 1, 0, 0, 0};
   const std::vector<long> imagined = {0, 0, 0, 1, 0, 0};
-  EXPECT_EQ(judged({3, Fate::kUse, 0}), correct);
-  EXPECT_EQ(judged({3, Fate::kConfirm, 0}), correct);
-  EXPECT_EQ(judged({3, Fate::kUse, 1}), wrong);
-  EXPECT_EQ(judged({3, Fate::kMove, 1}), wrong);
-  EXPECT_EQ(judged({3, Fate::kUse, 2}), wrong) << "of nothing";
-  EXPECT_EQ(judged({3, Fate::kAdd, kUnknown}), missed);
-  EXPECT_EQ(judged({3, Fate::kRefuse, 0}), missed);
-  EXPECT_EQ(judged({4, Fate::kIgnore, kUnknown}), missed);
-  EXPECT_EQ(judged({5, Fate::kAdd, kUnknown}), correct) << "ball 9 was not in the map";
-  EXPECT_EQ(judged({6, Fate::kUse, 0}), wrong);
-  EXPECT_EQ(judged({6, Fate::kUse, 2}), wrong) << "clutter is not the same thing twice";
-  EXPECT_EQ(judged({6, Fate::kAdd, kUnknown}), imagined);
-  EXPECT_EQ(judged({6, Fate::kIgnore, kUnknown}), correct);
+  EXPECT_EQ(judged({3, Outcome::kUse, 0}), correct);
+  EXPECT_EQ(judged({3, Outcome::kConfirm, 0}), correct);
+  EXPECT_EQ(judged({3, Outcome::kUse, 1}), wrong);
+  EXPECT_EQ(judged({3, Outcome::kMove, 1}), wrong);
+  EXPECT_EQ(judged({3, Outcome::kUse, 2}), wrong) << "of nothing";
+  EXPECT_EQ(judged({3, Outcome::kAdd, kUnknown}), missed);
+  EXPECT_EQ(judged({3, Outcome::kRefuse, 0}), missed);
+  EXPECT_EQ(judged({4, Outcome::kIgnore, kUnknown}), missed);
+  EXPECT_EQ(judged({5, Outcome::kAdd, kUnknown}), correct) << "ball 9 was not in the map";
+  EXPECT_EQ(judged({6, Outcome::kUse, 0}), wrong);
+  EXPECT_EQ(judged({6, Outcome::kUse, 2}), wrong) << "clutter is not the same thing twice";
+  EXPECT_EQ(judged({6, Outcome::kAdd, kUnknown}), imagined);
+  EXPECT_EQ(judged({6, Outcome::kIgnore, kUnknown}), correct);
 }
 
 // Two new sightings of one frame are of two new landmarks: what the frame itself added was not there before.
 // Mutation: was_mapped without its limit.
 TEST(AssociationScore, WhatAFrameAddsWasNotMappedBefore) {
   AssociationScore score;
-  judge({{{0, Fate::kAdd, kUnknown}, {1, Fate::kAdd, kUnknown}}, {0, 1}}, kTruth, score);
+  judge({{{0, Outcome::kAdd, kUnknown}, {1, Outcome::kAdd, kUnknown}}, {0, 1}}, kTruth, score);
   EXPECT_EQ(counts(score), (std::vector<long>{2, 0, 0, 0, 0, 0}));
 }
 

@@ -2,11 +2,11 @@
 #include "harness/vision_scoring/rig_check.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "slam/math/angles.h"
 #include "slam/math/random.h"
 #include "vision/camera/rig.h"
 #include "vision/stereo/sphere.h"
@@ -18,7 +18,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRadius_m = 0.06;
 
 /// Balls all over the pictures, as a rig sees them exactly.
@@ -45,7 +44,7 @@ std::vector<vision::BallObservation> seen_by(const vision::StereoRig& rig) {
 // f tan(0.05 deg) are 0.77 px. Mutations: the sign of the rows; the turn of the left eye.
 TEST(RigCheck, SaysByWhatTheRowsAreOff) {
   vision::StereoRig rig;
-  rig.right_turn_rad = {0.05 * kDegree, 0.0, 0.0};
+  rig.right_turn_rad = {0.05 * slam::kRadPerDegree, 0.0, 0.0};
   const RigCheck check = check_rig(vision::StereoRig{}, {kRadius_m, 0.0}, seen_by(rig));
   const auto json = rig_json(check);
   EXPECT_NEAR(json["rows_off_px"]["left"].get<double>(), -0.774, 0.01);

@@ -90,7 +90,7 @@ Errors compare(const worlds::World& world, const slam::Pose& pose,
                const vision::StereoRig& rig = test::small_rig()) {
   Renderer renderer(world, rig);
   const StereoFrame frame = renderer.render(pose);
-  const StereoSight sight = renderer.sight(pose, pose);
+  const StereoIdBuffers sight = renderer.id_buffers(pose, pose);
   const auto [left, right] = test::finer_pair(world, rig, pose);
   Errors errors;
   add_up(frame.left.colour, sight.left.facet, left, errors);
@@ -217,7 +217,7 @@ TEST_P(SmoothEdges, TouchNothingButEdges) {
   Renderer renderer(world, rig);
   const slam::Pose pose{0.0, 0.0, 0.2};
   const EyeFrame once = renderer.render(pose).left;
-  const EyeSight sight = renderer.sight(pose, pose).left;
+  const IdBuffer sight = renderer.id_buffers(pose, pose).left;
   EyeFrame twice = once;
   twice.colour = once.colour.clone();
   mix_edges(EdgeSmoother(world, place_meshes(world)).mixes(sight.view, twice), {}, twice);

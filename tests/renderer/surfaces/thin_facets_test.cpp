@@ -46,11 +46,11 @@ struct ColumnRoom {
     const slam::Pose pose{0.2 * random.uniform(), 0.2 * random.uniform(), 0.3 * random.uniform() - 0.15};
     if (has_lens) {
       rig.distortion = {.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
-      const StereoSight straight = Renderer(world, pinhole_rig_of(rig)).sight(pose, pose);
-      left = bent_sight(scene, straight.left, rig);
-      right = bent_sight(scene, straight.right, rig);
+      const StereoIdBuffers straight = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
+      left = distorted_ids(scene, straight.left, rig);
+      right = distorted_ids(scene, straight.right, rig);
     } else {
-      const StereoSight sight = Renderer(world, rig).sight(pose, pose);
+      const StereoIdBuffers sight = Renderer(world, rig).id_buffers(pose, pose);
       left = sight.left;
       right = sight.right;
     }
@@ -73,7 +73,7 @@ struct ColumnRoom {
   worlds::World world;
   SceneGeometry scene;
   vision::StereoRig rig = test::small_rig();
-  EyeSight left, right;
+  IdBuffer left, right;
 };
 
 class ThinFacets : public testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
@@ -85,13 +85,13 @@ TEST_P(ThinFacets, ShiftsAreThoseOfThePixelsOwnRange) {
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
   const EyeTruth truth = eye_truth(room.scene, room.left);
-  const Sightlines lines(room.left.view);
+  const PixelRays lines(room.left.view);
   double worst_px = 0.0;
   int compared = 0;
-  for (int v = 0; v < found.fate.rows; ++v) {
-    for (int u = 0; u < found.fate.cols; ++u) {
-      if (found.fate.at<std::uint8_t>(v, u) < static_cast<std::uint8_t>(Fate::kHidden)) continue;
-      const Sightline line = lines(u, v);
+  for (int v = 0; v < found.occlusion.rows; ++v) {
+    for (int u = 0; u < found.occlusion.cols; ++u) {
+      if (found.occlusion.at<std::uint8_t>(v, u) < static_cast<std::uint8_t>(Occlusion::kHidden)) continue;
+      const Ray line = lines(u, v);
       const Eigen::Vector3d point =
           line.origin_m + double{truth.range_m.at<float>(v, u)} * line.direction.normalized();
       const Eigen::Vector2d there = shown_at(room.right.view, room.right.view.camera_from_world * point);
@@ -111,19 +111,19 @@ TEST_P(ThinFacets, HideWhatIsBehindClosedMeshes) {
   const auto [seed, has_lens] = GetParam();
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
-  const Sightlines lines(room.left.view);
+  const PixelRays lines(room.left.view);
   const Eigen::Vector3d eye_m = room.right.view.centre_in_world();
   const int first = first_mesh_facet(room.world);
   const int last = first + 2 * (400 + 180 + 960 + 3000) + 398 + 58 + 22 + 98;
   int open = 0, hidden = 0;
-  for (int v = 0; v < found.fate.rows; v += 12) {
-    for (int u = 0; u < found.fate.cols; ++u) {
+  for (int v = 0; v < found.occlusion.rows; v += 12) {
+    for (int u = 0; u < found.occlusion.cols; ++u) {
       const int facet = room.left.facet.at<int>(v, u);
-      const auto fate = static_cast<Fate>(found.fate.at<std::uint8_t>(v, u));
-      hidden += fate == Fate::kHidden ? 1 : 0;
-      if (facet >= first || fate != Fate::kSeen) continue;
+      const auto occlusion = static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u));
+      hidden += occlusion == Occlusion::kHidden ? 1 : 0;
+      if (facet >= first || occlusion != Occlusion::kSeen) continue;
       const Eigen::Vector3d point = room.scene.seen(facet, lines(u, v)).on_facet;
-      const Sightline line{eye_m, point - eye_m};
+      const Ray line{eye_m, point - eye_m};
       bool cut = false;
       for (int other = first; other < last && !cut; ++other) cut = room.scene.enter(other, line) < 1.0 - 1e-9;
       open += cut ? 1 : 0;

@@ -106,8 +106,8 @@ TEST_F(ModelFolder, ShowsGreyWhereItIsAllowed) {
   const MeshSurfaces placed = place_meshes(world);
   ASSERT_EQ(placed.textures.size(), 1U);
   EXPECT_NEAR(test::light_of(placed.textures[0].rgb.at(0)), 0.5, 0.005);
-  MeshShelf shelf;
-  EXPECT_THAT(shelf.missing_textures(world), ElementsAre(HasSubstr("its texture x.png does not exist")));
+  MeshCache cache;
+  EXPECT_THAT(cache.missing_textures(world), ElementsAre(HasSubstr("its texture x.png does not exist")));
 }
 
 }  // namespace

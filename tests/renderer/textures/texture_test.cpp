@@ -194,15 +194,16 @@ TEST(Pyramid, EveryLevelAveragesTheLightOfItsTexels) {
     double green = 0.0;
     for (std::size_t i = 1; i < texture.rgb.size(); i += 3) green += light_of(texture.rgb[i]);
     green /= width * height;
-    const TexturePyramids pyramids = make_pyramids({texture, texture});
-    ASSERT_EQ(pyramids.texels.size(), 2 * pyramid_size(texture));
-    for (const PyramidPlace& place : pyramids.places) {
+    const MipChains mip_chains = make_mip_chains({texture, texture});
+    ASSERT_EQ(mip_chains.texels.size(), 2 * mip_size(texture));
+    for (const MipPlace& place : mip_chains.places) {
       const auto top =
-          pyramids.texels[static_cast<std::size_t>(place.first[static_cast<std::size_t>(place.last_level)])];
+          mip_chains
+              .texels[static_cast<std::size_t>(place.first[static_cast<std::size_t>(place.last_level)])];
       EXPECT_NEAR(((top >> 11U) & 2047U) / 2047.0, green, 3e-4) << width << " x " << height;
     }
   }
-  EXPECT_THROW(make_pyramids({Texture{}}), std::invalid_argument);
+  EXPECT_THROW(make_mip_chains({Texture{}}), std::invalid_argument);
 }
 
 TEST(Texture, OneThatIsMissingBrokenOrTooLargeIsOneLine) {

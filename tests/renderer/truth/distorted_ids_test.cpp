@@ -31,9 +31,9 @@ struct BentRoom {
     rig.right_turn_rad = {0.004, -0.007, 0.011};
     rig.distortion = seed % 3 == 0 ? vision::Distortion{.k1 = 0.12, .k2 = 0.02, .p2 = -0.002}
                                    : vision::Distortion{.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
-    const StereoSight straight = Renderer(world, pinhole_rig_of(rig)).sight(pose, pose);
-    left = bent_sight(scene, straight.left, rig);
-    right = bent_sight(scene, straight.right, rig);
+    const StereoIdBuffers straight = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
+    left = distorted_ids(scene, straight.left, rig);
+    right = distorted_ids(scene, straight.right, rig);
   }
 
   test::RayCaster caster(Eye eye) const {
@@ -58,7 +58,7 @@ struct BentRoom {
   SceneGeometry scene;
   vision::StereoRig rig = test::small_rig();
   slam::Pose pose;
-  EyeSight left, right;
+  IdBuffer left, right;
 };
 
 /// The number of a triangle of the mesh is one of its surface's.
@@ -101,26 +101,26 @@ TEST_P(BehindALens, EveryPixelIsInTheOtherEyeWhereAnotherRaySaysItIs) {
   const Correspondence found = correspond(room.scene, room.left, room.right);
   const test::RayCaster from = room.caster(Eye::kLeft), to = room.caster(Eye::kRight);
   int wrong_shifts = 0, wrong_fates = 0, hidden = 0, outside = 0;
-  for (int v = 0; v < found.fate.rows; ++v) {
-    for (int u = 0; u < found.fate.cols; ++u) {
+  for (int v = 0; v < found.occlusion.rows; ++v) {
+    for (int u = 0; u < found.occlusion.cols; ++u) {
       const test::Sight ray = room.look(from, u, v);
-      const auto fate = static_cast<Fate>(found.fate.at<std::uint8_t>(v, u));
+      const auto occlusion = static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u));
       const int facet = room.left.facet.at<int>(v, u);
       if (std::min(facet, first_mesh_facet(room.world)) != surface_of(room, from, ray)) continue;
       if (ray.surface == 0) {
-        wrong_fates += fate == Fate::kNothing ? 0 : 1;
+        wrong_fates += occlusion == Occlusion::kNothing ? 0 : 1;
         continue;
       }
       const Eigen::Vector3d point = to.in_camera(ray.point_m);
       const Eigen::Vector2d place = vision::image_point(room.rig, point);
       const bool is_inside = point.z() > 0.01 && vision::is_inside(room.rig.camera, place);
-      const Fate expected = !is_inside ? Fate::kOutside
-                            : room.look(to, place.x(), place.y()).depth_m < point.z() * (1.0 - 1e-7)
-                                ? Fate::kHidden
-                                : Fate::kSeen;
-      wrong_fates += fate == expected ? 0 : 1;
-      hidden += expected == Fate::kHidden ? 1 : 0;
-      outside += expected == Fate::kOutside ? 1 : 0;
+      const Occlusion expected = !is_inside ? Occlusion::kOutside
+                                 : room.look(to, place.x(), place.y()).depth_m < point.z() * (1.0 - 1e-7)
+                                     ? Occlusion::kHidden
+                                     : Occlusion::kSeen;
+      wrong_fates += occlusion == expected ? 0 : 1;
+      hidden += expected == Occlusion::kHidden ? 1 : 0;
+      outside += expected == Occlusion::kOutside ? 1 : 0;
       if (!is_inside) continue;
       const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
       wrong_shifts += (shift - (place - Eigen::Vector2d(u, v))).norm() <= 1e-4 ? 0 : 1;
@@ -136,13 +136,13 @@ INSTANTIATE_TEST_SUITE_P(Rooms, BehindALens, testing::Range(std::uint64_t{0}, st
 
 // Law: a lens that does not bend shows what a pinhole shows, but for the edges that the rasteriser has
 // snapped.
-TEST(BentSight, OfALensThatDoesNotBendIsThePinholes) {
+TEST(DistortedIds, OfALensThatDoesNotBendIsThePinholes) {
   const worlds::World world = test::random_room(5);
   const slam::Pose pose = test::random_pose(5);
   const vision::StereoRig rig = test::small_rig();
-  const EyeSight straight = Renderer(world, rig).sight(pose, pose).left;
-  const EyeSight bent =
-      bent_sight(SceneGeometry(world), Renderer(world, pinhole_rig_of(rig)).sight(pose, pose).left, rig);
+  const IdBuffer straight = Renderer(world, rig).id_buffers(pose, pose).left;
+  const IdBuffer bent = distorted_ids(SceneGeometry(world),
+                                      Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose).left, rig);
   EXPECT_LE(cv::countNonZero(bent.facet != straight.facet), 5);
 }
 
@@ -159,18 +159,18 @@ worlds::World cracked_wall(const vision::StereoRig& rig, int column) {
 
 // The rasteriser closes cracks, as it snaps corners to 1/256 px; rays that pass through one see what is
 // beside it. Mutation: what no ray meets is open.
-TEST(BentSight, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
+TEST(DistortedIds, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
   vision::StereoRig rig = test::small_rig();
   rig.pitch_down_rad = 0.0;
   const int column = 200;
   const worlds::World world = cracked_wall(rig, column);
-  const EyeSight straight = Renderer(world, pinhole_rig_of(rig)).sight({}, {}).left;
+  const IdBuffer straight = Renderer(world, pinhole_rig_of(rig)).id_buffers({}, {}).left;
   ASSERT_EQ(cv::countNonZero(straight.facet == kNoFacet), 0) << "it is not closed";
   const SceneGeometry scene(world);
-  const EyeSight bent = bent_sight(scene, straight, rig);
-  const Sightlines lines(bent.view);
+  const IdBuffer bent = distorted_ids(scene, straight, rig);
+  const PixelRays lines(bent.view);
   for (int row = 0; row < 160; ++row) {
-    const Sightline through = lines(column, row);
+    const Ray through = lines(column, row);
     ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet, through))) << "not into the crack";
     ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet + 1, through))) << "not into the crack";
     const int seen = bent.facet.at<int>(row, column);
@@ -180,7 +180,7 @@ TEST(BentSight, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
 
 // A lens with k1 alone folds directions beyond 49 degrees back towards the middle of its picture. Mutation:
 // places of directions that the picture does not see.
-TEST(BentSight, HasNoPlaceForWhatTheLensWouldFold) {
+TEST(DistortedIds, HasNoPlaceForWhatTheLensWouldFold) {
   const worlds::World world = test::random_room(7);
   const SceneGeometry scene(world);
   vision::StereoRig rig = test::small_rig();
@@ -188,22 +188,22 @@ TEST(BentSight, HasNoPlaceForWhatTheLensWouldFold) {
   Renderer renderer(world, pinhole_rig_of(rig));
   const auto look = [&](double heading_rad) {
     const slam::Pose pose{0.0, 0.0, heading_rad};
-    return bent_sight(scene, renderer.sight(pose, pose).left, rig);
+    return distorted_ids(scene, renderer.id_buffers(pose, pose).left, rig);
   };
-  const EyeSight ahead = look(0.0), aside = look(1.1);
+  const IdBuffer ahead = look(0.0), aside = look(1.1);
   const EyeTruth truth = eye_truth(scene, ahead);
   const Correspondence found = correspond(scene, ahead, aside);
-  const Sightlines lines(ahead.view);
+  const PixelRays lines(ahead.view);
   int folded = 0, seen = 0;
-  for (int v = 0; v < found.fate.rows; ++v) {
-    for (int u = 0; u < found.fate.cols; ++u) {
-      const Sightline line = lines(u, v);
+  for (int v = 0; v < found.occlusion.rows; ++v) {
+    for (int u = 0; u < found.occlusion.cols; ++u) {
+      const Ray line = lines(u, v);
       const Eigen::Vector3d point =
           aside.view.camera_from_world *
           (line.origin_m + double{truth.range_m.at<float>(v, u)} * line.direction.normalized());
       if (!(point.z() > 0.01 && point.head<2>().norm() > 1.2 * point.z())) continue;
       folded += vision::is_inside(rig.camera, vision::image_point(rig, point)) ? 1 : 0;
-      seen += static_cast<Fate>(found.fate.at<std::uint8_t>(v, u)) == Fate::kOutside ? 0 : 1;
+      seen += static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) == Occlusion::kOutside ? 0 : 1;
     }
   }
   EXPECT_GT(folded, 1000) << "nothing to be taken in by";
@@ -217,9 +217,9 @@ TEST(Sight, OfSomeRowsIsTheWholeOnes) {
   const slam::Pose pose = test::random_pose(6);
   Renderer renderer(world, test::small_rig());
   const SceneGeometry scene(world);
-  const EyeTruth whole = eye_truth(scene, renderer.sight(pose, pose).right);
+  const EyeTruth whole = eye_truth(scene, renderer.id_buffers(pose, pose).right);
   const cv::Range rows(101, 160);
-  const EyeTruth part = eye_truth(scene, renderer.sight(pose, pose, rows).right);
+  const EyeTruth part = eye_truth(scene, renderer.id_buffers(pose, pose, rows).right);
   EXPECT_EQ(cv::countNonZero(part.surface != whole.surface.rowRange(rows)), 0);
   EXPECT_LE(cv::norm(part.range_m, whole.range_m.rowRange(rows), cv::NORM_INF), 1e-5);
   EXPECT_LE(cv::norm(part.normal, whole.normal.rowRange(rows), cv::NORM_INF), 1e-6);

@@ -3,7 +3,7 @@
 /// Mutations seen red here: occluders of one pixel around the place instead of four; a ball that does not
 /// hide its own far side; walls without bounds, triangles as parallelograms; a right eye that is not turned,
 /// disparity of the other sign; normals away from the eye or in the world frame, depth for range; the ball's
-/// far root; half a pixel added to sightlines; triangles numbered one late, walls in the order they are drawn
+/// far root; half a pixel added to rays; triangles numbered one late, walls in the order they are drawn
 /// in; hidden called outside; no near plane; balls' facets without their depth.
 
 #include "renderer/truth/eye_truth.h"
@@ -55,7 +55,7 @@ struct Tally {
        other_inside = 0;  ///< inside: farther from any edge than the rasteriser snaps corners
   long wrong_ranges = 0, wrong_normals = 0;
   long wrong_shifts = 0, wrong_fates = 0;
-  std::map<Fate, long> fates;
+  std::map<Occlusion, long> occlusions;
 };
 
 /// Whether a ray a hair beside the pixel's centre meets the facet: the rasteriser snaps corners to 1/256 px.
@@ -82,7 +82,7 @@ bool is_same_facet(const Room& room, int facet, const test::RayCaster& caster, c
   return facet == truth;
 }
 
-void compare_truth(const Room& room, const EyeSight& sight, const test::RayCaster& caster, Tally& tally) {
+void compare_truth(const Room& room, const IdBuffer& sight, const test::RayCaster& caster, Tally& tally) {
   const EyeTruth truth = eye_truth(SceneGeometry(room.world), sight);
   for (int v = 0; v < truth.range_m.rows; ++v) {
     for (int u = 0; u < truth.range_m.cols; ++u) {
@@ -100,31 +100,34 @@ void compare_truth(const Room& room, const EyeSight& sight, const test::RayCaste
 }
 
 /// A point's place in an eye's picture, and what becomes of it there by casting another ray.
-Fate followed(const test::Sight& ray, const test::RayCaster& to, const vision::Intrinsics& camera,
-              Eigen::Vector2d& place_px) {
-  if (ray.surface == 0) return Fate::kNothing;
+Occlusion followed(const test::Sight& ray, const test::RayCaster& to, const vision::Intrinsics& camera,
+                   Eigen::Vector2d& place_px) {
+  if (ray.surface == 0) return Occlusion::kNothing;
   const Eigen::Vector3d point = to.in_camera(ray.point_m);
   place_px.x() = camera.cx_px + camera.focal_px * point.x() / point.z();
   place_px.y() = camera.cy_px + camera.focal_px * point.y() / point.z();
   const bool inside = point.z() > 0.01 && place_px.minCoeff() >= -0.5 &&
                       place_px.x() <= camera.width_px - 0.5 && place_px.y() <= camera.height_px - 0.5;
-  if (!inside) return Fate::kOutside;
-  return to.look(place_px.x(), place_px.y()).depth_m < point.z() * (1.0 - 1e-7) ? Fate::kHidden : Fate::kSeen;
+  if (!inside) return Occlusion::kOutside;
+  return to.look(place_px.x(), place_px.y()).depth_m < point.z() * (1.0 - 1e-7) ? Occlusion::kHidden
+                                                                                : Occlusion::kSeen;
 }
 
-void compare_fates(const Room& room, const EyeSight& sight, const EyeSight& other,
+void compare_fates(const Room& room, const IdBuffer& sight, const IdBuffer& other,
                    const test::RayCaster& from, const test::RayCaster& to, Tally& tally) {
   const Correspondence found = correspond(SceneGeometry(room.world), sight, other);
-  for (int v = 0; v < found.fate.rows; ++v) {
-    for (int u = 0; u < found.fate.cols; ++u) {
+  for (int v = 0; v < found.occlusion.rows; ++v) {
+    for (int u = 0; u < found.occlusion.cols; ++u) {
       if (!is_same_facet(room, sight.facet.at<int>(v, u), from, {u, v}, tally)) continue;
       Eigen::Vector2d place_px = Eigen::Vector2d::Zero();
-      const Fate fate = followed(from.look(u, v), to, sight.view.camera, place_px);
+      const Occlusion occlusion = followed(from.look(u, v), to, sight.view.camera, place_px);
       const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
       const Eigen::Vector2d off = shift - (place_px - Eigen::Vector2d(u, v));
-      if (fate == Fate::kSeen || fate == Fate::kHidden) tally.wrong_shifts += off.norm() <= 1e-4 ? 0 : 1;
-      tally.wrong_fates += static_cast<Fate>(found.fate.at<std::uint8_t>(v, u)) == fate ? 0 : 1;
-      ++tally.fates[fate];
+      if (occlusion == Occlusion::kSeen || occlusion == Occlusion::kHidden)
+        tally.wrong_shifts += off.norm() <= 1e-4 ? 0 : 1;
+      tally.wrong_fates +=
+          static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) == occlusion ? 0 : 1;
+      ++tally.occlusions[occlusion];
     }
   }
 }
@@ -133,7 +136,7 @@ class EveryPixel : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
   const Room room(GetParam());
-  const StereoSight sight = Renderer(room.world, room.rig).sight(room.pose, room.pose);
+  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   Tally tally;
   compare_truth(room, sight.left, room.caster(room.pose, Eye::kLeft), tally);
   compare_truth(room, sight.right, room.caster(room.pose, Eye::kRight), tally);
@@ -144,22 +147,22 @@ TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
 
 TEST_P(EveryPixel, IsInTheOtherEyeWhereAnotherRaySaysItIs) {
   const Room room(GetParam());
-  const StereoSight sight = Renderer(room.world, room.rig).sight(room.pose, room.pose);
+  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   const auto left = room.caster(room.pose, Eye::kLeft), right = room.caster(room.pose, Eye::kRight);
   Tally tally;
   compare_fates(room, sight.left, sight.right, left, right, tally);
   compare_fates(room, sight.right, sight.left, right, left, tally);
   EXPECT_EQ(tally.wrong_shifts, 0);
   EXPECT_LE(tally.wrong_fates, 2);  // of 240,000
-  EXPECT_GT(tally.fates[Fate::kHidden], 1000);
-  EXPECT_GT(tally.fates[Fate::kOutside], 1000);
+  EXPECT_GT(tally.occlusions[Occlusion::kHidden], 1000);
+  EXPECT_GT(tally.occlusions[Occlusion::kOutside], 1000);
 }
 
 TEST_P(EveryPixel, FlowsToWhereARayFromTheNextPoseMeetsIt) {
   const Room room(GetParam());
   Renderer renderer(room.world, room.rig);
-  const StereoSight before = renderer.sight(room.pose, room.pose);
-  const StereoSight after = renderer.sight(room.moved, room.moved);
+  const StereoIdBuffers before = renderer.id_buffers(room.pose, room.pose);
+  const StereoIdBuffers after = renderer.id_buffers(room.moved, room.moved);
   Tally tally;
   compare_fates(room, before.left, after.left, room.caster(room.pose, Eye::kLeft),
                 room.caster(room.moved, Eye::kLeft), tally);
@@ -167,8 +170,8 @@ TEST_P(EveryPixel, FlowsToWhereARayFromTheNextPoseMeetsIt) {
                 room.caster(room.moved, Eye::kRight), tally);
   EXPECT_EQ(tally.wrong_shifts, 0);
   EXPECT_LE(tally.wrong_fates, 2);
-  EXPECT_GT(tally.fates[Fate::kHidden], 100);
-  EXPECT_GT(tally.fates[Fate::kOutside], 10000);
+  EXPECT_GT(tally.occlusions[Occlusion::kHidden], 100);
+  EXPECT_GT(tally.occlusions[Occlusion::kOutside], 10000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, EveryPixel, testing::Range(std::uint64_t{0}, std::uint64_t{6}));
@@ -180,7 +183,7 @@ TEST(Surfaces, AreThoseThatRaysMeet) {
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
     Room room(seed);
     room.rig.camera = {};
-    const StereoSight sight = Renderer(room.world, room.rig).sight(room.pose, room.pose);
+    const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
     for (const auto& [eye, seen] :
          {std::pair(Eye::kLeft, &sight.left), std::pair(Eye::kRight, &sight.right)}) {
       const test::RayCaster caster = room.caster(room.pose, eye);
@@ -209,7 +212,7 @@ TEST(Disparity, TimesDepthIsFocalLengthTimesBaseline) {
   Room room(2);
   room.rig.right_turn_rad.setZero();
   Renderer renderer(room.world, room.rig);
-  const StereoSight sight = renderer.sight(room.pose, room.pose);
+  const StereoIdBuffers sight = renderer.id_buffers(room.pose, room.pose);
   const StereoFrame frame = renderer.render(room.pose);
   const SceneGeometry scene(room.world);
   const cv::Mat left = disparity_px(correspond(scene, sight.left, sight.right), Eye::kLeft);
@@ -230,14 +233,15 @@ TEST(Disparity, TimesDepthIsFocalLengthTimesBaseline) {
 // Law: who does not move sees nothing move.
 TEST(Flow, OfNoMotionIsZero) {
   const Room room(4);
-  const StereoSight sight = Renderer(room.world, room.rig).sight(room.pose, room.pose);
+  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   const Correspondence still = correspond(SceneGeometry(room.world), sight.right, sight.right);
   int wrong = 0;
-  for_each_pixel(still.fate, [&](int u, int v) {
+  for_each_pixel(still.occlusion, [&](int u, int v) {
     const bool nothing = sight.right.facet.at<int>(v, u) == kNoFacet;
     const cv::Vec2f shift = still.shift_px.at<cv::Vec2f>(v, u);
-    const Fate fate = static_cast<Fate>(still.fate.at<std::uint8_t>(v, u));
-    wrong += nothing ? fate != Fate::kNothing : fate != Fate::kSeen || shift[0] != 0.0F || shift[1] != 0.0F;
+    const Occlusion occlusion = static_cast<Occlusion>(still.occlusion.at<std::uint8_t>(v, u));
+    wrong += nothing ? occlusion != Occlusion::kNothing
+                     : occlusion != Occlusion::kSeen || shift[0] != 0.0F || shift[1] != 0.0F;
   });
   EXPECT_EQ(wrong, 0);
 }
@@ -246,10 +250,11 @@ TEST(Flow, OfWhatIsBehindTheNextPoseHasNoPlace) {
   const Room room(1);
   Renderer renderer(room.world, room.rig);
   const slam::Pose turned{room.pose.x_m, room.pose.y_m, room.pose.heading_rad + M_PI};
-  const EyeSight before = renderer.sight(room.pose, room.pose).left;
+  const IdBuffer before = renderer.id_buffers(room.pose, room.pose).left;
   const Correspondence found =
-      correspond(SceneGeometry(room.world), before, renderer.sight(turned, turned).left);
-  EXPECT_EQ(cv::countNonZero(found.fate == static_cast<int>(Fate::kOutside)), cv::countNonZero(before.facet));
+      correspond(SceneGeometry(room.world), before, renderer.id_buffers(turned, turned).left);
+  EXPECT_EQ(cv::countNonZero(found.occlusion == static_cast<int>(Occlusion::kOutside)),
+            cv::countNonZero(before.facet));
   EXPECT_EQ(cv::countNonZero(disparity_px(found, Eye::kRight) == std::numeric_limits<float>::infinity()),
             400 * 300);
 }
@@ -274,12 +279,12 @@ TEST(Disparity, TakesColoursOfTheRightPictureToTheLeftOne) {
   for (worlds::Wall& wall : room.world.walls) wall.material = worlds::Material::kPlain;
   room.world.floor = worlds::Material::kPlain;
   Renderer renderer(room.world, room.rig);
-  const StereoSight sight = renderer.sight(room.pose, room.pose);
+  const StereoIdBuffers sight = renderer.id_buffers(room.pose, room.pose);
   const StereoFrame frame = renderer.render(room.pose);
   const Correspondence found = correspond(SceneGeometry(room.world), sight.left, sight.right);
   long compared = 0, other_colours = 0;
-  for_each_pixel(found.fate, [&](int u, int v) {
-    if (static_cast<Fate>(found.fate.at<std::uint8_t>(v, u)) != Fate::kSeen) return;
+  for_each_pixel(found.occlusion, [&](int u, int v) {
+    if (static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) != Occlusion::kSeen) return;
     const cv::Vec2f shift = found.shift_px.at<cv::Vec2f>(v, u);
     ++compared;
     const cv::Vec3b colour = frame.left.colour.at<cv::Vec3b>(v, u);

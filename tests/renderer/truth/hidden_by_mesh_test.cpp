@@ -68,8 +68,8 @@ worlds::Scenario splintered_room(std::uint64_t seed) {
                                    .pitch_rad = -0.2,
                                    .unit_m = 0.01,
                                    .up = worlds::MeshUp::kY});
-  MeshShelf shelf;
-  worlds::give_solids(scenario.world, shelf.solids());
+  MeshCache cache;
+  worlds::give_occluders(scenario.world, cache.occluders());
   return scenario;
 }
 
@@ -116,9 +116,9 @@ path: )" +
 /// Expects two balls at least in each of some pictures along the drive.
 void expect_two_in_pictures(const std::string& text, std::size_t pictures) {
   const test::Folder folder;
-  MeshShelf shelf;
+  MeshCache cache;
   const worlds::Scenario scenario =
-      worlds::read_scenario(folder.write("meshed.yaml", text), {}, shelf.solids());
+      worlds::read_scenario(folder.write("meshed.yaml", text), {}, cache.occluders());
   Renderer renderer(scenario.world, scenario.rig);
   for (std::size_t i = 0; i < pictures; ++i) {
     const slam::Pose& pose = scenario.path[i * scenario.path.size() / pictures].pose;
@@ -156,23 +156,23 @@ TEST(HiddenByMesh, GeneratedBallsAreInThePicturesOfABuilding) {
       10);
 }
 
-TEST(MeshShelf, ReadsAFileOnceAndAgainWhereLimitsAreOthers) {
+TEST(MeshCache, ReadsAFileOnceAndAgainWhereLimitsAreOthers) {
   worlds::World world;
   {
     const test::Folder folder;
     world.meshes.push_back({.file = folder.write("room.obj", kRoom)});
     world.meshes.push_back(world.meshes.front());
   }
-  MeshShelf shelf;
-  EXPECT_THROW(worlds::give_solids(world, shelf.solids()), std::runtime_error);
+  MeshCache cache;
+  EXPECT_THROW(worlds::give_occluders(world, cache.occluders()), std::runtime_error);
   const test::Folder folder;
   for (worlds::MeshInstance& mesh : world.meshes) mesh.file = folder.write("room.obj", kRoom);
-  worlds::give_solids(world, shelf.solids());
-  EXPECT_EQ(world.meshes[0].solid, world.meshes[1].solid);
+  worlds::give_occluders(world, cache.occluders());
+  EXPECT_EQ(world.meshes[0].occluder, world.meshes[1].occluder);
   std::filesystem::remove(world.meshes[0].file);
-  EXPECT_EQ(place_meshes(world, shelf.forms()).vertices.size(), 2U * 12U * 3U);
+  EXPECT_EQ(place_meshes(world, cache.forms()).vertices.size(), 2U * 12U * 3U);
   world.mesh_limits.triangles = 5;
-  EXPECT_THROW(place_meshes(world, shelf.forms()), std::runtime_error);
+  EXPECT_THROW(place_meshes(world, cache.forms()), std::runtime_error);
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ TEST(JudgeContradiction, BlamesSightingThenLandmarkThenPose) {
   const TrackRecord fresh{.uses = 10, .refusals = 3};
   const TrackRecord persistent{.uses = 10, .refusals = 4};
   const TrackRecord unconfirmed{.uses = 2, .refusals = 4};
-  for (const bool vouched : {false, true})
-    EXPECT_EQ(judge_contradiction(fresh, false, vouched), Fate::kRefuse);
-  EXPECT_EQ(judge_contradiction(persistent, false, false), Fate::kUse);
-  EXPECT_EQ(judge_contradiction(persistent, false, true), Fate::kMove);
-  EXPECT_EQ(judge_contradiction(unconfirmed, false, false), Fate::kMove);
+  for (const bool corroborated : {false, true})
+    EXPECT_EQ(judge_contradiction(fresh, false, corroborated), Outcome::kRefuse);
+  EXPECT_EQ(judge_contradiction(persistent, false, false), Outcome::kUse);
+  EXPECT_EQ(judge_contradiction(persistent, false, true), Outcome::kMove);
+  EXPECT_EQ(judge_contradiction(unconfirmed, false, false), Outcome::kMove);
 }
 
 // Mutation: counts that wrap around, so that a landmark seen 65,536 times is one that nobody knows.
@@ -34,8 +34,8 @@ TEST(TrackRecord, CountsAndStopsAtTheEnd) {
 
 // Where nothing else can have been seen, no patience is needed, and no confirmation.
 TEST(JudgeContradiction, BlamesThePoseAtOnceWhenTheLandmarkIsCertain) {
-  EXPECT_EQ(judge_contradiction({.uses = 1}, true, false), Fate::kUse);
-  EXPECT_EQ(judge_contradiction({.uses = 1}, true, true), Fate::kRefuse);
+  EXPECT_EQ(judge_contradiction({.uses = 1}, true, false), Outcome::kUse);
+  EXPECT_EQ(judge_contradiction({.uses = 1}, true, true), Outcome::kRefuse);
 }
 
 }  // namespace

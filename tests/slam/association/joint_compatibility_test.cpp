@@ -97,14 +97,15 @@ std::optional<Chosen> by_brute_force(const Frame& frame) {
     }
     if (sightings.size() < pairs.size() || landmarks.size() < pairs.size()) continue;
     const auto [length, cost] = frame.measure(pairs);
-    if (length > chi_square_quantile(kProbability, 2.0 * static_cast<double>(pairs.size()))) continue;
+    if (length > approximate_chi_square_quantile(kProbability, 2.0 * static_cast<double>(pairs.size())))
+      continue;
     if (best && (pairs.size() < best->size() || (pairs.size() == best->size() && cost >= best_cost)))
       continue;
     best = pairs;
     best_cost = cost;
   }
-  if (!best ||
-      frame.measure(fixed).first > chi_square_quantile(kProbability, 2.0 * static_cast<double>(fixed.size())))
+  if (!best || frame.measure(fixed).first >
+                   approximate_chi_square_quantile(kProbability, 2.0 * static_cast<double>(fixed.size())))
     return std::nullopt;
   Chosen chosen;
   for (const std::size_t pair : *best)

@@ -184,7 +184,7 @@ TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const DriveScore block =
         drive(make_filter(GetParam(), drawing_every(10, 300, world), {}, seed), world, 7);
-    const Eigen::Vector3d off = displacement(block.last.pose, ekf.last.pose).cwiseQuotient(sd);
+    const Eigen::Vector3d off = boxminus(block.last.pose, ekf.last.pose).cwiseQuotient(sd);
     square += off.cwiseAbs2() / kSeeds;
     ratio += block.last.covariance.diagonal().cwiseSqrt().cwiseQuotient(sd) / kSeeds;
     map_rms_m += block.map_rms_m / kSeeds;
@@ -234,7 +234,7 @@ double squared_length_at_the_end(const std::string& name, const Drive& world, st
   const Estimate last = drive(make_filter(name, drawing_every(40, 10, world), {}, seed), world, seed).last;
   Pose truth;
   for (const Control& control : world.controls()) truth = advance(truth, control);
-  const Eigen::Vector3d off = displacement(truth, last.pose);
+  const Eigen::Vector3d off = boxminus(truth, last.pose);
   return off.dot(last.covariance.ldlt().solve(off));
 }
 
@@ -290,7 +290,9 @@ TEST_P(BlockSlams, RefusesWhatCannotBe) {
     update(filter, std::vector<RangeBearing>{seen, nameless});
     const Decisions decisions = last_decisions(filter);
     ASSERT_EQ(decisions.sightings.size(), 1U);
-    EXPECT_EQ(decisions.sightings[0].fate, k == 0 ? Fate::kAdd : k == 4 ? Fate::kRefuse : Fate::kUse);
+    EXPECT_EQ(decisions.sightings[0].outcome, k == 0   ? Outcome::kAdd
+                                              : k == 4 ? Outcome::kRefuse
+                                                       : Outcome::kUse);
     EXPECT_EQ(decisions.mapped, std::vector<int>{0});
   }
   const Estimate last = estimate(filter);

@@ -54,7 +54,7 @@ class Tied {
 };
 
 // What a sighting shares with pose and landmarks.
-Eigen::MatrixXd shared_with(const JointBelief& belief, const JointSurprise& seen) {
+Eigen::MatrixXd shared_with(const JointBelief& belief, const JointInnovation& seen) {
   JointCovariance::Columns shared;
   belief.covariance.with_sighting(0, seen.slope, seen.near, shared);
   return shared;
@@ -73,7 +73,8 @@ TYPED_TEST(JointMoments, AreThoseOfManySightings) {
   long repairs = 0;
   RandomStream random(3, Stream::kWorld);
   const Eigen::Matrix2d noise = Eigen::Vector2d(1e-4, 4e-6).asDiagonal();
-  const JointSurprise seen = surprise(TypeParam(), tied.belief, 0, {Eigen::Vector2d::Zero(), noise}, repairs);
+  const JointInnovation seen =
+      innovation(TypeParam(), tied.belief, 0, {Eigen::Vector2d::Zero(), noise}, repairs);
   const Eigen::Matrix<double, 7, 2> shared = shared_with(tied.belief, seen);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
@@ -81,13 +82,13 @@ TYPED_TEST(JointMoments, AreThoseOfManySightings) {
   for (int i = 0; i < kDraws; ++i) {
     const Eigen::Matrix<double, 7, 1> off = tied.draw(random);
     const Eigen::Vector2d error(1e-2 * random.normal(), 2e-3 * random.normal());
-    const Eigen::Vector2d exact = predict_sighting(displace(tied.belief.pose, off.head<3>()),
+    const Eigen::Vector2d exact = predict_sighting(boxplus(tied.belief.pose, off.head<3>()),
                                                    tied.belief.landmarks[0] + off.segment<2>(3));
     // Nothing was seen, so the residual is what was expected, with the other sign.
-    const Eigen::Vector2d surprise = sighting_residual(exact + error, -seen.residual);
-    mean += surprise / kDraws;
-    square += surprise * surprise.transpose() / kDraws;
-    cross += off * surprise.transpose() / kDraws;
+    const Eigen::Vector2d innovation = sighting_residual(exact + error, -seen.residual);
+    mean += innovation / kDraws;
+    square += innovation * innovation.transpose() / kDraws;
+    cross += off * innovation.transpose() / kDraws;
   }
   const Eigen::Vector2d by_sd = seen.covariance.diagonal().cwiseSqrt().cwiseInverse();
   const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
@@ -116,7 +117,7 @@ TYPED_TEST(JointMoments, AreThoseOfManyFinds) {
     const Eigen::Vector3d step = tied.draw(random).template head<3>();
     const Eigen::Vector2d error(1e-2 * random.normal(), 2e-3 * random.normal());
     Eigen::Matrix<double, 5, 1> off;
-    off << step, locate(displace(belief.pose, step), seen.range_bearing + error) - belief.landmarks[2];
+    off << step, locate(boxplus(belief.pose, step), seen.range_bearing + error) - belief.landmarks[2];
     mean += off / kDraws;
     square += off * off.transpose() / kDraws;
   }
@@ -133,10 +134,10 @@ TYPED_TEST(JointMoments, NeedNoInverseOfTheCovariance) {
   long repairs = 0;
   find(TypeParam(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
   follow(belief, Linearised().move({}, {1.0, 0.2, 0.5}, {0.01, 0.01}, repairs));
-  const JointSurprise seen =
-      surprise(TypeParam(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
-  const JointSurprise exact =
-      surprise(Linearised(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
+  const JointInnovation seen =
+      innovation(TypeParam(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
+  const JointInnovation exact =
+      innovation(Linearised(), belief, 0, {{5.0, 0.3}, Eigen::Vector2d(1e-4, 1e-6).asDiagonal()}, repairs);
   EXPECT_TRUE(near(shared_with(belief, seen), shared_with(belief, exact), 1e-6));
   EXPECT_EQ(repairs, 0);
 }

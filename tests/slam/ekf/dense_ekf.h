@@ -62,11 +62,11 @@ class DenseEkf {
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(2, mean_.size());
     slope.leftCols<3>() << -d.x() / r, -d.y() / r, 0.0, d.y() / q, -d.x() / q, -1.0;
     slope.middleCols<2>(row) << d.x() / r, d.y() / r, -d.y() / q, d.x() / q;
-    Eigen::Vector2d surprise(seen.range_m - r, seen.bearing_rad - (std::atan2(d.y(), d.x()) - mean_(2)));
-    surprise(1) = std::atan2(std::sin(surprise(1)), std::cos(surprise(1)));
-    const Eigen::Matrix2d innovation = slope * covariance_ * slope.transpose() + seen.covariance;
-    const Eigen::MatrixXd gain = covariance_ * slope.transpose() * innovation.inverse();
-    mean_ += gain * surprise;
+    Eigen::Vector2d innovation(seen.range_m - r, seen.bearing_rad - (std::atan2(d.y(), d.x()) - mean_(2)));
+    innovation(1) = std::atan2(std::sin(innovation(1)), std::cos(innovation(1)));
+    const Eigen::Matrix2d innovation_covariance = slope * covariance_ * slope.transpose() + seen.covariance;
+    const Eigen::MatrixXd gain = covariance_ * slope.transpose() * innovation_covariance.inverse();
+    mean_ += gain * innovation;
     covariance_ =
         ((Eigen::MatrixXd::Identity(mean_.size(), mean_.size()) - gain * slope) * covariance_).eval();
   }

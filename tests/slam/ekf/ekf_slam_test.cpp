@@ -113,7 +113,7 @@ class Batch {
     }
     const Pose last = path(x).back();
     const Eigen::MatrixXd by_x =
-        slopes(x, [&](const Eigen::VectorXd& at) { return displacement(path(at).back(), last); });
+        slopes(x, [&](const Eigen::VectorXd& at) { return boxminus(path(at).back(), last); });
     return {last, by_x * information.ldlt().solve(by_x.transpose())};
   }
 
@@ -212,7 +212,7 @@ TEST(EkfSlam, ErrsAsMuchAsItBelieves) {
       filter.update(world.look(truth, sensor));
     }
     const Estimate last = filter.estimate();
-    const Eigen::Vector3d off = displacement(truth, last.pose);
+    const Eigen::Vector3d off = boxminus(truth, last.pose);
     mean += off.dot(last.covariance.inverse() * off) / kDrives;
   }
   EXPECT_NEAR(mean, 3.0, 5.0 * std::sqrt(6.0 / kDrives));
@@ -314,7 +314,7 @@ PreciseDrives drive_precisely(bool refit) {
       const std::vector<RangeBearing> frame = look_at_ring(truth, sensor);
       filter.update(frame);
       seen += static_cast<double>(frame.size());
-      squared_m2 += displacement(truth, filter.estimate().pose).head<2>().squaredNorm() / kSteps;
+      squared_m2 += boxminus(truth, filter.estimate().pose).head<2>().squaredNorm() / kSteps;
       const Control control{0.35, 0.35, 1.0};
       truth = advance(truth, control);
       filter.predict(perturb(control, noise, odometry));

@@ -19,11 +19,11 @@ class Twice {
   explicit Twice(std::uint64_t seed) : random_(seed, Stream::kWorld) {}
 
   void move_pose() {
-    const Eigen::Vector2d swing = random<2, 1>();
+    const Eigen::Vector2d heading_lever = random<2, 1>();
     const Eigen::Matrix<double, 3, 2> noise = random<3, 2>();  // of rank 2, like odometry's
-    triangle_.move_pose(swing, noise * noise.transpose());
+    triangle_.move_pose(heading_lever, noise * noise.transpose());
     Eigen::MatrixXd by_all = Eigen::MatrixXd::Identity(matrix_.rows(), matrix_.rows());
-    by_all.block<2, 1>(0, 2) = swing;
+    by_all.block<2, 1>(0, 2) = heading_lever;
     matrix_ = (by_all * matrix_ * by_all.transpose()).eval();
     matrix_.topLeftCorner<3, 3>() += noise * noise.transpose();
   }
@@ -118,8 +118,8 @@ TEST(JointCovariance, AVarianceBelowZeroBecomesZeroAndIsCounted) {
   EXPECT_EQ(covariance.pose_and_landmark(0)(0, 3), 1.0);
 }
 
-// Law: what is passed over without a look at its root is what mend() would leave as it is, for poses of rank
-// two that have lost a little or got a little more. Mutation: a slack of 1e-5.
+// Law: what is passed over without a look at its root is what project_to_psd() would leave as it is, for
+// poses of rank two that have lost a little or got a little more. Mutation: a slack of 1e-5.
 TEST(JointCovariance, APoseIsMendedWhereAndOnlyWhereItsMatrixIs) {
   RandomStream random(3, Stream::kWorld);
   int mended = 0;
@@ -136,7 +136,7 @@ TEST(JointCovariance, APoseIsMendedWhereAndOnlyWhereItsMatrixIs) {
     long repairs = 0;
     covariance.subtract(JointCovariance::Columns::Zero(3, 2), repairs);
     long expected = 0;
-    mend<3>(pose, expected);
+    project_to_psd<3>(pose, expected);
     ASSERT_EQ(repairs, expected) << change << "\n" << pose;
     mended += static_cast<int>(expected);
   }

@@ -246,7 +246,7 @@ TEST(FastSlam1Weights, WithManyParticlesLeadToTheBeliefsOfFastSlam2) {
   const Estimate a = one.estimate(), b = two.estimate();
   const double share = 5.0 * std::sqrt(2.0 / (kParticles / 3.0));  // of a standard deviation
   const Eigen::Vector3d sd = b.covariance.diagonal().cwiseSqrt();
-  EXPECT_LE(displacement(a.pose, b.pose).cwiseQuotient(sd).cwiseAbs().maxCoeff(), share);
+  EXPECT_LE(boxminus(a.pose, b.pose).cwiseQuotient(sd).cwiseAbs().maxCoeff(), share);
   EXPECT_LE((a.covariance - b.covariance).cwiseQuotient(sd * sd.transpose()).cwiseAbs().maxCoeff(),
             2.0 * share);
   for (const std::size_t i : {0u, 1u}) {

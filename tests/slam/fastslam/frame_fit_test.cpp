@@ -36,18 +36,18 @@ TEST(FrameFit, IsTheProductOfInnovationsWhereTheSensorIsLinear) {
     Posterior one_by_one{predicted};
     for (Match& match : matches) {
       match.observation.range_bearing += 1e-4 * Eigen::Vector2d(random.normal(), random.normal());
-      const Innovation expected =
+      const PredictedMeasurement expected =
           Linearised().expect(one_by_one.pose, match.landmark, match.observation, repairs);
       const Eigen::Vector2d residual = sighting_residual(match.observation.range_bearing, expected.expected);
       const Eigen::Matrix2d inverse = expected.covariance.inverse();
       const Eigen::Matrix<double, 3, 2> gain = expected.cross * inverse;
-      one_by_one.pose.mean = displace(one_by_one.pose.mean, gain * residual);
+      one_by_one.pose.mean = boxplus(one_by_one.pose.mean, gain * residual);
       one_by_one.pose.covariance -= gain * expected.cross.transpose();
       one_by_one.log_likelihood -= 0.5 * (residual.dot(inverse * residual) +
                                           std::log((2.0 * M_PI * expected.covariance).determinant()));
     }
     const FrameFit fit = fit_frame(predicted, matches, repairs);
-    EXPECT_LE(displacement(fit.posterior.pose.mean, one_by_one.pose.mean).norm(), 1e-6);
+    EXPECT_LE(boxminus(fit.posterior.pose.mean, one_by_one.pose.mean).norm(), 1e-6);
     EXPECT_LE((fit.posterior.pose.covariance - one_by_one.pose.covariance).norm(), 1e-11);
     EXPECT_NEAR(fit.posterior.log_likelihood, one_by_one.log_likelihood, 0.05);
   }
@@ -60,7 +60,7 @@ TEST(FrameFit, FindsAPoseThatBendsAway) {
   const PoseBelief predicted{{0.0, 0.0, 0.0}, Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal()};
   long repairs = 0;
   const FrameFit fit = fit_frame(predicted, frame_from(truth, kPrecise), repairs);
-  EXPECT_LE(displacement(fit.posterior.pose.mean, truth).norm(), 5e-4);
+  EXPECT_LE(boxminus(fit.posterior.pose.mean, truth).norm(), 5e-4);
   EXPECT_LE(fit.sighting_cost, 1.0);
   const FrameFit at_truth = fit_frame({truth, predicted.covariance}, frame_from(truth, kPrecise), repairs);
   const Eigen::Matrix3d covariance = at_truth.posterior.pose.covariance;
@@ -72,7 +72,7 @@ TEST(FrameFit, APoseThatIsKnownStaysWhereItIs) {
   long repairs = 0;
   const PoseBelief known{{1.0, 2.0, 3.0}, Eigen::Matrix3d::Zero()};
   const FrameFit fit = fit_frame(known, frame_from({1.1, 2.0, 3.0}, kPrecise), repairs);
-  EXPECT_EQ(displacement(fit.posterior.pose.mean, known.mean).norm(), 0.0);
+  EXPECT_EQ(boxminus(fit.posterior.pose.mean, known.mean).norm(), 0.0);
   EXPECT_EQ(fit.posterior.pose.covariance.norm(), 0.0);
   EXPECT_GT(fit.sighting_cost, 100.0);
 }

@@ -46,7 +46,7 @@ struct Scene {
     long repairs = 0;
     std::vector<Expectation> frame;
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      const Innovation expected = Model().expect(predicted, landmarks[i], seen[i], repairs);
+      const PredictedMeasurement expected = Model().expect(predicted, landmarks[i], seen[i], repairs);
       frame.push_back({expected, sighting_residual(seen[i].range_bearing, expected.expected)});
     }
     const Posterior posterior = correct_at_once(predicted, frame, repairs);
@@ -85,7 +85,7 @@ TEST(CorrectAtOnce, IsTheJointGaussianOfTheFrame) {
     const double likelihood =
         -0.5 * (residual.dot(s.inverse() * residual) + std::log((2.0 * M_PI * s).determinant()));
     const Posterior posterior = scene.at_once<Linearised>();
-    EXPECT_TRUE(near(displacement(posterior.pose.mean, scene.predicted.mean), gain * residual, 1e-10));
+    EXPECT_TRUE(near(boxminus(posterior.pose.mean, scene.predicted.mean), gain * residual, 1e-10));
     EXPECT_TRUE(near(posterior.pose.covariance, p - gain * slope * p, 1e-12));
     EXPECT_NEAR(posterior.log_likelihood, likelihood, 1e-8);
   }
@@ -143,7 +143,7 @@ TEST(CorrectAtOnce, SeveralAreLookedAtFromThePredictionAndOutliersAreLeftOut) {
   without.seen.pop_back();
   scene.seen.back().range_bearing.x() += 5.0;
   const Corrected outlier(scene, Updates::kAtOnce), clean(without, Updates::kAtOnce);
-  EXPECT_EQ(outlier.targets.back().fate, Fate::kRefuse);
+  EXPECT_EQ(outlier.targets.back().outcome, Outcome::kRefuse);
   EXPECT_EQ(outlier.counters.gated_measurements, 1);
   EXPECT_TRUE(near(outlier.posterior.pose.mean, clean.posterior.pose.mean, 0.0));
   EXPECT_LT(outlier.posterior.log_likelihood, clean.posterior.log_likelihood);

@@ -34,15 +34,15 @@ struct Scene {
   }
 };
 
-struct Outcome {
+struct Judged {
   std::vector<Target> targets;
   Posterior posterior;
   FilterCounters counters;
 };
 
 template <class Model>
-Outcome outcome(const Scene& scene, Updates updates) {
-  Outcome result{std::vector<Target>(scene.frame.size()), {}, {}};
+Judged outcome(const Scene& scene, Updates updates) {
+  Judged result{std::vector<Target>(scene.frame.size()), {}, {}};
   result.posterior =
       PoseCorrection<Model>({}, updates)
           .correct(scene.particle, scene.predicted, scene.frame, result.targets, result.counters);
@@ -59,27 +59,27 @@ TYPED_TEST_SUITE(JudgedFrames, BothModels);
 // with contradictions.
 TYPED_TEST(JudgedFrames, EndLikeThoseThatCorrectThePose) {
   int contradicted = 0;
-  int pulled = 0;
+  int relocalised = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Scene scene(seed);
-    const Outcome judged = outcome<TypeParam>(scene, Updates::kToJudge);
-    const Outcome used = outcome<TypeParam>(scene, Updates::kOneByOne);
+    const Judged judged = outcome<TypeParam>(scene, Updates::kToJudge);
+    const Judged used = outcome<TypeParam>(scene, Updates::kOneByOne);
     bool clean = true;
     for (std::size_t k = 0; k < scene.frame.size(); ++k) {
-      EXPECT_EQ(judged.targets[k].fate, used.targets[k].fate) << seed;
-      clean = clean && used.targets[k].fate == Fate::kUse;
+      EXPECT_EQ(judged.targets[k].outcome, used.targets[k].outcome) << seed;
+      clean = clean && used.targets[k].outcome == Outcome::kUse;
     }
     EXPECT_EQ(judged.counters.gated_measurements, used.counters.gated_measurements);
-    EXPECT_EQ(judged.posterior.pulled, used.posterior.pulled);
-    pulled += used.posterior.pulled ? 1 : 0;
-    if (clean && !used.posterior.pulled) continue;
+    EXPECT_EQ(judged.posterior.relocalised, used.posterior.relocalised);
+    relocalised += used.posterior.relocalised ? 1 : 0;
+    if (clean && !used.posterior.relocalised) continue;
     ++contradicted;
     EXPECT_TRUE(near(judged.posterior.pose.mean, used.posterior.pose.mean, 0.0)) << seed;
     EXPECT_EQ(judged.posterior.pose.covariance, used.posterior.pose.covariance) << seed;
     EXPECT_EQ(judged.posterior.log_likelihood, used.posterior.log_likelihood) << seed;
   }
   EXPECT_GT(contradicted, 50);
-  EXPECT_GT(pulled, 5);
+  EXPECT_GT(relocalised, 5);
 }
 
 // To the last bit: what is left out are zeros. Mutation: noise that does not grow with the range.
@@ -92,8 +92,9 @@ TYPED_TEST(JudgedFrames, AKnownPoseIsAnUncertainOneWithoutUncertainty) {
     const LandmarkBelief landmark{{5.0 * random.normal(), 5.0 * random.normal()},
                                   Eigen::Vector2d(sd_m * sd_m, 0.1).asDiagonal()};
     const Observation observation{{1.0, 0.2}, Eigen::Vector2d(0.01, 0.0016).asDiagonal(), 0.01};
-    const Innovation known = TypeParam().expect(robot, landmark, observation, repairs);
-    const Innovation uncertain = TypeParam().expect(PoseBelief{robot}, landmark, observation, repairs);
+    const PredictedMeasurement known = TypeParam().expect(robot, landmark, observation, repairs);
+    const PredictedMeasurement uncertain =
+        TypeParam().expect(PoseBelief{robot}, landmark, observation, repairs);
     EXPECT_EQ(known.expected, uncertain.expected);
     EXPECT_EQ(known.covariance, uncertain.covariance);
     EXPECT_EQ(known.cross, uncertain.cross);

@@ -86,7 +86,7 @@ TYPED_TEST(Corrections, OneByOneIsTheSameAsAllAtOnce) {
   const Eigen::Matrix<double, 3, 6> gain = this->predicted_.covariance * slope.transpose() * joint.inverse();
   const Posterior posterior = this->correct(frame);
   EXPECT_NEAR(posterior.log_likelihood, expected, 0.05);
-  EXPECT_TRUE(near(displacement(posterior.pose.mean, this->predicted_.mean), gain * residual, 3e-4));
+  EXPECT_TRUE(near(boxminus(posterior.pose.mean, this->predicted_.mean), gain * residual, 3e-4));
   const Eigen::Matrix3d covariance = this->predicted_.covariance - gain * slope * this->predicted_.covariance;
   EXPECT_TRUE(near(posterior.pose.covariance, covariance, 5e-6));
 }
@@ -110,8 +110,8 @@ TYPED_TEST(Corrections, SingularCovariancesAreNothingSpecial) {
     this->predicted_.covariance = variances.asDiagonal();
     const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {0.01, 0.0})});
     EXPECT_TRUE(std::isfinite(posterior.log_likelihood));
-    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
-    const bool moved = displacement(posterior.pose.mean, this->predicted_.mean).norm() > 1e-6;
+    EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
+    const bool moved = boxminus(posterior.pose.mean, this->predicted_.mean).norm() > 1e-6;
     EXPECT_EQ(moved, variances.sum() > 0.0);
   }
 }
@@ -121,12 +121,12 @@ TYPED_TEST(Corrections, SingularCovariancesAreNothingSpecial) {
 TYPED_TEST(Corrections, AnOutlierMovesNothingCostsTheGateAndIsCounted) {
   this->know({3.0, 1.0});
   const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kRefuse);
   EXPECT_TRUE(near(posterior.pose.mean, this->predicted_.mean, 0.0));
   EXPECT_EQ(this->counters_.gated_measurements, 1);
   long repairs = 0;
   const Observation seen = this->see({3.0, 1.0}, 0).observation;
-  const Innovation expected =
+  const PredictedMeasurement expected =
       TypeParam().expect(this->predicted_, this->particle_.known[0].belief, seen, repairs);
   EXPECT_NEAR(posterior.log_likelihood,
               std::log1p(-this->config_.gate_probability) -  // half the gate, by chi-square(2)
@@ -146,18 +146,18 @@ TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
   for (const Eigen::Vector2d& place : places) {
     this->know_well(place);
   }
-  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  const Pose truth = boxplus(this->predicted_.mean, {0.0, 0.0, 0.07});
   std::vector<Sighting> frame;
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d seen = predict_sighting(truth, places[static_cast<std::size_t>(i)]);
     frame.push_back({{seen, 1e-6 * Eigen::Matrix2d::Identity()}, i, kUnknown});
   }
   this->correct({frame[0]});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kRefuse);
   EXPECT_EQ(this->counters_.gated_measurements, 1);
   const Posterior slipped = this->correct(frame);
   EXPECT_TRUE(near(slipped.pose.mean, truth, 5e-3));
-  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kUse);
+  for (const Target& target : this->targets_) EXPECT_EQ(target.outcome, Outcome::kUse);
   EXPECT_EQ(this->counters_.gated_measurements, 1) << "a sighting that is used after all was not refused";
   std::vector<Match> matches;
   for (std::size_t i = 0; i < 2; ++i)
@@ -170,14 +170,14 @@ TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
               0.05);
   frame[1].observation.range_bearing.y() -= 0.14;
   EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
-  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+  for (const Target& target : this->targets_) EXPECT_EQ(target.outcome, Outcome::kRefuse);
 }
 
 // The filters as they were published refuse both. Mutation: the setting is not read.
 TYPED_TEST(Corrections, WithoutTheRefitNothingOverrulesTheOdometry) {
   this->predicted_.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
   this->config_.refit = false;
-  const Pose truth = displace(this->predicted_.mean, {0.0, 0.0, 0.07});
+  const Pose truth = boxplus(this->predicted_.mean, {0.0, 0.0, 0.07});
   std::vector<Sighting> frame;
   for (const Eigen::Vector2d& place : {Eigen::Vector2d(3.0, 1.0), Eigen::Vector2d(2.0, -2.0)}) {
     const auto slot = static_cast<int>(frame.size());
@@ -185,7 +185,7 @@ TYPED_TEST(Corrections, WithoutTheRefitNothingOverrulesTheOdometry) {
     frame.push_back({{predict_sighting(truth, place), 1e-6 * Eigen::Matrix2d::Identity()}, slot, kUnknown});
   }
   EXPECT_TRUE(near(this->correct(frame).pose.mean, this->predicted_.mean, 0.0));
-  for (const Target& target : this->targets_) EXPECT_EQ(target.fate, Fate::kRefuse);
+  for (const Target& target : this->targets_) EXPECT_EQ(target.outcome, Outcome::kRefuse);
   EXPECT_EQ(this->counters_.gated_measurements, 2);
 }
 
@@ -207,8 +207,8 @@ TYPED_TEST(Corrections, OneOutlierIsLikelierThanSlip) {
     frame[1].observation.range_bearing = predict_sighting(turned, place);
     for (Sighting& seen : frame) seen.observation.noise = 1e-6 * Eigen::Matrix2d::Identity();
     this->correct(frame);
-    EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
-    EXPECT_EQ(this->targets_[1].fate, squared_deviations < 23.5 ? Fate::kUse : Fate::kRefuse);
+    EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
+    EXPECT_EQ(this->targets_[1].outcome, squared_deviations < 23.5 ? Outcome::kUse : Outcome::kRefuse);
   }
 }
 
@@ -219,10 +219,10 @@ TYPED_TEST(Corrections, AnUncertainHeadingExcusesTheWay) {
   this->predicted_ = {{0.0, 0.0, 0.0}, Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal()};
   const Sighting seen = this->see({3.0, 0.0}, 0, {0.5, 0.0});
   this->correct({seen});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kRefuse);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kRefuse);
   this->predicted_.covariance(2, 2) = 0.5;
   this->correct({seen});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
 }
 
 // A map of a thousand landmarks, searched through its bounds, and the same search done one by one. Catches a
@@ -247,7 +247,7 @@ TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
     for (std::size_t j = 0; j < 1000; ++j) {
       const Landmark& landmark = this->particle_.classed[j];
       long repairs = 0;
-      const Innovation innovation =
+      const PredictedMeasurement innovation =
           TypeParam().expect(this->predicted_, landmark.belief, sighting.observation, repairs);
       const Eigen::Vector2d off = sighting_residual(seen, innovation.expected);
       const double squared = off.dot(innovation.covariance.inverse() * off);
@@ -255,7 +255,7 @@ TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
       if (landmark.colour_class != sighting.colour_class || !(squared <= 18.4206807439524) || cost >= least)
         continue;
       least = cost;
-      expected = {Fate::kUse, static_cast<int>(j)};
+      expected = {Outcome::kUse, static_cast<int>(j)};
     }
     this->correct({sighting});
     ASSERT_EQ(this->targets_[0].landmark, expected.landmark) << look;
@@ -268,7 +268,7 @@ TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
   this->config_.gate_probability = 1.0;
   this->know({3.0, 1.0});
   this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
 }
 
 // A landmark that is contradicted again and again: who is wrong depends on who else was seen.
@@ -277,19 +277,19 @@ TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVou
   this->know({3.0, -1.0});
   this->change(1, [](Landmark& landmark) { landmark.record.refusals = 10; });
   this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
-  EXPECT_EQ(this->targets_[1].fate, Fate::kMove);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
+  EXPECT_EQ(this->targets_[1].outcome, Outcome::kMove);
 }
 
 TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
   this->know({3.0, 1.0});
   this->change(0, [](Landmark& landmark) { landmark.record.refusals = 10; });
-  const Posterior pulled = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kUse);
-  EXPECT_GT(displacement(pulled.pose.mean, this->predicted_.mean).norm(), 0.5);
+  const Posterior relocalised = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
+  EXPECT_GT(boxminus(relocalised.pose.mean, this->predicted_.mean).norm(), 0.5);
   this->change(0, [](Landmark& landmark) { landmark.record.uses = 1; });
   this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kMove);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kMove);
 }
 
 TYPED_TEST(Corrections, AColourIsMatchedToTheLikeliestLandmarkOfThatColour) {
@@ -300,7 +300,7 @@ TYPED_TEST(Corrections, AColourIsMatchedToTheLikeliestLandmarkOfThatColour) {
       {this->see_colour({3.02, 1.0}, 4), this->see_colour({9.0, 1.0}, 4), this->see_colour({3.02, 1.0}, 6)});
   EXPECT_EQ(this->targets_[0].landmark, 0);
   EXPECT_EQ(this->targets_[1].landmark, 2);
-  EXPECT_EQ(this->targets_[2].fate, Fate::kAdd);
+  EXPECT_EQ(this->targets_[2].outcome, Outcome::kAdd);
 }
 
 // Mutual exclusion. Catches two sightings of one frame that take the same landmark.
@@ -308,11 +308,11 @@ TYPED_TEST(Corrections, ALandmarkIsSeenOnceInAFrame) {
   this->know_colour({3.0, 1.0}, 4);
   const std::vector<Sighting> twins = {this->see_colour({3.03, 1.0}, 4), this->see_colour({3.0, 1.0}, 4)};
   this->correct(twins);
-  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);  // nothing is known of spacing: there may be two
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kAdd);  // nothing is known of spacing: there may be two
   EXPECT_EQ(this->targets_[1].landmark, 0);
   this->config_.colour_spacing_m = 10.0;
   this->correct(twins);
-  EXPECT_EQ(this->targets_[0].fate, Fate::kIgnore);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kIgnore);
   EXPECT_EQ(this->targets_[1].landmark, 0);
 }
 
@@ -321,16 +321,16 @@ TYPED_TEST(Corrections, WithinHalfTheColourSpacingItIsTheSameLandmark) {
   this->know_colour({3.0, 1.0}, 4);
   const std::vector<Sighting> off = {this->see_colour({3.0, 2.0}, 4)};
   this->correct(off);
-  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kAdd);
   this->config_.colour_spacing_m = 10.0;
-  const Posterior pulled = this->correct(off);
+  const Posterior relocalised = this->correct(off);
   EXPECT_EQ(this->targets_[0].landmark, 0);
-  const Eigen::Vector2d place = locate(pulled.pose.mean, off[0].observation.range_bearing);
+  const Eigen::Vector2d place = locate(relocalised.pose.mean, off[0].observation.range_bearing);
   EXPECT_LT((place - Eigen::Vector2d(3.0, 1.0)).norm(), 0.5) << "pulled back by more than half";
   const Posterior nearer = this->correct({this->see_colour({3.0, 1.4}, 4)});
-  EXPECT_GT(nearer.log_likelihood, pulled.log_likelihood) << "less drift, more weight";
+  EXPECT_GT(nearer.log_likelihood, relocalised.log_likelihood) << "less drift, more weight";
   this->correct({this->see_colour({3.0, 7.0}, 4)});
-  EXPECT_EQ(this->targets_[0].fate, Fate::kAdd);
+  EXPECT_EQ(this->targets_[0].outcome, Outcome::kAdd);
 }
 
 }  // namespace

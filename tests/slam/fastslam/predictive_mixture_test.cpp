@@ -33,7 +33,7 @@ struct Mixture {
     log_weights.push_back(std::log(weight));
     for (std::size_t k = 0; k < by_sighting.size(); ++k) {
       expected.push_back(by_sighting[k]);
-      targets.push_back(by_sighting[k].exists ? Target{Fate::kUse, static_cast<int>(k)} : Target{});
+      targets.push_back(by_sighting[k].exists ? Target{Outcome::kUse, static_cast<int>(k)} : Target{});
     }
   }
   std::vector<NormalisedInnovation> innovations() const {
@@ -116,9 +116,9 @@ TEST(PredictiveMixture, IsRefusedByHalfOfTheWeight) {
   Mixture mixture({{5.0, 1.0}});
   mixture.add_particle(0.4, {{true, {5.0, 1.0}, kS}});
   mixture.add_particle(0.6, {{true, {5.0, 1.0}, kS}});
-  mixture.targets[0].fate = Fate::kRefuse;
+  mixture.targets[0].outcome = Outcome::kRefuse;
   EXPECT_FALSE(mixture.innovations().at(0).refused);
-  mixture.targets = {{Fate::kUse, 0}, {Fate::kMove, 0}};
+  mixture.targets = {{Outcome::kUse, 0}, {Outcome::kMove, 0}};
   EXPECT_TRUE(mixture.innovations().at(0).refused);
 }
 

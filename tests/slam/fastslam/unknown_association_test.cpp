@@ -47,7 +47,7 @@ struct Unlabelled {
   }
 };
 
-struct Outcome {
+struct DriveResult {
   std::vector<Pose> path;
   std::vector<std::vector<std::pair<int, int>>>
       matched;              // by frame: (true landmark seen, true one it was given to)
@@ -55,15 +55,15 @@ struct Outcome {
   FilterCounters counters;
 };
 
-Outcome drive_unlabelled(const std::string& name, const FilterConfig& config, const Unlabelled& drive,
-                         std::uint64_t seed) {
+DriveResult drive_unlabelled(const std::string& name, const FilterConfig& config, const Unlabelled& drive,
+                             std::uint64_t seed) {
   RandomStream odometry(seed, Stream::kOdometry);
   RandomStream noise(seed, Stream::kOracle);
   RandomStream chance(seed, Stream::kClutter);
   Filter filter = make_filter(name, config, {}, seed);
   Pose truth;
   std::vector<int> whose;
-  Outcome outcome;
+  DriveResult outcome;
   const auto owner = [&](int number) {
     return number < 0 ? kUnknown : whose[static_cast<std::size_t>(number)];
   };
@@ -106,8 +106,8 @@ TEST_P(WithoutIdentities, LandmarksFarApartAreAsGoodAsNamed) {
   std::array<int, 2> compared{};
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     config.association = seed % 2 == 0 ? Association::kIndividual : Association::kJoint;
-    const Outcome one = drive_unlabelled(GetParam(), config, drive, seed);
-    const Outcome other = drive_unlabelled(GetParam(), config, named, seed);
+    const DriveResult one = drive_unlabelled(GetParam(), config, drive, seed);
+    const DriveResult other = drive_unlabelled(GetParam(), config, named, seed);
     if (one.counters.gated_measurements + other.counters.gated_measurements > 0) continue;  // a rare outlier
     ++compared[seed % 2];
     EXPECT_TRUE(one.matched == other.matched) << "seed " << seed;
@@ -125,8 +125,8 @@ TEST_P(WithoutIdentities, TheOrderOfSightingsDecidesNothing) {
     FilterConfig config = drive.config();
     config.association = association;
     config.particles = 1;  // else rounding may pick another particle
-    const Outcome one = drive_unlabelled(GetParam(), config, drive, 5);
-    const Outcome other = drive_unlabelled(GetParam(), config, reversed, 5);
+    const DriveResult one = drive_unlabelled(GetParam(), config, drive, 5);
+    const DriveResult other = drive_unlabelled(GetParam(), config, reversed, 5);
     EXPECT_EQ(one.mapped, other.mapped);
   }
 }
@@ -136,8 +136,8 @@ TEST_P(WithoutIdentities, WhereNothingCompetesTheJointTestIsSilent) {
   const Unlabelled drive;
   FilterConfig individual = drive.config();
   individual.association = Association::kIndividual;
-  const Outcome one = drive_unlabelled(GetParam(), individual, drive, 2);
-  const Outcome other = drive_unlabelled(GetParam(), drive.config(), drive, 2);
+  const DriveResult one = drive_unlabelled(GetParam(), individual, drive, 2);
+  const DriveResult other = drive_unlabelled(GetParam(), drive.config(), drive, 2);
   EXPECT_TRUE(one.matched == other.matched);
   EXPECT_TRUE(near(one.path.back(), other.path.back(), 0.0));
   EXPECT_EQ(other.counters.joint_searches_cut, 0);
@@ -148,9 +148,11 @@ TEST_P(WithoutIdentities, ClutterVanishesAndLandmarksStay) {
   const Unlabelled drive{.false_per_look = 1.0, .miss_probability = 0.1};
   FilterConfig ignorant = drive.config();
   ignorant.sector = {};
-  const Outcome knowing = drive_unlabelled(GetParam(), drive.config(), drive, 3);
-  const Outcome trusting = drive_unlabelled(GetParam(), ignorant, drive, 3);
-  const auto spurious = [](const Outcome& outcome) { return std::ranges::count(outcome.mapped, kUnknown); };
+  const DriveResult knowing = drive_unlabelled(GetParam(), drive.config(), drive, 3);
+  const DriveResult trusting = drive_unlabelled(GetParam(), ignorant, drive, 3);
+  const auto spurious = [](const DriveResult& outcome) {
+    return std::ranges::count(outcome.mapped, kUnknown);
+  };
   EXPECT_LE(spurious(knowing), 6);
   EXPECT_GE(spurious(trusting), 50);
   const auto landmarks = static_cast<int>(drive.world.landmarks().size());
@@ -176,7 +178,7 @@ TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
     FilterCounters counters;
     const Posterior posterior = correction.correct(particle, predicted, frame, targets, counters);
     EXPECT_EQ(targets[0].landmark, 0);
-    EXPECT_EQ(targets[0].fate, log_odds > 0.0F ? Fate::kUse : Fate::kConfirm);
+    EXPECT_EQ(targets[0].outcome, log_odds > 0.0F ? Outcome::kUse : Outcome::kConfirm);
     EXPECT_EQ(near(posterior.pose.mean, predicted.mean, 0.0), log_odds == 0.0F);
     log_likelihoods.push_back(posterior.log_likelihood);
   }

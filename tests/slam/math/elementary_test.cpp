@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "slam/math/angles.h"
 #include "slam/math/random.h"
 
 namespace stereobench::slam {
@@ -69,7 +69,6 @@ TEST(Elementary, ExponentialUndoesTheLogarithm) {
 
 // What the filters lean on: four quadrants, both axes, the robot's own place, weights that vanished.
 TEST(Elementary, EdgesAreThoseOfTheCLibrary) {
-  constexpr double kPi = std::numbers::pi;
   EXPECT_EQ(sine_cosine(0.0).sine, 0.0);
   EXPECT_EQ(sine_cosine(0.0).cosine, 1.0);
   for (const double y : {-2.0, -0.0, 0.0, 2.0}) {

@@ -60,8 +60,8 @@ TEST(LinearSighting, PredictsTheSameAndHasItsSlopes) {
     EXPECT_EQ(linear.expected, predict_sighting(robot, point));
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
-      const Eigen::Vector2d by_pose = sighting_residual(predict_sighting(displace(robot, step), point),
-                                                        predict_sighting(displace(robot, -step), point)) /
+      const Eigen::Vector2d by_pose = sighting_residual(predict_sighting(boxplus(robot, step), point),
+                                                        predict_sighting(boxplus(robot, -step), point)) /
                                       (2.0 * kStep);
       EXPECT_TRUE(near(linear.by_pose().col(axis), by_pose, 1e-7));
       if (axis < 2) {

@@ -21,8 +21,7 @@ class Models : public ::testing::Test {
 
   Pose draw(const PoseBelief& belief) {
     const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, repairs_);
-    return displace(belief.mean,
-                    root * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()));
+    return boxplus(belief.mean, root * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()));
   }
   Eigen::Vector2d draw(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) {
     return mean +
@@ -72,7 +71,7 @@ TYPED_TEST(Models, MoveHasTheMomentsOfManyNoisyMoves) {
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
     for (int i = 0; i < kDraws; ++i) {
       const Pose drawn = advance(this->draw(start), perturb(control, noise, this->random_));
-      const Eigen::Vector3d off = displacement(drawn, moved.mean);
+      const Eigen::Vector3d off = boxminus(drawn, moved.mean);
       mean += off / kDraws;
       second += off * off.transpose() / kDraws;
     }
@@ -96,7 +95,8 @@ TYPED_TEST(Models, OneControlLeavesRankTwo) {
 TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
   const PoseBelief pose = some_pose();
   const LandmarkBelief landmark = some_landmark();
-  const Innovation expected = this->model_.expect(pose, landmark, {{}, some_noise()}, this->repairs_);
+  const PredictedMeasurement expected =
+      this->model_.expect(pose, landmark, {{}, some_noise()}, this->repairs_);
   Eigen::Matrix<double, 5, 1> mean = Eigen::Matrix<double, 5, 1>::Zero();
   Eigen::Matrix<double, 5, 5> second = Eigen::Matrix<double, 5, 5>::Zero();
   for (int i = 0; i < kDraws; ++i) {
@@ -104,7 +104,7 @@ TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
     const Eigen::Vector2d seen = predict_sighting(from, this->draw(landmark.mean, landmark.covariance)) +
                                  this->draw(Eigen::Vector2d::Zero(), some_noise());
     Eigen::Matrix<double, 5, 1> off;
-    off << displacement(from, pose.mean), sighting_residual(seen, expected.expected);
+    off << boxminus(from, pose.mean), sighting_residual(seen, expected.expected);
     mean += off / kDraws;
     second += off * off.transpose() / kDraws;
   }
@@ -120,8 +120,8 @@ TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
 TYPED_TEST(Models, ExpectAKnownPlaceAsALandmarkThatIsCertain) {
   const Observation seen{{6.0, 0.4}, Eigen::Vector2d(1e-4, 4e-6).asDiagonal()};
   const LandmarkBelief certain{some_landmark().mean, Eigen::Matrix2d::Zero()};
-  const Innovation of_landmark = this->model_.expect(some_pose(), certain, seen, this->repairs_);
-  const Innovation of_place = this->model_.expect(some_pose(), certain.mean, seen, this->repairs_);
+  const PredictedMeasurement of_landmark = this->model_.expect(some_pose(), certain, seen, this->repairs_);
+  const PredictedMeasurement of_place = this->model_.expect(some_pose(), certain.mean, seen, this->repairs_);
   EXPECT_EQ(of_place.expected, of_landmark.expected);
   EXPECT_TRUE(near(of_place.covariance, of_landmark.covariance, 1e-15));
   EXPECT_TRUE(near(of_place.cross, of_landmark.cross, 1e-15));
@@ -163,7 +163,8 @@ TYPED_TEST(Models, StandingOnALandmarkIsFinite) {
   const PoseBelief pose{{1.0, 1.0, 0.3}, some_pose().covariance};
   for (const PoseBelief& belief : {pose, PoseBelief{pose.mean, Eigen::Matrix3d::Zero()}}) {
     const LandmarkBelief landmark{{1.0, 1.0}, Eigen::Matrix2d::Zero()};
-    const Innovation expected = this->model_.expect(belief, landmark, {{}, some_noise()}, this->repairs_);
+    const PredictedMeasurement expected =
+        this->model_.expect(belief, landmark, {{}, some_noise()}, this->repairs_);
     EXPECT_TRUE(expected.covariance.allFinite() && expected.cross.allFinite() &&
                 expected.expected.allFinite());
     const LandmarkBelief refined =
@@ -190,8 +191,8 @@ TEST(BothModels, AgreeWhenNoiseIsSmall) {
     EXPECT_TRUE(near(a.covariance, b.covariance, 1e-4 * a.covariance.norm()));
     LandmarkBelief landmark = some_landmark();
     landmark.covariance *= 1e-6;
-    const Innovation c = Linearised().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
-    const Innovation d = Unscented().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
+    const PredictedMeasurement c = Linearised().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
+    const PredictedMeasurement d = Unscented().expect(pose, landmark, {{}, 1e-6 * some_noise()}, repairs);
     EXPECT_TRUE(near(c.covariance, d.covariance, 1e-4 * c.covariance.norm()));
     EXPECT_TRUE(near(c.cross, d.cross, 1e-4 * c.cross.norm()));
   }

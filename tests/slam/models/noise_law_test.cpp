@@ -140,7 +140,7 @@ double fused_offset_m(const std::string& name, const FilterConfig& config, bool 
   return off_m;
 }
 
-// Mutations: noise_at the range that was seen, in refine of either model or in the EKF's surprise.
+// Mutations: noise_at the range that was seen, in refine of either model or in the EKF's innovation.
 TEST(NoiseLaw, WhatIsFusedAtThePredictedRangeIsNotShort) {
   const double sd_m = kGrowth * 225.0;
   const double standard_error_m = sd_m / std::sqrt(200.0 * 200.0);

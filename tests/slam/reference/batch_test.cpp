@@ -73,7 +73,7 @@ TEST_P(BatchLaw, IsTheOptimumOverTheControlsErrors) {
         const Pose expected{path[k].x(), path[k].y(), wrap_angle(path[k].z())};
         const Eigen::Vector3d sd =
             dense.pose_covariance(best, covariance, k + 1).diagonal().cwiseMax(0.0).cwiseSqrt();
-        const Eigen::Vector3d off = displacement(batch.path[k], expected);
+        const Eigen::Vector3d off = boxminus(batch.path[k], expected);
         for (int i = 0; i < 3; ++i) EXPECT_LE(std::abs(off[i]), 0.01 * sd[i] + 1e-5) << "step " << k;
       }
       for (const LandmarkEstimate& landmark : batch.landmarks) {

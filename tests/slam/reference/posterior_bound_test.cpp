@@ -232,7 +232,7 @@ TEST(PosteriorBound, TheBatchReachesTheSmoothingBoundAndNotBelow) {
     const BatchEstimate batch = estimate_batch(config, course.start, batch_log(course.measured(seed)));
     double error_m2 = 0.0;
     for (std::size_t k = 0; k < truth.size(); ++k)
-      error_m2 += displacement(batch.path[k], truth[k]).head<2>().squaredNorm();
+      error_m2 += boxminus(batch.path[k], truth[k]).head<2>().squaredNorm();
     const double share = error_m2 / smoothing_m2;
     sum += share / kDrives;
     squares += share * share / kDrives;

@@ -25,7 +25,7 @@ Pose random_pose(RandomStream& random) {
 }
 
 Pose nudged(const Pose& pose, int dimension, double by) {
-  return displace(pose, by * Eigen::Vector3d::Unit(dimension));
+  return boxplus(pose, by * Eigen::Vector3d::Unit(dimension));
 }
 
 class ResidualLaw : public testing::TestWithParam<std::uint64_t> {};
@@ -37,8 +37,8 @@ TEST_P(ResidualLaw, MotionHasTheDerivativesItClaims) {
   const Control control{random.normal(), 2.0 * random.normal(), 0.7};
   const MotionResidual residual(motion_of({control, control}, {0.3, 0.2}));
   const Pose from = random_pose(random);
-  const Pose to = displace(advance(advance(from, control), control),
-                           0.3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
+  const Pose to = boxplus(advance(advance(from, control), control),
+                          0.3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
   const MotionResidual::Value value = residual.at(from, to);
   const double tolerance = 1e-6 * value.by_to.norm();
   for (int i = 0; i < 3; ++i) {

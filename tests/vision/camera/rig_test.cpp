@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 
 namespace stereobench::vision {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/colour/colour_table.h"
 #include "vision/palette.h"
 

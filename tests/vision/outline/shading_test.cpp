@@ -1,4 +1,4 @@
-// The surface behind an outline, and the lamp that a ball's shades tell of.
+// The surface behind an outline, and the light source that a ball's shades tell of.
 #include "vision/outline/shading.h"
 
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/stereo/sphere.h"
 
 namespace stereobench::vision {
@@ -17,7 +17,7 @@ const Eigen::Vector3d kPaint(40.0, 120.0, 220.0);
 
 struct LitBall {
   Eigen::Vector3d in_camera;
-  Eigen::Vector3d lamp;  // towards it, times its brightness
+  Eigen::Vector3d light_source;  // towards it, times its brightness
   double ambient = 0.45;
 
   OutlineModel outline(const Intrinsics& camera) const {
@@ -26,7 +26,8 @@ struct LitBall {
   }
 };
 
-// The lamp stands up to 120 degrees beside the eye: from further behind it lights nothing but the rim itself.
+// The light source stands up to 120 degrees beside the eye: from further behind it lights nothing but the rim
+// itself.
 LitBall any_ball(painter::Dice& dice) {
   const double z = dice.uniform(0.4, 3.0);
   const Eigen::Vector3d ball(dice.uniform(-0.4, 0.4) * z, dice.uniform(-0.3, 0.3) * z, z);
@@ -40,7 +41,7 @@ Eigen::Vector3d sight_of(const Intrinsics& camera, const Eigen::Vector2d& pixel)
   return {(pixel.x() - camera.cx_px) / camera.focal_px, (pixel.y() - camera.cy_px) / camera.focal_px, 1.0};
 }
 
-// Where a sightline meets the ball first, as a direction from its centre; where it passes, its nearest point.
+// Where a ray meets the ball first, as a direction from its centre; where it passes, its nearest point.
 Eigen::Vector3d normal_met(const LitBall& ball, const Eigen::Vector3d& sight) {
   const Eigen::Vector3d way = sight.normalized();
   const double along = way.dot(ball.in_camera);
@@ -50,7 +51,7 @@ Eigen::Vector3d normal_met(const LitBall& ball, const Eigen::Vector3d& sight) {
 }
 
 Eigen::Vector3d light_on(const LitBall& ball, const Eigen::Vector3d& normal) {
-  return kPaint * (ball.ambient + std::max(0.0, normal.dot(ball.lamp)));
+  return kPaint * (ball.ambient + std::max(0.0, normal.dot(ball.light_source)));
 }
 
 // The ball before grey, its pixels without any that mix.
@@ -99,8 +100,8 @@ TEST(BallSurface, FacesWhereSightlinesMeetIt) {
   }
 }
 
-// In the noise of a usual camera the rim is predicted to half a level. Mutations: the lamp fitted once only;
-// lit where it is turned away.
+// In the noise of a usual camera the rim is predicted to half a level. Mutations: the light source fitted
+// once only; lit where it is turned away.
 TEST(Shading, TellsTheColoursOfTheRim) {
   const Intrinsics camera;
   painter::Dice dice(2);
@@ -124,8 +125,8 @@ TEST(Shading, LooksAtTheBallOnly) {
   painter::Dice dice(3);
   for (int i = 0; i < 20; ++i) {
     LitBall ball = any_ball(dice);
-    ball.lamp = {-std::abs(ball.lamp.x()), ball.lamp.y(),
-                 -std::abs(ball.lamp.z())};  // on what is left to see
+    ball.light_source = {-std::abs(ball.light_source.x()), ball.light_source.y(),
+                         -std::abs(ball.light_source.z())};  // on what is left to see
     cv::Mat image = picture(ball, camera, 0.0, dice);
     const OutlineModel outline = ball.outline(camera);
     const auto edge = static_cast<int>(outline.centre_px().x() + 0.3 * outline.radius_px());
@@ -136,24 +137,24 @@ TEST(Shading, LooksAtTheBallOnly) {
   }
 }
 
-// A ball that is seen from its unlit side has a lamp somewhere behind it, and does not say that it has none;
-// what shows its lamp does. Mutation: any lamp counts, however faint.
+// A ball that is seen from its unlit side has a light source somewhere behind it, and does not say that it
+// has none; what shows its light source does. Mutation: any light source counts, however faint.
 TEST(Shading, KnowsWhetherItShowsALamp) {
   const Intrinsics camera;
   painter::Dice dice(4);
   for (int i = 0; i < 60; ++i) {
     LitBall ball = any_ball(dice);
-    const auto shows_lamp = [&] {
+    const auto shows_light_source = [&] {
       const auto shading = fit_shading(picture(ball, camera, 2.0, dice), camera, ball.outline(camera),
                                        Shades(kPaint, 2.0), 4.0, std::nullopt);
-      return shading && shading->light().shows_lamp;
+      return shading && shading->light().shows_light_source;
     };
-    ball.lamp = {0.4, -0.3, -0.3};
-    EXPECT_TRUE(shows_lamp()) << "ball " << i;
-    ball.lamp = 0.55 * ball.in_camera.normalized();
-    EXPECT_FALSE(shows_lamp()) << "ball " << i << " is lit from behind";
-    ball.lamp.setZero();
-    EXPECT_FALSE(shows_lamp()) << "ball " << i << " has no lamp";
+    ball.light_source = {0.4, -0.3, -0.3};
+    EXPECT_TRUE(shows_light_source()) << "ball " << i;
+    ball.light_source = 0.55 * ball.in_camera.normalized();
+    EXPECT_FALSE(shows_light_source()) << "ball " << i << " is lit from behind";
+    ball.light_source.setZero();
+    EXPECT_FALSE(shows_light_source()) << "ball " << i << " has no lamp";
   }
 }
 

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "painter.h"
+#include "tests/vision/painter.h"
 #include "vision/camera/rig.h"
 
 namespace stereobench::vision {

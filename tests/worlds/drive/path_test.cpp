@@ -3,16 +3,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "slam/math/angles.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::worlds {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PolylinePath rectangle() {
   PolylinePath path;
@@ -39,7 +37,7 @@ class CircleLaw : public testing::TestWithParam<double> {};
 // Catches: a turn rate that is not v / r, one step too few, stamps that are not multiples of the step.
 TEST_P(CircleLaw, ReturnsToItsStartAfterEachLap) {
   const double radius_m = GetParam();
-  const CirclePath circle = {{0.3, -2.0, 0.4}, radius_m, radius_m * kPi / 36, 2.0, 2.0};
+  const CirclePath circle = {{0.3, -2.0, 0.4}, radius_m, radius_m * slam::kPi / 36, 2.0, 2.0};
   const GroundTruth path = drive_circle(circle);
   ASSERT_EQ(path.size(), 73U);
   EXPECT_TRUE(path[0].controls.empty());
@@ -48,7 +46,7 @@ TEST_P(CircleLaw, ReturnsToItsStartAfterEachLap) {
   EXPECT_TRUE(distance_m(path[72].pose, circle.start) < 1e-9 * radius_m);
   EXPECT_TRUE(std::abs(slam::wrap_angle(path[72].pose.heading_rad - 0.4)) < 1e-9);
   EXPECT_EQ(path[72].stamp_ns, 144000000000);
-  EXPECT_NEAR(length_m(path), 4 * kPi * radius_m, 1e-9 * radius_m);
+  EXPECT_NEAR(length_m(path), 4 * slam::kPi * radius_m, 1e-9 * radius_m);
 }
 
 // Catches: a circle to the right.
@@ -63,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Radii, CircleLaw, testing::Values(0.05, 1.0, 40.0));
 TEST(Circle, EndsWithAShorterStepWhenTheLapIsNoMultiple) {
   const GroundTruth path = drive_circle({{}, 1.0, 1.0, 1.0, 1.0});  // 6.283 s
   ASSERT_EQ(path.size(), 8U);
-  EXPECT_NEAR(duration_s(path.back()), 2 * kPi - 6, 1e-12);
-  EXPECT_EQ(path.back().stamp_ns, std::llround(2 * kPi * 1e9));
+  EXPECT_NEAR(duration_s(path.back()), 2 * slam::kPi - 6, 1e-12);
+  EXPECT_EQ(path.back().stamp_ns, std::llround(2 * slam::kPi * 1e9));
   EXPECT_TRUE(distance_m(path.back().pose, path.front().pose) < 1e-9);
 }
 
@@ -109,7 +107,7 @@ TEST(Drive, EachStepTakesItsTime) {
 // Catches: arcs of the wrong radius, an edge too long by its tangents, a lap that does not close.
 TEST(ClosedPolyline, HasTheLengthOfItsStraightsAndArcsAndCloses) {
   const GroundTruth path = drive_polyline(rectangle());
-  EXPECT_NEAR(length_m(path), 2 * (10 + 6) - 8 + 2 * kPi, 1e-7);
+  EXPECT_NEAR(length_m(path), 2 * (10 + 6) - 8 + 2 * slam::kPi, 1e-7);
   EXPECT_TRUE(distance_m(path.front().pose, {-4, -3, 0}) < 1e-12);
   EXPECT_TRUE(distance_m(path.back().pose, path.front().pose) < 1e-7);
   EXPECT_TRUE(std::abs(path.back().pose.heading_rad) < 1e-7);
@@ -119,7 +117,7 @@ TEST(ClosedPolyline, DrivesOnIntoTheNextLap) {
   PolylinePath polyline = rectangle();
   polyline.overlap_m = 9.0;  // past the first corner: 8 m of straight, 1 m of arc
   const GroundTruth path = drive_polyline(polyline);
-  EXPECT_NEAR(length_m(path), 2 * (10 + 6) - 8 + 2 * kPi + 9, 1e-7);
+  EXPECT_NEAR(length_m(path), 2 * (10 + 6) - 8 + 2 * slam::kPi + 9, 1e-7);
   EXPECT_TRUE(distance_m(path.back().pose, {4 + std::sin(1.0), -2 - std::cos(1.0), 0}) < 1e-7);
 }
 

@@ -37,7 +37,7 @@ TEST(Biarc, ArrivesWhereItShouldAndTurnsTheSameWayBackwards) {
     const Pose to{3.0 * random.normal(), random.normal(), slam::wrap_angle(3.0 * random.normal())};
     const auto arcs = biarc(from, to);
     ASSERT_TRUE(arcs);
-    EXPECT_TRUE(near(slam::displacement(end_of(from, *arcs), to), Eigen::Vector3d::Zero().eval(), 1e-9)) << i;
+    EXPECT_TRUE(near(slam::boxminus(end_of(from, *arcs), to), Eigen::Vector3d::Zero().eval(), 1e-9)) << i;
     const double ahead =
         std::cos(from.heading_rad) * (to.x_m - from.x_m) + std::sin(from.heading_rad) * (to.y_m - from.y_m);
     EXPECT_EQ(arcs->at(0).length_m > 0.0, ahead > 0.0);
@@ -63,13 +63,11 @@ TEST(Biarc, IsTheCircleWhereThereIsOne) {
 TEST(FigureEight, CrossesItsStartAndEndsThere) {
   const GroundTruth path = drive_figure_eight({{1.0, 2.0, 0.5}, 2.0, 1.0, 1.0, 0.1, 0.0});
   EXPECT_NEAR(length_m(path), 8.0 * std::numbers::pi, 1e-9);
-  EXPECT_TRUE(
-      near(slam::displacement(path.back().pose, {1.0, 2.0, 0.5}), Eigen::Vector3d::Zero().eval(), 1e-9));
+  EXPECT_TRUE(near(slam::boxminus(path.back().pose, {1.0, 2.0, 0.5}), Eigen::Vector3d::Zero().eval(), 1e-9));
   EXPECT_GT(path[5].controls[0].w_radps, 0.0);
   EXPECT_LT(path[path.size() - 5].controls[0].w_radps, 0.0);
   const GroundTruth half = drive_figure_eight({{1.0, 2.0, 0.5}, 2.0, 1.0, 0.5, 0.1, 0.0});
-  EXPECT_TRUE(
-      near(slam::displacement(half.back().pose, {1.0, 2.0, 0.5}), Eigen::Vector3d::Zero().eval(), 1e-9));
+  EXPECT_TRUE(near(slam::boxminus(half.back().pose, {1.0, 2.0, 0.5}), Eigen::Vector3d::Zero().eval(), 1e-9));
   EXPECT_THROW(drive_figure_eight({{}, -1.0, 1.0, 1.0, 0.1, 0.0}), std::invalid_argument);
   EXPECT_THROW(drive_figure_eight({{}, 1.0, 1.0, -1.0, 0.1, 0.0}), std::invalid_argument);
 }
@@ -127,8 +125,7 @@ TEST(Recorded, IsWhereItWasRecorded) {
   ASSERT_EQ(path.size(), 2 * poses.size() - 1);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(path[2 * i].stamp_ns, static_cast<std::int64_t>(i) * 1'000'000'000);
-    EXPECT_TRUE(
-        near(slam::displacement(path[2 * i].pose, poses[i].pose), Eigen::Vector3d::Zero().eval(), 1e-8))
+    EXPECT_TRUE(near(slam::boxminus(path[2 * i].pose, poses[i].pose), Eigen::Vector3d::Zero().eval(), 1e-8))
         << i;
   }
   EXPECT_THROW(drive_recorded({{1.0, {}}, {1.0, {}}}, 0.5, 0.0), std::invalid_argument);
@@ -154,7 +151,7 @@ TEST(Trajectory, IsReadInBothFormats) {
       poses_in("# a comment\n1305031098.5 1 2 3 0 0 0 1\n1305031099.5 1 2.5 3 0 0 0.70710678 0.70710678\n");
   ASSERT_EQ(tum.size(), 2U);
   EXPECT_EQ(tum[0].time_s, 1305031098.5);
-  EXPECT_TRUE(near(slam::displacement(tum[0].pose, {1.0, 2.0, 0.0}), Eigen::Vector3d::Zero().eval(), 1e-12));
+  EXPECT_TRUE(near(slam::boxminus(tum[0].pose, {1.0, 2.0, 0.0}), Eigen::Vector3d::Zero().eval(), 1e-12));
   EXPECT_NEAR(tum[1].pose.heading_rad, 0.5 * std::numbers::pi, 1e-7);
   const auto own = poses_in("t_s,x_m,y_m,theta_rad\n0,1,2,0.25\r\n1,1,2,-3\n");
   EXPECT_EQ(own[0].pose.heading_rad, 0.25);

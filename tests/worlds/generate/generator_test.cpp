@@ -197,7 +197,7 @@ TEST(Generator, SaysWhatIsImpossible) {
 // for which a ball that is cut by the border hides nothing. Mutation tried: walls that hide nothing.
 TEST(Sight, SeesWhatTheOtherCheckSees) {
   Scenario scenario = read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/corridor.yaml");
-  give_solids(scenario.world, obj_solid);
+  give_occluders(scenario.world, obj_solid);
   const Views views = views_of(scenario, scenario.world, 17.7);
   int ours = 0;
   int theirs = 0;

@@ -1,4 +1,4 @@
-/// Laws of what is strewn beside a drive.
+/// Laws of what is scattered beside a drive.
 #include "worlds/generate/scattered.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace stereobench::worlds {
 namespace {
 
-/// Whether a sightline from an eye to a point meets a box, by its slabs.
+/// Whether a ray from an eye to a point meets a box, by its slabs.
 bool meets(const MeshInstance& box, const Eigen::Vector3d& eye, const Eigen::Vector3d& point) {
   const Eigen::AngleAxisd back(-box.heading_rad, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d from = back * (eye - box.position_m);
@@ -34,7 +34,7 @@ bool meets(const MeshInstance& box, const Eigen::Vector3d& eye, const Eigen::Vec
   return begin < end;
 }
 
-/// Whether a thing stands before a ball: sightlines to its outline and middle, as it is seen from the eye.
+/// Whether a thing stands before a ball: rays to its outline and middle, as it is seen from the eye.
 bool is_hidden(const World& world, const Ball& ball, const Eigen::Vector2d& eye_m, double height_m) {
   const Eigen::Vector3d eye(eye_m.x(), eye_m.y(), height_m);
   const Eigen::Vector3d sight = (ball.centre_m - eye).normalized();
@@ -47,11 +47,11 @@ bool is_hidden(const World& world, const Ball& ball, const Eigen::Vector2d& eye_
   return false;
 }
 
-class Strewn : public testing::TestWithParam<std::uint64_t> {};
+class Scattered : public testing::TestWithParam<std::uint64_t> {};
 
 // Mutation: balls_in_view not asked. Not caught: what is hidden not taken off the list; the spheres around
 // things are so generous that several together never hide too much here.
-TEST_P(Strewn, ThingsLeaveEnoughBallsInViewAtEachStep) {
+TEST_P(Scattered, ThingsLeaveEnoughBallsInViewAtEachStep) {
   static const Scenario scenario =
       scenario_with("randomise={clutter: {count: 14}, distractors: {}, balls_in_view: 1}");
   const World world = world_for_seed(scenario, GetParam());
@@ -82,7 +82,7 @@ TEST_P(Strewn, ThingsLeaveEnoughBallsInViewAtEachStep) {
 }
 
 // Mutations: no clearance; walls not looked at.
-TEST_P(Strewn, ThingsStandClearOfDriveWallsBallsAndEachOther) {
+TEST_P(Scattered, ThingsStandClearOfDriveWallsBallsAndEachOther) {
   const Scenario& scenario = everything();
   const World world = world_for_seed(scenario, GetParam());
   std::vector<std::vector<Eigen::Vector2d>> outlines;
@@ -111,9 +111,9 @@ TEST_P(Strewn, ThingsStandClearOfDriveWallsBallsAndEachOther) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Strewn, testing::Range(std::uint64_t{0}, std::uint64_t{12}));
+INSTANTIATE_TEST_SUITE_P(Seeds, Scattered, testing::Range(std::uint64_t{0}, std::uint64_t{12}));
 
-TEST(StrewnThings, NoDistractorIsALandmarkAndAllAreNearAColourOfThePalette) {
+TEST(ScatteredThings, NoDistractorIsALandmarkAndAllAreNearAColourOfThePalette) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const SeedWorld made = seed_world(scenario_with("randomise={distractors: {count: 3, shade: 1}}"), seed);
     ASSERT_EQ(made.world.balls.size(), everything().world.balls.size());
@@ -129,7 +129,7 @@ TEST(StrewnThings, NoDistractorIsALandmarkAndAllAreNearAColourOfThePalette) {
 }
 
 // What finds no room is left out, by name, and ends nothing.
-TEST(StrewnThings, LeavesOutWhatFindsNoRoom) {
+TEST(ScatteredThings, LeavesOutWhatFindsNoRoom) {
   const SeedWorld made = seed_world(scenario_with("randomise={clutter: {count: 2, size_m: 8}}"), 0);
   EXPECT_THAT(made.left_out, testing::ElementsAre("clutter[0]", "clutter[1]"));
   EXPECT_EQ(made.world.meshes.size(), everything().world.meshes.size());

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "slam/math/angles.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "worlds/drive/path.h"
 #include "worlds/scenario/seeds.h"
@@ -18,8 +19,6 @@ namespace stereobench::worlds {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Scenario read_small(const std::vector<std::string>& overrides = {}) {
   const ScenarioFolder folder;
@@ -45,11 +44,11 @@ TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
   const Scenario scenario = read_small({"rig.pitch_down_deg=10"});
   EXPECT_DOUBLE_EQ(scenario.rig.camera.cx_px, 319.5);
   EXPECT_DOUBLE_EQ(scenario.rig.camera.cy_px, 239.5);
-  EXPECT_DOUBLE_EQ(scenario.rig.pitch_down_rad, 10 * kDegree);
-  EXPECT_DOUBLE_EQ(scenario.odometry_noise.w_constant_radps, 2 * kDegree);
-  EXPECT_DOUBLE_EQ(scenario.oracle.bearing_sd_rad, kDegree);
-  EXPECT_DOUBLE_EQ(scenario.oracle.field_of_view_rad, 90 * kDegree);
-  EXPECT_DOUBLE_EQ(scenario.world.meshes.at(0).heading_rad, 90 * kDegree);
+  EXPECT_DOUBLE_EQ(scenario.rig.pitch_down_rad, 10 * slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(scenario.odometry_noise.w_constant_radps, 2 * slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(scenario.oracle.bearing_sd_rad, slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(scenario.oracle.field_of_view_rad, 90 * slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(scenario.world.meshes.at(0).heading_rad, 90 * slam::kRadPerDegree);
 }
 
 // Mutations: the two lists of names in another order than what they name.
@@ -262,9 +261,9 @@ TEST(ScenarioMesh, SaysUnitUpAxisPoseScaleAndMaterial) {
   const MeshInstance& mesh = scenario.world.meshes.at(0);
   EXPECT_EQ(mesh.unit_m, 0.01);
   EXPECT_EQ(mesh.up, MeshUp::kY);
-  EXPECT_DOUBLE_EQ(mesh.roll_rad, 10 * kDegree);
-  EXPECT_DOUBLE_EQ(mesh.pitch_rad, -20 * kDegree);
-  EXPECT_DOUBLE_EQ(mesh.heading_rad, 30 * kDegree);
+  EXPECT_DOUBLE_EQ(mesh.roll_rad, 10 * slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(mesh.pitch_rad, -20 * slam::kRadPerDegree);
+  EXPECT_DOUBLE_EQ(mesh.heading_rad, 30 * slam::kRadPerDegree);
   EXPECT_EQ(mesh.scale, Eigen::Vector3d(2, 2, 2));
   EXPECT_EQ(mesh.material, Material::kFile);
 }

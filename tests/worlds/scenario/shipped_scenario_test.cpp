@@ -190,7 +190,7 @@ TEST(OpenField, ShowsThirtySevenLandmarksAndSomeAtEachStep) {
   slam::RandomStream noise(0, slam::Stream::kOracle);
   std::set<int> seen;
   for (const PathStep& step : scenario.path) {
-    const auto sightings = sense(scenario.world, step.pose, exact, scenario.identity, noise).sightings;
+    const auto sightings = sense(scenario.world, step.pose, exact, scenario.identity, noise).measurements;
     EXPECT_GE(sightings.size(), 1U);
     for (const auto& sighting : sightings) seen.insert(sighting.landmark_id);
   }

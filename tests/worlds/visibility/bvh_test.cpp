@@ -18,7 +18,7 @@ struct Disc {
   Eigen::Index axis;
   double radius;
 
-  double enter(const Sightline& line) const {
+  double enter(const Ray& line) const {
     const double at = (centre[axis] - line.origin_m[axis]) / line.direction[axis];
     if (!(at > 0.0)) return kNever;
     return (line.origin_m + at * line.direction - centre).norm() <= radius ? at : kNever;
@@ -32,7 +32,7 @@ struct Disc {
 
 // Flat boxes, lines along the axes and lines that begin within boxes among them. Mutations: the stretch's end
 // not drawn nearer; what lies behind the origin; a node's end one too early.
-TEST(BoxTree, MeetsFirstWhatALineEntersFirst) {
+TEST(Bvh, MeetsFirstWhatALineEntersFirst) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     slam::RandomStream random(seed, slam::Stream::kWorld);
@@ -43,18 +43,18 @@ TEST(BoxTree, MeetsFirstWhatALineEntersFirst) {
           {random_in_box(random, 5.0), static_cast<Eigen::Index>(i % 3), 0.01 + 1.49 * random.uniform()});
       boxes.push_back(discs.back().box());
     }
-    const BoxTree tree(boxes);
+    const Bvh tree(boxes);
     for (int i = 0; i < 200; ++i) {
-      Sightline line{random_in_box(random, 6.0), random_in_box(random, 1.0)};
+      Ray line{random_in_box(random, 6.0), random_in_box(random, 1.0)};
       if (i % 5 == 0) line.direction[i % 3] = 0.0;
       if (i % 7 == 0 && !discs.empty()) line.direction = discs[0].centre - line.origin_m;
       const double from = i % 2 == 0 ? 0.0 : 0.7, before = i % 3 == 0 ? 4.0 : kNever;
-      BoxTree::Met expected{-1, before};
+      Bvh::Met expected{-1, before};
       for (int k = 0; k < static_cast<int>(discs.size()); ++k) {
         const double there = discs[static_cast<std::size_t>(k)].enter(line);
         if (there >= from && there < expected.at) expected = {k, there};
       }
-      const BoxTree::Met found = tree.first(
+      const Bvh::Met found = tree.first(
           line, from, before, [&](int k) { return discs[static_cast<std::size_t>(k)].enter(line); });
       ASSERT_EQ(found.thing, expected.thing) << seed << ": " << i;
       ASSERT_EQ(found.at, expected.at);

@@ -60,7 +60,7 @@ Scene random_scene(std::uint64_t seed, int triangles) {
   return scene;
 }
 
-TEST(SightTube, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
+TEST(SightVolume, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     const Scene scene = random_scene(seed, 1 + static_cast<int>(seed % 8 == 0));
@@ -71,7 +71,7 @@ TEST(SightTube, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
         apart_m = std::min(apart_m, (point - scene.ball.centre_m).norm() - scene.ball.radius_m);
       }
     }
-    const bool is_met = meets(sight_tube(scene.eye, scene.ball, 0.0), TriangleTree(scene.triangles), kHere);
+    const bool is_met = meets(sight_volume(scene.eye, scene.ball, 0.0), TriangleBvh(scene.triangles), kHere);
     if (beside_m < -1e-3) {
       EXPECT_TRUE(is_met) << seed << ": " << beside_m;
     }
@@ -84,34 +84,34 @@ TEST(SightTube, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
   EXPECT_LT(met, 1200);
 }
 
-TEST(SightTube, IsMetByManyIfByOne) {
+TEST(SightVolume, IsMetByManyIfByOne) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Scene scene = random_scene(seed, 12);
-    const Tube tube = sight_tube(scene.eye, scene.ball, 0.02);
+    const ClearanceVolume volume = sight_volume(scene.eye, scene.ball, 0.02);
     const bool by_one = std::ranges::any_of(scene.triangles, [&](const TriangleCorners& corners) {
-      return meets(tube, TriangleTree({corners}), kHere);
+      return meets(volume, TriangleBvh({corners}), kHere);
     });
-    EXPECT_EQ(meets(tube, TriangleTree(scene.triangles), kHere), by_one) << seed;
+    EXPECT_EQ(meets(volume, TriangleBvh(scene.triangles), kHere), by_one) << seed;
   }
 }
 
-TEST(SightTube, MovedAndTurnedWithEverythingElseItIsMetAsBefore) {
+TEST(SightVolume, MovedAndTurnedWithEverythingElseItIsMetAsBefore) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Scene scene = random_scene(seed, 2);
     const double slack_m = seed % 2 == 0 ? 0.0 : 0.03;
-    const TriangleTree tree(scene.triangles);
-    const bool before = meets(sight_tube(scene.eye, scene.ball, slack_m), tree, kHere);
+    const TriangleBvh tree(scene.triangles);
+    const bool before = meets(sight_volume(scene.eye, scene.ball, slack_m), tree, kHere);
     slam::RandomStream draws(seed, slam::Stream::kWorld, 78);
     Eigen::Affine3d moved = Eigen::Affine3d::Identity();
     moved.translate(random_in_box(draws, 10.0))
         .rotate(Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()));  // what is low stays low
     scene.ball.centre_m = moved * scene.ball.centre_m;
-    EXPECT_EQ(meets(sight_tube(moved * scene.eye, scene.ball, slack_m), tree, moved), before) << seed;
+    EXPECT_EQ(meets(sight_volume(moved * scene.eye, scene.ball, slack_m), tree, moved), before) << seed;
   }
 }
 
 // Whatever is hidden of a ball that lies a little aside is hidden of one that may lie there.
-TEST(SightTube, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
+TEST(SightVolume, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
   constexpr double kSlack_m = 0.04;
   int met = 0;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
@@ -121,37 +121,37 @@ TEST(SightTube, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
     aside.centre_m +=
         Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()) * Vector3d(kSlack_m, 0.0, 0.0);
     for (const TriangleCorners& corners : scene.triangles) {
-      const TriangleTree tree({corners});
-      if (!meets(sight_tube(scene.eye, aside, 0.0), tree, kHere)) continue;
+      const TriangleBvh tree({corners});
+      if (!meets(sight_volume(scene.eye, aside, 0.0), tree, kHere)) continue;
       if (std::ranges::any_of(points_of(corners), [&](const Vector3d& point) {
             return (point - scene.ball.centre_m).norm() < scene.ball.radius_m + kSlack_m + 0.01;
           }))
         continue;  // nobody puts a ball there
-      EXPECT_TRUE(meets(sight_tube(scene.eye, scene.ball, kSlack_m), tree, kHere)) << seed;
+      EXPECT_TRUE(meets(sight_volume(scene.eye, scene.ball, kSlack_m), tree, kHere)) << seed;
       ++met;
     }
   }
   EXPECT_GT(met, 80);
 }
 
-TriangleTree floor_at(double z_m) {
-  return TriangleTree({{Vector3d(-50, -50, z_m), Vector3d(50, -50, z_m), Vector3d(50, 50, z_m)},
-                       {Vector3d(-50, -50, z_m), Vector3d(50, 50, z_m), Vector3d(-50, 50, z_m)}});
+TriangleBvh floor_at(double z_m) {
+  return TriangleBvh({{Vector3d(-50, -50, z_m), Vector3d(50, -50, z_m), Vector3d(50, 50, z_m)},
+                      {Vector3d(-50, -50, z_m), Vector3d(50, 50, z_m), Vector3d(-50, 50, z_m)}});
 }
 
-TEST(SightTube, AFloorHidesNothingOfABallOnItUnlessItSinks) {
+TEST(SightVolume, AFloorHidesNothingOfABallOnItUnlessItSinks) {
   for (int i = 0; i < 600; ++i) {
     const double radius_m = 0.05 + 0.05 * (i % 3);
     const Vector3d eye(-0.7 - 0.05 * i, 0.3, 0.02 + 0.1 * (i % 17));
     const Sphere ball{{0.0, 0.0, radius_m}, radius_m};
     for (const double slack_m : {0.0, 0.03}) {
-      const Tube tube = sight_tube(eye, ball, slack_m);
-      EXPECT_FALSE(meets(tube, floor_at(0.0), kHere)) << i;
-      EXPECT_FALSE(meets(tube, floor_at(std::min(0.9 * kRim * radius_m, eye.z() - 0.001)), kHere)) << i;
+      const ClearanceVolume volume = sight_volume(eye, ball, slack_m);
+      EXPECT_FALSE(meets(volume, floor_at(0.0), kHere)) << i;
+      EXPECT_FALSE(meets(volume, floor_at(std::min(0.9 * kRim * radius_m, eye.z() - 0.001)), kHere)) << i;
       if (eye.z() > 0.6 * radius_m) {
-        EXPECT_TRUE(meets(tube, floor_at(0.5 * radius_m), kHere)) << i;
+        EXPECT_TRUE(meets(volume, floor_at(0.5 * radius_m), kHere)) << i;
       }
-      EXPECT_FALSE(meets(tube, floor_at(2.5), kHere)) << "a ceiling";
+      EXPECT_FALSE(meets(volume, floor_at(2.5), kHere)) << "a ceiling";
     }
   }
 }
@@ -172,39 +172,38 @@ std::vector<TriangleCorners> wall_around(const Vector3d& point, slam::RandomStre
   return triangles;
 }
 
-TEST(SightTube, NothingIsSeenThroughTheCracksBetweenTriangles) {
+TEST(SightVolume, NothingIsSeenThroughTheCracksBetweenTriangles) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     slam::RandomStream draws(seed, slam::Stream::kWorld, 80);
     const Vector3d point = random_in_box(draws, 1.0) + Vector3d(3.0, 0.0, 10.0);
     const std::vector<TriangleCorners> wall = wall_around(point, draws);
     const Vector3d eye = random_in_box(draws, 0.3) + Vector3d(0.0, 0.0, 10.0);
-    const TriangleTree tree(wall);
+    const TriangleBvh tree(wall);
     // Through a shared corner, and through points of shared edges.
     const Vector3d& other = wall[seed % wall.size()][1];
     for (const double share : {0.0, draws.uniform(), draws.uniform()}) {
       const Vector3d aim = point + share * (other - point);
       const Sphere far{eye + 3.0 * (aim - eye), 1e-9};
-      EXPECT_TRUE(meets(sight_tube(eye, far, 0.0), tree, kHere)) << seed << " at " << share;
+      EXPECT_TRUE(meets(sight_volume(eye, far, 0.0), tree, kHere)) << seed << " at " << share;
     }
   }
 }
 
-TEST(SightTube, WhatIsWithinTheBallHidesNothingAndWhatSticksOutDoes) {
+TEST(SightVolume, WhatIsWithinTheBallHidesNothingAndWhatSticksOutDoes) {
   const Sphere ball{{3.0, 0.0, 0.5}, 0.2};
   const Vector3d eye(0.0, 0.0, 0.5);
   const auto rod = [](double from_x, double to_x) {
-    return TriangleTree(
-        {{Vector3d(from_x, 0.0, 0.5), Vector3d(to_x, 0.01, 0.5), Vector3d(to_x, -0.01, 0.5)}});
+    return TriangleBvh({{Vector3d(from_x, 0.0, 0.5), Vector3d(to_x, 0.01, 0.5), Vector3d(to_x, -0.01, 0.5)}});
   };
-  EXPECT_FALSE(meets(sight_tube(eye, ball, 0.0), rod(2.85, 3.1), kHere));
-  EXPECT_TRUE(meets(sight_tube(eye, ball, 0.0), rod(2.75, 3.1), kHere));
-  EXPECT_FALSE(meets(sight_tube(eye, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
-  EXPECT_FALSE(meets(sight_tube(eye, ball, 0.0), rod(-0.5, 0.005), kHere)) << "nearer than pictures begin";
-  EXPECT_TRUE(meets(sight_tube(eye, ball, 0.0), rod(-0.5, 0.02), kHere));
-  EXPECT_TRUE(meets(sight_tube(eye, ball, 0.06), rod(2.85, 3.1), kHere)) << "the ball may lie behind it";
+  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(2.85, 3.1), kHere));
+  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.0), rod(2.75, 3.1), kHere));
+  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
+  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(-0.5, 0.005), kHere)) << "nearer than pictures begin";
+  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.0), rod(-0.5, 0.02), kHere));
+  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.06), rod(2.85, 3.1), kHere)) << "the ball may lie behind it";
 }
 
-TEST(UprightTube, IsMetByWhatHasAPointInIt) {
+TEST(UprightCylinder, IsMetByWhatHasAPointInIt) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     slam::RandomStream draws(seed, slam::Stream::kWorld, 81);
@@ -216,7 +215,7 @@ TEST(UprightTube, IsMetByWhatHasAPointInIt) {
       for (const Vector3d& point : points_of(corners))
         beside_m = std::min(beside_m, std::max({(point.head<2>() - at).norm() - radius_m, low_m - point.z(),
                                                 point.z() - high_m}));
-    const bool is_met = meets(upright_tube(at, radius_m, low_m, high_m), TriangleTree(triangles), kHere);
+    const bool is_met = meets(upright_cylinder(at, radius_m, low_m, high_m), TriangleBvh(triangles), kHere);
     if (beside_m <= 0.0) {
       EXPECT_TRUE(is_met) << seed;
     }
@@ -231,7 +230,7 @@ TEST(UprightTube, IsMetByWhatHasAPointInIt) {
 
 // Meshes are drawn on grids, and so are heights: planes go through corners. Mutation: the origin inside by
 // the sides of all edges, where a corner that a cut leaves twice has none.
-TEST(UprightTube, IsMetByTrianglesThatHaveCornersOnItsPlanes) {
+TEST(UprightCylinder, IsMetByTrianglesThatHaveCornersOnItsPlanes) {
   const auto on_grid = [](const Vector3d& point) -> Vector3d {
     return (10.0 * point).array().round() / 10.0;
   };
@@ -248,9 +247,10 @@ TEST(UprightTube, IsMetByTrianglesThatHaveCornersOnItsPlanes) {
       return (point.head<2>() - at).norm() < 0.2 && point.z() > 0.1 - 1e-12 && point.z() < 0.2 + 1e-12;
     });
     if (!has_point) continue;
-    EXPECT_TRUE(meets(upright_tube(at, 0.2 + 1e-9, 0.1 - 1e-9, 0.2 + 1e-9), TriangleTree({corners}), kHere))
+    EXPECT_TRUE(
+        meets(upright_cylinder(at, 0.2 + 1e-9, 0.1 - 1e-9, 0.2 + 1e-9), TriangleBvh({corners}), kHere))
         << seed;
-    EXPECT_TRUE(meets(upright_tube(at, 0.2, 0.1, 0.2), TriangleTree({corners}), kHere)) << seed;
+    EXPECT_TRUE(meets(upright_cylinder(at, 0.2, 0.1, 0.2), TriangleBvh({corners}), kHere)) << seed;
     ++met;
   }
   EXPECT_GT(met, 100);

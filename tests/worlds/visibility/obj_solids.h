@@ -10,7 +10,7 @@
 
 namespace stereobench::worlds {
 
-inline std::shared_ptr<const TriangleTree> read_obj(const std::string& file) {
+inline std::shared_ptr<const TriangleBvh> read_obj(const std::string& file) {
   std::ifstream lines(file);
   std::vector<Eigen::Vector3d> vertices;
   std::vector<TriangleCorners> triangles;
@@ -26,10 +26,10 @@ inline std::shared_ptr<const TriangleTree> read_obj(const std::string& file) {
     for (std::size_t i = 2; i < face.size(); ++i) triangles.push_back({face[0], face[i - 1], face[i]});
   }
   if (triangles.empty()) throw std::runtime_error(file + ": no faces");
-  return std::make_shared<const TriangleTree>(triangles);
+  return std::make_shared<const TriangleBvh>(triangles);
 }
 
-inline std::shared_ptr<const TriangleTree> obj_solid(const World&, const MeshInstance& mesh) {
+inline std::shared_ptr<const TriangleBvh> obj_solid(const World&, const MeshInstance& mesh) {
   return read_obj(mesh.file);
 }
 

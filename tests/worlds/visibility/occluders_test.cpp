@@ -79,7 +79,7 @@ std::string generator(int seed) {
          std::to_string(seed) + "}\n";
 }
 
-class Solids : public testing::Test {
+class Occluders : public testing::Test {
  protected:
   void SetUp() override { folder_.write("cube.obj", kCube); }
   std::filesystem::path write(const std::string& text) const { return folder_.write("boxes.yaml", text); }
@@ -89,7 +89,7 @@ class Solids : public testing::Test {
 };
 
 // The other check knows no meshes: it is shown the boxes as walls.
-TEST_F(Solids, GeneratedBallsStandClearOfThemAndEnoughAreInView) {
+TEST_F(Occluders, GeneratedBallsStandClearOfThemAndEnoughAreInView) {
   for (int seed = 0; seed < 5; ++seed) {
     const Scenario scenario = read_scenario(write(scenario_among(kBoxes, generator(seed))), {}, obj_solid);
     for (const std::uint64_t jitter : {1U, 2U, 3U}) {
@@ -104,7 +104,7 @@ TEST_F(Solids, GeneratedBallsStandClearOfThemAndEnoughAreInView) {
 }
 
 // Mutation: a place judged by the surfaces near it alone.
-TEST_F(Solids, NoBallIsPutIntoABlock) {
+TEST_F(Occluders, NoBallIsPutIntoABlock) {
   const std::vector<Box> blocks = {{{4.0, 0.0}, {3.6, 10.0}}, {{-4.0, 0.0}, {3.6, 10.0}}};
   const Scenario scenario = read_scenario(write(scenario_among(blocks, generator(0))), {}, obj_solid);
   for (const Ball& ball : scenario.world.balls)
@@ -124,7 +124,7 @@ std::vector<Ball> lattice(const std::vector<Wall>& walls) {
   return balls;
 }
 
-TEST_F(Solids, BoxesHideWhatWallsInTheirPlacesHide) {
+TEST_F(Occluders, BoxesHideWhatWallsInTheirPlacesHide) {
   Scenario scenario = read_scenario(write(scenario_among(kBoxes, generator(3))), {}, obj_solid);
   World bare = scenario.world;
   bare.meshes.clear();
@@ -146,7 +146,7 @@ TEST_F(Solids, BoxesHideWhatWallsInTheirPlacesHide) {
 }
 
 // The fence leaves 0.8 m beside the drive, and things are tried for up to 3 m from it.
-TEST_F(Solids, ThingsAreStrewnClearOfThemAndOnTheDrivesSide) {
+TEST_F(Occluders, ThingsAreStrewnClearOfThemAndOnTheDrivesSide) {
   const std::vector<Box> fence = {{{2.4, 0.0}, {0.2, 5.0}},
                                   {{-2.4, 0.0}, {0.2, 5.0}},
                                   {{0.0, 2.4}, {5.0, 0.2}},
@@ -155,22 +155,22 @@ TEST_F(Solids, ThingsAreStrewnClearOfThemAndOnTheDrivesSide) {
       write(scenario_among(fence, "  balls: [{colour: 0, at_m: [0, 0, 0.1]}]\n")),
       {"randomise={clutter: {count: 9, size_m: [0.1, 0.3], range_m: [0.4, 3], clearance_m: 0.2}}"},
       obj_solid);
-  std::size_t strewn = 0, beside_fence = 0;
+  std::size_t scattered = 0, beside_fence = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     for (const MeshInstance& mesh : world_for_seed(scenario, seed).meshes) {
       if (mesh.shape == MeshShape::kFile) continue;
       const double out_m = mesh.position_m.head<2>().lpNorm<Eigen::Infinity>();
       EXPECT_LT(out_m + 0.5 * mesh.scale.head<2>().minCoeff(), 2.3) << seed;
-      ++strewn;
+      ++scattered;
       beside_fence += out_m > 1.7 ? 1 : 0;
     }
   }
-  EXPECT_GE(strewn, 40U);
+  EXPECT_GE(scattered, 40U);
   EXPECT_GE(beside_fence, 5U) << "too far from it";
 }
 
 // A column reaches up to the ball on it and hides it from none but those below.
-TEST_F(Solids, ABallIsSeenOnWhatCarriesIt) {
+TEST_F(Occluders, ABallIsSeenOnWhatCarriesIt) {
   const Scenario& scenario = everything();
   World bare = scenario.world;
   bare.meshes.clear();
@@ -199,7 +199,7 @@ int times_asked(const std::filesystem::path& file, const std::vector<std::string
   return asked;
 }
 
-TEST_F(Solids, AreReadForThoseAloneWhoAsk) {
+TEST_F(Occluders, AreReadForThoseAloneWhoAsk) {
   const auto plain = write(scenario_among(kBoxes, "  balls: [{colour: 0, at_m: [0, 0, 0.1]}]\n"));
   EXPECT_EQ(times_asked(plain, {}), 0);
   EXPECT_EQ(times_asked(plain, {"randomise={light: {}, walls: {}, ball_colours: {}}"}), 0);
@@ -209,7 +209,7 @@ TEST_F(Solids, AreReadForThoseAloneWhoAsk) {
   EXPECT_EQ(times_asked(write(scenario_among(kBoxes, generator(0))), {}), 4);
 }
 
-TEST_F(Solids, NobodyLooksThroughAMeshThatWasNotRead) {
+TEST_F(Occluders, NobodyLooksThroughAMeshThatWasNotRead) {
   const auto file = write(scenario_among(kBoxes, "  balls: [{colour: 0, at_m: [0, 1, 0.1]}]\n"));
   const Scenario scenario = read_scenario(file);
   EXPECT_THROW(balls_in_view(scenario, scenario.world, {0.0, 0.0, 1.57}), std::invalid_argument);

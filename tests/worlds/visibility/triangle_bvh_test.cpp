@@ -15,13 +15,13 @@ bool is_within(std::span<const HalfSpace> halves, const Eigen::Vector3d& point) 
                              [&](const HalfSpace& half) { return half.dot(point.homogeneous()) >= 0.0; });
 }
 
-TEST(TriangleTree, FindsATriangleExactlyWhereThereIsOne) {
+TEST(TriangleBvh, FindsATriangleExactlyWhereThereIsOne) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     slam::RandomStream draws(seed, slam::Stream::kWorld);
     std::vector<TriangleCorners> triangles = random_triangles(draws, static_cast<int>(seed % 40), 1.0);
     if (seed % 3 == 0 && !triangles.empty()) triangles.resize(9, triangles.front());  // all in one place
-    const TriangleTree tree(triangles);
+    const TriangleBvh tree(triangles);
     std::vector<HalfSpace> within;
     for (int i = 0; i < 5; ++i) {
       within.emplace_back();
@@ -37,9 +37,9 @@ TEST(TriangleTree, FindsATriangleExactlyWhereThereIsOne) {
   EXPECT_LT(found, 350);
 }
 
-TEST(TriangleTree, LooksAtFewOfMany) {
+TEST(TriangleBvh, LooksAtFewOfMany) {
   slam::RandomStream draws(1, slam::Stream::kWorld);
-  const TriangleTree tree(random_triangles(draws, 30000, 0.02));
+  const TriangleBvh tree(random_triangles(draws, 30000, 0.02));
   int looked_at = 0;
   const auto count = [&](const TriangleCorners&) { return ++looked_at < 0; };
   const std::vector<HalfSpace> around_a_line = {
