@@ -1,6 +1,9 @@
 #include "harness/logs/log_steps.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "slam/models/motion.h"
 
@@ -10,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kLongestStep_ns = 1'000'000'000;
 constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
+constexpr double kLongestLog_s = 1e6;  // eleven days; steps of a second each have to fit into memory
 
 double seconds(std::int64_t duration_ns) {
   return static_cast<double>(duration_ns) * 1e-9;
@@ -29,8 +33,21 @@ std::vector<std::int64_t> needed_instants(const RecordedStreams& streams) {
   return instants;
 }
 
+void check_span(const std::vector<std::int64_t>& instants) {
+  const double span_s = seconds(instants.back() - instants.front());
+  if (span_s <= kLongestLog_s) return;
+  std::size_t longest = 1;
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    if (instants[i] - instants[i - 1] > instants[longest] - instants[longest - 1]) longest = i;
+  throw std::runtime_error(fmt::format(
+      "expected a log of at most {:.0f} s (got {:.0f} s); nothing was measured between {:.9g} s and {:.9g} "
+      "s: is a time in another unit or of another clock?",
+      kLongestLog_s, span_s, seconds(instants[longest - 1]), seconds(instants[longest])));
+}
+
 /// Adds instants so that no step is longer than the longest, all parts of a gap being equal.
 std::vector<std::int64_t> fill_gaps(const std::vector<std::int64_t>& instants) {
+  check_span(instants);
   std::vector<std::int64_t> filled = {instants.front()};
   for (std::size_t i = 1; i < instants.size(); ++i) {
     const std::int64_t begin_ns = instants[i - 1];

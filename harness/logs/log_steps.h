@@ -20,6 +20,8 @@ namespace stereobench::harness {
 /// of
 ///   their own (MeasurementLog::start_is_true is false).
 /// @param streams each in order of time, with at least one odometry reading
+/// @throws std::runtime_error for a log of more than a million seconds whose steps are not stated: a clock
+/// that jumps
 MeasurementLog steps_from_streams(const RecordedStreams& streams);
 
 }  // namespace stereobench::harness

@@ -106,9 +106,13 @@ RecordedLog read_log(const fs::path& folder_or_file, const LogAssumptions& assum
   facts.odometry_delay_s = delay.delay_s;
   facts.delay_source = delay.source;
   delay_odometry(streams.odometry, delay.delay_s);
-  MeasurementLog log = steps_from_streams(streams);
-  note_truth(log, facts);
-  return {std::move(log), facts};
+  try {
+    MeasurementLog log = steps_from_streams(streams);
+    note_truth(log, facts);
+    return {std::move(log), facts};
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", folder_or_file.string(), error.what()));
+  }
 }
 
 }  // namespace stereobench::harness

@@ -56,6 +56,18 @@ TEST_P(BadMrclamLog, IsRefusedByFileLineAndColumn) {
   EXPECT_THAT(message, testing::HasSubstr(located(GetParam())));
 }
 
+// Found by fuzzing: a clock that jumps made a hundred million steps. Mutation: no look at the span (out of
+// memory).
+TEST(BadLog, OfElevenDaysIsRefusedWithItsLongestGap) {
+  const TestFolder folder;
+  write_small_csv_log(folder);
+  folder.write("log/observations.csv",
+               "t_s,landmark_id,range_m,bearing_rad\n0.5,7,2,0.1\n107777771.5,7,1.5,0.2\n");
+  EXPECT_THAT(message_of(folder.path() / "log"),
+              testing::AllOf(testing::HasSubstr("log: expected a log of at most 1000000 s"),
+                             testing::HasSubstr("and 107777772 s: is a time in another unit")));
+}
+
 const char* const kObs = "observations.csv";
 const char* const kOdo = "odometry.csv";
 #define OBS "t_s,landmark_id,range_m,bearing_rad\n"
