@@ -7,7 +7,7 @@
 #include "harness/detector/detector.h"
 #include "harness/detector_noise/outline_bound.h"
 #include "harness/drive/recording.h"
-#include "harness/vision_scoring/ball_outline.h"
+#include "harness/vision_scoring/frame_match.h"
 #include "renderer/camera/sensor_model.h"
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
@@ -57,20 +57,12 @@ CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend 
   Listeners listeners;
   const worlds::World world = worlds::world_for_seed(gallery, gallery.seeds.front());
   listeners.on_frame = [&](const FrameEvent& event) {
-    const VisionTruth truth = {world, gallery.rig, gallery.path[event.step].pose, event.frame};
-    const std::vector<BallOutline> outlines = ball_outlines(truth);
-    const std::vector<int> balls = balls_observed(truth, event.observations);
-    const std::vector<vision::BallObservation> straight = straightened(gallery.rig, event.observations);
-    for (std::size_t i = 0; i < straight.size(); ++i) {
-      const vision::BallObservation& observation = straight[i];
-      if (!observation.trusted()) continue;
-      const auto ball = std::ranges::find(outlines, balls[i], &BallOutline::ball);
-      if (ball == outlines.end()) continue;
-      const int colour = world.balls[static_cast<std::size_t>(ball->ball)].colour;
-      if (observation.colour != slam::kUnknown && observation.colour != colour) continue;
-      CalibrationSample sample = compare(*ball, observation);
-      sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball->ball_in_robot).z();
-      if (sample.whole) sample.bounds = bounds_of(gallery, world, event.frame, *ball, noise_sd_levels);
+    for (const MatchedObservation& seen : event.match.observations) {
+      if (!seen.undistorted.trusted() || !seen.colour_agrees) continue;
+      const BallOutline& ball = event.match.outlines[*seen.outline];
+      CalibrationSample sample = compare(ball, seen.undistorted);
+      sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball.ball_in_robot).z();
+      if (sample.whole) sample.bounds = bounds_of(gallery, world, event.frame, ball, noise_sd_levels);
       take.samples.push_back(sample);
     }
   };

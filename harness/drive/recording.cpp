@@ -59,13 +59,13 @@ class StereoSense {
     const auto observations = watch.time("observe", [&] {
       return detector_({index, stamp_ns, pair, scenario_.believed_rig});
     });
-    const VisionTruth truth = {world_, scenario_.rig, pose, exposed.frame};
-    score_ += score_observations(truth, observations);
+    const FrameMatch match = match_observations({world_, scenario_.rig, pose, exposed.frame}, observations);
+    score_ += score_match(match);
     const worlds::World& meant = scenario_.world;
     score_.rig +=
         check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_frame({index, exposed.frame, pair, observations, *late_s});
-    return sightings_of(observations, balls_observed(truth, observations), world_.balls, scenario_.identity);
+    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, *late_s});
+    return sightings_of(observations, balls_observed(match), world_.balls, scenario_.identity);
   }
 
   const VisionScore& score() const { return score_; }

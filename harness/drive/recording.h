@@ -23,9 +23,12 @@ using Timing = std::map<std::string, double>;
 /// A frame of the drive: the truth, the exposed pair, and what was detected in it.
 struct FrameEvent {
   std::size_t step;
+  std::int64_t stamp_ns;
+  slam::Pose world_from_robot;  ///< at the step's time
   const renderer::StereoFrame& frame;
   const vision::StereoPair& pair;
   const std::vector<vision::BallObservation>& observations;
+  const FrameMatch& match;
   double late_s = 0.0;  ///< by how much the eyes looked later than the step's time says
 };
 

@@ -64,10 +64,10 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
     const VisionTruth seen = {truth.world, truth.rig, *step.truth, ids};
     try {
       const auto observations = read_detections(lines[i], frame, geometry);
-      score += score_observations(seen, observations);
+      const FrameMatch match = match_observations(seen, observations);
+      score += score_match(match);
       score.rig += check_rig(truth.believed_rig, size, observations);
-      Sightings sightings =
-          sightings_of(observations, balls_observed(seen, observations), truth.world.balls, told);
+      Sightings sightings = sightings_of(observations, balls_observed(match), truth.world.balls, told);
       step.measurements = std::move(sightings.measurements);
       step.true_landmarks = std::move(sightings.balls);
     } catch (const BadLine& bad) {

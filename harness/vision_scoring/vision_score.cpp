@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <Eigen/LU>
 
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
-#include "vision/camera/rig.h"
 
 namespace stereobench::harness {
 
@@ -20,49 +18,6 @@ constexpr double kSmallestRadius_px = 5.0;
 /// A ball has to be found when it is whole, not tiny and hardly hidden.
 bool must_be_found(const BallOutline& ball) {
   return is_whole(ball) && std::min(ball.left.radius_px(), ball.right.radius_px()) >= kSmallestRadius_px;
-}
-
-/// Whether an observation claims no other colour than the ball has.
-bool suits_colour(const VisionTruth& truth, const BallOutline& ball,
-                  const vision::BallObservation& observation) {
-  return observation.colour == slam::kUnknown ||
-         observation.colour == truth.world.balls[static_cast<std::size_t>(ball.ball)].colour;
-}
-
-/// Whether an observation is within a ball's outline in both eyes. Where it says nothing of heights it is
-/// taken to be at the ball's.
-bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::BallObservation& observation) {
-  if (observation.has_pixels)
-    return contains(ball.left, observation.left_px) && contains(ball.right, observation.right_px);
-  const slam::RangeBearing& seen = observation.range_bearing;
-  const auto [s, c] = slam::sine_cosine(seen.bearing_rad);
-  const Eigen::Vector3d in_robot(seen.range_m * c, seen.range_m * s, ball.ball_in_robot.z());
-  const Eigen::Vector3d in_left = vision::robot_from_camera(truth.rig).inverse() * in_robot;
-  const Eigen::Vector3d in_right = vision::point_in_eye(truth.rig, in_left, vision::Eye::kRight);
-  return in_left.z() > 0.0 && in_right.z() > 0.0 &&
-         contains(ball.left, vision::project(truth.rig.camera, in_left)) &&
-         contains(ball.right, vision::project(truth.rig.camera, in_right));
-}
-
-/// The ball under an observation: one whose colour suits it if there is one, else any that is not wholly
-/// hidden; where no pixels tell balls of one direction apart, the one whose range is nearest.
-std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vector<BallOutline>& balls,
-                                      const vision::BallObservation& observation) {
-  std::optional<std::size_t> under;
-  std::pair<bool, double> least;
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const BallOutline& ball = balls[i];
-    const bool hidden = ball.left_fraction <= 0.0 || ball.right_fraction <= 0.0;
-    if (hidden || !is_on(truth, ball, observation)) continue;
-    const double range_gap_m =
-        std::abs(observation.range_bearing.range_m - ball.ball_in_robot.head<2>().norm());
-    const std::pair<bool, double> misfit(!suits_colour(truth, ball, observation),
-                                         observation.has_pixels ? 0.0 : range_gap_m);
-    if (under && misfit >= least) continue;
-    under = i;
-    least = misfit;
-  }
-  return under;
 }
 
 void add_errors(const BallOutline& ball, const vision::BallObservation& observation, VisionScore& score) {
@@ -144,63 +99,39 @@ VisionScore& VisionScore::operator+=(const VisionScore& other) {
   return *this;
 }
 
-std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
-                                                  std::span<const vision::BallObservation> observations) {
-  const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::vector<vision::BallObservation> straight(observations.begin(), observations.end());
-  for (vision::BallObservation& observation : straight) {
-    observation.left_px = vision::pinhole_point(rig, observation.left_px).value_or(nowhere);
-    observation.right_px = vision::pinhole_point(rig, observation.right_px).value_or(nowhere);
-  }
-  return straight;
+double disparity_error_px(const BallOutline& ball, const vision::BallObservation& undistorted) {
+  if (!undistorted.has_pixels) return std::numeric_limits<double>::quiet_NaN();
+  return undistorted.left_px.x() - undistorted.right_px.x() -
+         (ball.left.centre_px.x() - ball.right.centre_px.x());
 }
 
-double disparity_error_px(const BallOutline& ball, const vision::BallObservation& straight) {
-  if (!straight.has_pixels) return std::numeric_limits<double>::quiet_NaN();
-  return straight.left_px.x() - straight.right_px.x() - (ball.left.centre_px.x() - ball.right.centre_px.x());
-}
-
-VisionScore score_observations(const VisionTruth& truth,
-                               std::span<const vision::BallObservation> observations) {
-  const std::vector<BallOutline> balls = ball_outlines(truth);
-  std::vector<bool> found(balls.size(), false);
+VisionScore score_match(const FrameMatch& match) {
+  std::vector<bool> found(match.outlines.size(), false);
   VisionScore score;
-  for (const vision::BallObservation& observation : straightened(truth.rig, observations)) {
-    if (!observation.trusted()) {
+  for (const MatchedObservation& seen : match.observations) {
+    if (!seen.undistorted.trusted()) {
       ++score.flagged;
       continue;
     }
     ++score.observations;
-    const auto under = ball_under(truth, balls, observation);
-    if (!under) {
+    if (!seen.outline) {
       ++score.spurious;
-    } else if (!suits_colour(truth, balls[*under], observation)) {
+    } else if (!seen.colour_agrees) {
       ++score.misidentified;
-    } else if (found[*under]) {
+    } else if (found[*seen.outline]) {
       ++score.repeated;
     } else {
-      found[*under] = true;
+      found[*seen.outline] = true;
       ++score.right;
-      add_errors(balls[*under], observation, score);
+      add_errors(match.outlines[*seen.outline], seen.undistorted, score);
     }
   }
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    if (!must_be_found(balls[i])) continue;
+  for (std::size_t i = 0; i < match.outlines.size(); ++i) {
+    if (!must_be_found(match.outlines[i])) continue;
     ++score.visible;
     score.found += found[i] ? 1 : 0;
   }
   return score;
-}
-
-std::vector<int> balls_observed(const VisionTruth& truth,
-                                std::span<const vision::BallObservation> observations) {
-  const std::vector<BallOutline> balls = ball_outlines(truth);
-  std::vector<int> observed;
-  for (const vision::BallObservation& observation : straightened(truth.rig, observations)) {
-    const auto under = ball_under(truth, balls, observation);
-    observed.push_back(under ? balls[*under].ball : slam::kUnknown);
-  }
-  return observed;
 }
 
 }  // namespace stereobench::harness

@@ -1,18 +1,16 @@
 /// How well balls were found in a stereo pair, against the renderer's truth.
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "harness/vision_scoring/ball_outline.h"
+#include "harness/vision_scoring/frame_match.h"
 #include "harness/vision_scoring/rig_check.h"
-#include "vision/types.h"
 
 namespace stereobench::harness {
 
 /// What became of the balls of some pairs. Scores of any pairs can be merged, in any order.
 struct VisionScore {
-  long visible = 0;                    ///< balls that had to be found, see score_observations
+  long visible = 0;                    ///< balls that had to be found, see score_match
   long found = 0;                      ///< of these, the ones that were
   long observations = 0;               ///< those that are to be trusted
   long right = 0;                      ///< of these, the first of each ball, with the ball's colour
@@ -38,23 +36,11 @@ struct VisionScore {
 };
 
 /// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
-/// radius of at least 5 px, and at least 95 % of it is seen by each eye. An observation is right
-/// when its centres lie within the outlines of a ball of its colour in both eyes; one that claims no colour
-/// is right on any ball, and one without pixels is looked for at the height of each.
-VisionScore score_observations(const VisionTruth& truth,
-                               std::span<const vision::BallObservation> observations);
+/// radius of at least 5 px, and at least 95 % of it is seen by each eye. Of several trusted observations of
+/// one ball the first counts as right.
+VisionScore score_match(const FrameMatch& match);
 
-/// The observations with their centres where a true rig without distortion would have them; NaN where there
-/// is no such place.
-std::vector<vision::BallObservation> straightened(const vision::StereoRig& rig,
-                                                  std::span<const vision::BallObservation> observations);
-
-/// Measured minus true. @param straight one of `straightened` @return NaN for one without pixels
-double disparity_error_px(const BallOutline& ball, const vision::BallObservation& straight);
-
-/// Whose the observations of one pair are, by the same rule.
-/// @return the index of the ball for each observation, kUnknown where there is none
-std::vector<int> balls_observed(const VisionTruth& truth,
-                                std::span<const vision::BallObservation> observations);
+/// Measured minus true. @param undistorted of a MatchedObservation @return NaN for one without pixels
+double disparity_error_px(const BallOutline& ball, const vision::BallObservation& undistorted);
 
 }  // namespace stereobench::harness

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "harness/vision_scoring/ball_outline.h"
+#include "harness/vision_scoring/vision_score.h"
 #include "vision/camera/rig.h"
 
 namespace stereobench::harness {
@@ -83,6 +83,11 @@ inline double seen_fraction(const worlds::Ball& ball, const worlds::Ball& in_fro
   const cv::Mat seen = ball_ids(both, small_rig(), {}, eye) == 1;
   return static_cast<double>(cv::countNonZero(seen)) /
          static_cast<double>(cv::countNonZero(ball_ids(alone, small_rig(), {}, eye)));
+}
+
+inline VisionScore score_observations(const VisionTruth& truth,
+                                      std::span<const vision::BallObservation> observations) {
+  return score_match(match_observations(truth, observations));
 }
 
 }  // namespace stereobench::harness

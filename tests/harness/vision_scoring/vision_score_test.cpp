@@ -72,7 +72,7 @@ TEST(VisionScore, RangeAndBearingAloneTellWhichBallIsMeant) {
     seen.back().has_pixels = false;
     seen.back().left_px = seen.back().right_px = {1.0, 1.0};
   }
-  EXPECT_EQ(balls_observed(scene.truth(), seen), (std::vector{1, 0}));
+  EXPECT_EQ(balls_observed(match_observations(scene.truth(), seen)), (std::vector{1, 0}));
   seen.push_back(seen[0]);
   seen.back().range_bearing.bearing_rad += 0.1;
   seen.push_back(seen[0]);
