@@ -203,8 +203,8 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend,
-                   LightDepth depth)
-    : parts_(std::make_unique<Parts>(world, place_surfaces(checked(world)), rig, backend, depth)) {}
+                   LightDepth depth, const FormReader& read)
+    : parts_(std::make_unique<Parts>(world, place_surfaces(checked(world), read), rig, backend, depth)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
@@ -241,8 +241,10 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
 
 StereoIdBuffers Renderer::id_buffers(const slam::Pose& left_pose, const slam::Pose& right_pose,
                                      const cv::Range& asked) {
-  require(!parts_->lens, "Renderer::sight: not for lenses that distort");
-  const cv::Range rows = parts_->checked_rows(asked);
+  require(!parts_->lens || asked == cv::Range::all(),
+          "Renderer::id_buffers: behind a lens, of all rows alone");
+  const cv::Range rows =
+      parts_->lens ? cv::Range(0, parts_->rig.camera.height_px) : parts_->checked_rows(asked);
   const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
   for (const EyeView& view : {left, right}) {
     parts_->look_through(view);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "renderer/surfaces/mesh_surfaces.h"
 #include "renderer/truth/id_buffer.h"
 #include "renderer/types.h"
 #include "slam/types.h"
@@ -20,8 +21,9 @@ class Renderer {
   /// the
   ///   world is not finite, has no size, or there are more than 254 balls
   /// @param depth of the light in its pictures: expose.h says which cameras need more than eight bits
+  /// @param read meshes
   Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa,
-           LightDepth depth = LightDepth::kEightBits);
+           LightDepth depth = LightDepth::kEightBits, const FormReader& read = read_form);
   ~Renderer();
   Renderer(Renderer&& other) noexcept;
   Renderer& operator=(Renderer&& other) noexcept;
@@ -56,7 +58,10 @@ class Renderer {
   /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
   /// want more truth than a frame carries (eye_truth.h, correspondence.h).
   /// @param rows of the picture, those that look now; the views are of a picture of these alone
-  /// @throws std::invalid_argument as render, and for lenses that distort: theirs is bent_sight.h
+  ///
+  /// Behind a lens that distorts they are those of the rig's pinhole (lens.h), from which distorted_ids.h
+  /// makes the lens' own; then all rows are asked for.
+  /// @throws std::invalid_argument as render
   StereoIdBuffers id_buffers(const slam::Pose& left_pose, const slam::Pose& right_pose,
                              const cv::Range& rows = cv::Range::all());
 

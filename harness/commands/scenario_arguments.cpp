@@ -22,10 +22,12 @@ void add_eyes_options(CLI::App& command, ScenarioArguments& arguments) {
   add_set_option(command, arguments.overrides);
   add_backend_option(command, arguments.backend);
   command
-      .add_option("--detector", arguments.detector,
-                  "a program that finds the balls, e.g. 'python3 my_detector.py': it is shown frames and "
-                  "answers in lines of JSON (docs/guide/detectors.md)")
-      ->type_name("COMMAND");
+      .add_option(
+          "--detector", arguments.detector,
+          "what finds the balls: a detector that is linked in, by its name (ours is 'stereobench'), or a "
+          "program, e.g. 'python3 my_detector.py', that is shown frames and answers in lines of JSON "
+          "(docs/guide/detectors.md)")
+      ->type_name("NAME|COMMAND");
   command
       .add_option("--detector-timeout-s", arguments.detector_timeout_s,
                   "how long it may think about a frame (default: 30, or as the scenario says)")

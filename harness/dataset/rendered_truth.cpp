@@ -11,7 +11,6 @@
 #include "harness/dataset/truth_pictures.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/picture_file.h"
-#include "renderer/camera/lens.h"
 #include "renderer/truth/ball_truth.h"
 #include "renderer/truth/distorted_ids.h"
 #include "worlds/drive/path.h"
@@ -56,11 +55,6 @@ cv::Mat surface_picture(const cv::Mat& surface) {
   return narrow;
 }
 
-/// What draws straight lines for a rig.
-vision::StereoRig straight_rig(const vision::StereoRig& rig) {
-  return rig.distortion == vision::Distortion{} ? rig : renderer::pinhole_rig_of(rig);
-}
-
 }  // namespace
 
 /// One eye at one step.
@@ -69,17 +63,17 @@ struct RenderedTruth::EyeFrameEvent {
   Eye eye;
   const cv::Mat& ball_id;
   double late_s;
+  renderer::Renderer& renderer;
 };
 
 RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
                              const worlds::Scenario& scenario, const worlds::World& world,
-                             renderer::Backend backend)
+                             const renderer::FormReader& read)
     : folder_(std::move(folder)),
       request_(std::move(request)),
       scenario_(scenario),
       world_(world),
-      scene_(world),
-      renderer_(world, straight_rig(scenario.rig), backend) {
+      scene_(world, read) {
   require_truth(request_, scenario);
   const std::size_t surfaces =
       static_cast<std::size_t>(renderer::first_mesh_facet(world)) + world.meshes.size();
@@ -115,33 +109,35 @@ bool RenderedTruth::has_all(const EyeFrameEvent& event) const {
 
 void RenderedTruth::write(const FrameEvent& event) {
   buffers_.erase(buffers_.begin(), buffers_.lower_bound(event.step));
-  write_eye({event.step, Eye::kLeft, event.frame.left.ball_id, event.late_s});
-  write_eye({event.step, Eye::kRight, event.frame.right.ball_id, event.late_s});
+  write_eye({event.step, Eye::kLeft, event.frame.left.ball_id, event.late_s, *event.renderer});
+  write_eye({event.step, Eye::kRight, event.frame.right.ball_id, event.late_s, *event.renderer});
 }
 
-StereoIdBuffers RenderedTruth::sight_of(const RowBand& band, std::size_t step, double late_s) {
+StereoIdBuffers RenderedTruth::id_buffers_of(renderer::Renderer& renderer, const RowBand& band,
+                                             std::size_t step, double late_s) const {
   const double offset_s = late_s + band.offset_s;
   const slam::Pose left = worlds::pose_near(scenario_.path, step, offset_s);
   const slam::Pose right =
       worlds::pose_near(scenario_.path, step, offset_s + scenario_.shutter.right_delay_s);
-  if (scenario_.rig.distortion == vision::Distortion{}) return renderer_.id_buffers(left, right, band.rows);
-  const StereoIdBuffers undistorted = renderer_.id_buffers(left, right);
+  if (scenario_.rig.distortion == vision::Distortion{}) return renderer.id_buffers(left, right, band.rows);
+  const StereoIdBuffers undistorted = renderer.id_buffers(left, right);
   return {renderer::distorted_ids(scene_, undistorted.left, scenario_.rig),
           renderer::distorted_ids(scene_, undistorted.right, scenario_.rig)};
 }
 
 /// What the eyes look at, by bands of rows; one where all rows look at once.
-const std::vector<StereoIdBuffers>& RenderedTruth::id_buffers_at(std::size_t step, double late_s) {
+const std::vector<StereoIdBuffers>& RenderedTruth::id_buffers_at(renderer::Renderer& renderer,
+                                                                 std::size_t step, double late_s) {
   const auto [known, is_new] = buffers_.try_emplace(step);
   if (!is_new) return known->second;
   for (const RowBand& band : row_bands(scenario_.shutter, scenario_.rig.camera.height_px))
-    known->second.push_back(sight_of(band, step, late_s));
+    known->second.push_back(id_buffers_of(renderer, band, step, late_s));
   return known->second;
 }
 
 renderer::EyeTruth RenderedTruth::truth_of(const EyeFrameEvent& event) {
   renderer::EyeTruth whole;
-  for (const StereoIdBuffers& band : id_buffers_at(event.step, event.late_s)) {
+  for (const StereoIdBuffers& band : id_buffers_at(event.renderer, event.step, event.late_s)) {
     const renderer::EyeTruth rows = renderer::eye_truth(scene_, eye_of(band, event.eye));
     whole.surface.push_back(rows.surface);
     whole.range_m.push_back(rows.range_m);
@@ -163,7 +159,7 @@ void RenderedTruth::write_eye(const EyeFrameEvent& event) {
   if (has_all(event)) return;
   if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal))
     write_pictures(event);
-  const StereoIdBuffers ids = id_buffers_at(event.step, event.late_s).front();
+  const StereoIdBuffers ids = id_buffers_at(event.renderer, event.step, event.late_s).front();
   if (wants(TruthKind::kBalls)) {
     const auto truths = renderer::ball_truths(world_, eye_of(ids, event.eye).view, event.ball_id);
     write_file_atomically(file(event.step, event.eye, TruthKind::kBalls), ball_lines(world_, truths));
@@ -171,7 +167,8 @@ void RenderedTruth::write_eye(const EyeFrameEvent& event) {
   for (const TruthKind kind : {TruthKind::kDisparity, TruthKind::kMatch})
     if (wants(kind)) write_shift(event, kind, eye_of(ids, other(event.eye)));
   if (wants(TruthKind::kFlow) && event.step + 1 < scenario_.path.size())
-    write_shift(event, TruthKind::kFlow, eye_of(id_buffers_at(event.step + 1, 0.0).front(), event.eye));
+    write_shift(event, TruthKind::kFlow,
+                eye_of(id_buffers_at(event.renderer, event.step + 1, 0.0).front(), event.eye));
 }
 
 void RenderedTruth::write_shift(const EyeFrameEvent& event, TruthKind kind, const IdBuffer& to) const {

@@ -32,13 +32,14 @@ class RenderedTruth {
  public:
   /// @param folder of the data set, which exists
   /// @param scenario, world as they are rendered; they outlive this
+  /// @param read meshes
   /// @throws std::runtime_error as require_truth, when the folder cannot be written, a mesh cannot be read,
   /// or there are more surfaces
   ///   than 16 bits can number
   RenderedTruth(std::filesystem::path folder, TruthRequest request, const worlds::Scenario& scenario,
-                const worlds::World& world, renderer::Backend backend);
+                const worlds::World& world, const renderer::FormReader& read);
 
-  /// Writes a step's files that are not there yet. Steps come in order.
+  /// Writes a step's files that are not there yet. Steps come in order, each with its renderer.
   void write(const FrameEvent& event);
 
   /// Writes surfaces.csv, where surfaces were asked for.
@@ -49,8 +50,10 @@ class RenderedTruth {
   bool wants(TruthKind kind) const;
   std::filesystem::path file(std::size_t step, vision::Eye eye, TruthKind kind) const;
   bool has_all(const EyeFrameEvent& event) const;
-  renderer::StereoIdBuffers sight_of(const RowBand& band, std::size_t step, double late_s);
-  const std::vector<renderer::StereoIdBuffers>& id_buffers_at(std::size_t step, double late_s);
+  renderer::StereoIdBuffers id_buffers_of(renderer::Renderer& renderer, const RowBand& band, std::size_t step,
+                                          double late_s) const;
+  const std::vector<renderer::StereoIdBuffers>& id_buffers_at(renderer::Renderer& renderer, std::size_t step,
+                                                              double late_s);
   renderer::EyeTruth truth_of(const EyeFrameEvent& event);
   void write_eye(const EyeFrameEvent& event);
   void write_pictures(const EyeFrameEvent& event);
@@ -61,7 +64,6 @@ class RenderedTruth {
   const worlds::Scenario& scenario_;
   const worlds::World& world_;
   renderer::SceneGeometry scene_;
-  renderer::Renderer renderer_;
   std::map<std::size_t, std::vector<renderer::StereoIdBuffers>>
       buffers_;  // of this step and the next, by bands
 };

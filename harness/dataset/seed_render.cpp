@@ -12,6 +12,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
+#include "renderer/surfaces/mesh_cache.h"
 #include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
@@ -28,7 +29,9 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   if (dataset.is_complete()) return {.was_complete = true};
   RenderedSeed rendered = {.spoilt = dataset.spoilt()};
   std::optional<RenderedTruth> truth;
-  if (!task.truth.kinds.empty()) truth.emplace(task.folder, task.truth, scenario, world, task.backend);
+  renderer::MeshCache meshes;  // for the pictures and for the truth
+  const renderer::FormReader read = task.truth.kinds.empty() ? renderer::read_form : meshes.forms();
+  if (!task.truth.kinds.empty()) truth.emplace(task.folder, task.truth, scenario, world, read);
   Listeners listeners;
   listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
   listeners.on_progress = on_progress;
@@ -37,7 +40,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
     if (truth) truth->write(event);
     ++rendered.pairs;
   };
-  const Recording recording = record(scenario, task.seed, listeners, task.backend);
+  const Recording recording = record(scenario, task.seed, listeners, task.backend, {}, read);
   prepare_output_folder(task.folder);  // where the shutter dropped every frame it is not there yet
   if (truth) truth->finish();
   const std::string draws = draws_jsonl(scenario, std::array{task.seed});

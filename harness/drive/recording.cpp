@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "harness/detector/detector_process.h"
+#include "harness/detector/detector_registry.h"
 #include "harness/drive/shutter.h"
 #include "harness/drive/sightings.h"
 #include "harness/process/stopwatch.h"
@@ -37,11 +38,11 @@ Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world,
 class StereoSense {
  public:
   StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
-              renderer::Backend backend, Detector detector)
+              renderer::Backend backend, Detector detector, const renderer::FormReader& read)
       : scenario_(scenario),
         world_(world),
         seed_(seed),
-        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera)),
+        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera), read),
         detector_(std::move(detector)) {}
 
   Sightings sense(std::size_t index, const slam::Pose& pose,
@@ -64,7 +65,7 @@ class StereoSense {
     const worlds::World& meant = scenario_.world;
     score_.rig +=
         check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, *late_s});
+    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, *late_s, &renderer_});
     return sightings_of(observations, balls_observed(match), world_.balls, scenario_.identity);
   }
 
@@ -116,7 +117,7 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
 }  // namespace
 
 Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
-                 renderer::Backend backend, const Detector& detector) {
+                 renderer::Backend backend, const Detector& detector, const renderer::FormReader& read) {
   Recording recording;
   const worlds::World world = worlds::world_for_seed(scenario, seed);
   recording.log.landmarks = landmarks_of(world);
@@ -126,19 +127,21 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
     return recording;
   }
   const DetectorSetup setup = detector_setup(scenario);
+  const std::string& command = scenario.detector.command;
+  const DetectorKind* const linked = find_detector(command.empty() ? kOurs : command);
   std::optional<DetectorProcess> program;
-  if (!detector && !scenario.detector.command.empty())
-    program.emplace(scenario.detector, setup, fmt::format("seed {}", seed));
+  if (!detector && !linked) program.emplace(scenario.detector, setup, fmt::format("seed {}", seed));
   StereoSense stereo(scenario, world, seed, backend,
                      program    ? Detector(std::ref(*program))
                      : detector ? detector
-                                : our_detector(setup));
+                                : linked->make(setup),
+                     read);
   const auto sense = [&](std::size_t index, const slam::Pose& pose) {
     return listeners.is_wanted(index) ? stereo.sense(index, pose, listeners.on_frame) : Sightings();
   };
   drive(scenario, seed, sense, recording.log, listeners.on_progress);
   if (program) program->finish();
-  recording.detector = program ? scenario.detector.command : detector ? kCallable : kOurs;
+  recording.detector = detector ? kCallable : command.empty() ? kOurs : command;
   recording.vision = stereo.score();
   recording.blur = stereo.blur();
   recording.timing = stereo.timing();

@@ -12,6 +12,7 @@
 #include "harness/drive/coarse_blur.h"
 #include "harness/types.h"
 #include "harness/vision_scoring/vision_score.h"
+#include "renderer/renderer.h"
 #include "renderer/types.h"
 #include "worlds/types.h"
 
@@ -23,13 +24,14 @@ using Timing = std::map<std::string, double>;
 /// A frame of the drive: the truth, the exposed pair, and what was detected in it.
 struct FrameEvent {
   std::size_t step;
-  std::int64_t stamp_ns;
+  std::int64_t stamp_ns = 0;
   slam::Pose world_from_robot;  ///< at the step's time
   const renderer::StereoFrame& frame;
   const vision::StereoPair& pair;
   const std::vector<vision::BallObservation>& observations;
   const FrameMatch& match;
-  double late_s = 0.0;  ///< by how much the eyes looked later than the step's time says
+  double late_s = 0.0;                     ///< by how much the eyes looked later than the step's time says
+  renderer::Renderer* renderer = nullptr;  ///< that made the pictures, for those who want more of the truth
 };
 
 /// Who wants to be told while a drive goes on, and of which steps.
@@ -55,11 +57,13 @@ struct Recording {
 /// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
 /// @param listeners told of each look (sensors with pixels only) and of the progress
 /// @param backend what renders, for a sensor with pixels
+/// @param read meshes
 /// @param detector who looks at the pairs; empty: the program that the scenario names, or the vision stage
 /// @return the log with truth, and how vision scored
 /// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read; DetectorFault
 ///   when the program does not do what it should
 Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
-                 renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {});
+                 renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {},
+                 const renderer::FormReader& read = renderer::read_form);
 
 }  // namespace stereobench::harness

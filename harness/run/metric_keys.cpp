@@ -81,7 +81,9 @@ constexpr SummaryKey kSingles[] = {
      "Pairs whose motion blur is drawn in steps of more than a pixel, as shutter.most_samples is too few."},
     {"renderer.blur.most_step_px",
      "Longest step between two renderings of a blurred pair; 0 where nothing is blurred."},
-    {"detector", "Who found the balls: stereobench, a program's command, callable, file, or none."},
+    {"detector",
+     "Who found the balls: a linked detector's name (stereobench: ours), a program's command, callable, "
+     "file, or none."},
     {"vision.recall",
      "Part of the balls to be found that were found; at least 95 % of those is seen by both eyes."},
     {"vision.precision",

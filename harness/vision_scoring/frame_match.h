@@ -16,8 +16,8 @@ namespace stereobench::harness {
 struct MatchedObservation {
   vision::BallObservation undistorted;  ///< its centres where a true rig without distortion would have them;
                                         ///< NaN where there is no such place
-  std::optional<std::size_t> outline;  ///< index into FrameMatch::outlines; none: it is of no ball
-  bool colour_agrees = false;          ///< it claims the ball's colour, or none
+  std::optional<std::size_t> outline;   ///< index into FrameMatch::outlines; none: it is of no ball
+  bool colour_agrees = false;           ///< it claims the ball's colour, or none
 };
 
 /// The balls of a pair and its observations.

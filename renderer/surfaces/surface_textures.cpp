@@ -48,8 +48,8 @@ class Album {
 
 }  // namespace
 
-Surfaces place_surfaces(const worlds::World& world) {
-  Surfaces surfaces{place_meshes(world), {}};
+Surfaces place_surfaces(const worlds::World& world, const FormReader& read) {
+  Surfaces surfaces{place_meshes(world, read), {}};
   Album album(world.mesh_limits, surfaces.meshes.textures);
   const auto add = [&](worlds::Material material, const worlds::SurfaceTexture& texture) {
     surfaces.polygons.push_back(material == worlds::Material::kFile ? album.place(texture)

@@ -31,6 +31,6 @@ struct Surfaces {
 /// Reads meshes and the textures of walls and of the floor, each file once.
 /// @throws std::runtime_error as place_meshes, or, one line, where the scenario names a texture and what is
 /// wrong with it
-Surfaces place_surfaces(const worlds::World& world);
+Surfaces place_surfaces(const worlds::World& world, const FormReader& read = read_form);
 
 }  // namespace stereobench::renderer

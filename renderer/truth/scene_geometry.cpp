@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "renderer/surfaces/mesh_surfaces.h"
-
 namespace stereobench::renderer {
 namespace {
 
@@ -55,7 +53,7 @@ bool SceneGeometry::Flat::contains(double s, double t) const {
   return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
 }
 
-std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& world) {
+std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& world, const FormReader& read) {
   std::vector<Flat> flats;
   flats.emplace_back(world.has_floor ? Shape::kPlane : Shape::kNothing, kFloorFacet, Eigen::Vector3d::Zero(),
                      Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
@@ -66,7 +64,7 @@ std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& wo
                        Eigen::Vector3d(wall.from_m.x(), wall.from_m.y(), 0.0),
                        Eigen::Vector3d(run.x(), run.y(), 0.0), wall.height_m * Eigen::Vector3d::UnitZ());
   }
-  const MeshSurfaces meshes = place_meshes(world);
+  const MeshSurfaces meshes = place_meshes(world, read);
   for (const MeshRun& run : meshes.runs) {
     for (int i = run.first; i < run.first + run.count; i += 3) {
       const SurfaceVertex* corners = &meshes.vertices[static_cast<std::size_t>(i)];
@@ -78,8 +76,8 @@ std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& wo
   return flats;
 }
 
-SceneGeometry::SceneGeometry(const worlds::World& world)
-    : balls_(world.balls), flats_(flats_of(world)), tree_(boxes_of(flats_)) {}
+SceneGeometry::SceneGeometry(const worlds::World& world, const FormReader& read)
+    : balls_(world.balls), flats_(flats_of(world, read)), tree_(boxes_of(flats_)) {}
 
 std::vector<Eigen::AlignedBox3d> SceneGeometry::boxes_of(const std::vector<Flat>& flats) {
   std::vector<Eigen::AlignedBox3d> boxes;

@@ -6,16 +6,18 @@
 #include <Eigen/Core>
 
 #include "renderer/surfaces/facets.h"
+#include "renderer/surfaces/mesh_surfaces.h"
 #include "renderer/truth/ray.h"
 #include "worlds/visibility/bvh.h"
 
 namespace stereobench::renderer {
 
-/// Everything that can be seen of a world. Meshes are read anew: a renderer keeps theirs in GL alone.
+/// Everything that can be seen of a world.
 class SceneGeometry {
  public:
-  /// @throws std::runtime_error as read_mesh
-  explicit SceneGeometry(const worlds::World& world);
+  /// @param read meshes; those of a renderer lie in GL alone, a MeshCache serves both
+  /// @throws std::runtime_error as read_form
+  explicit SceneGeometry(const worlds::World& world, const FormReader& read = read_form);
 
   /// The parameter at which a ray enters a facet.
   /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
@@ -55,7 +57,7 @@ class SceneGeometry {
     int surface;
     Eigen::Vector3d corner, along, up, normal, dual_along, dual_up;
   };
-  static std::vector<Flat> flats_of(const worlds::World& world);
+  static std::vector<Flat> flats_of(const worlds::World& world, const FormReader& read);
   static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
   const Flat& flat(int facet) const { return flats_[static_cast<std::size_t>(facet - kFloorFacet)]; }
   const worlds::Ball& ball(int facet) const { return balls_[static_cast<std::size_t>(facet - 1)]; }

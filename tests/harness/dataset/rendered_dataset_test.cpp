@@ -77,7 +77,8 @@ const MeasurementLog kOneStep{.start = {}, .steps = {{.truth = slam::Pose{}}}, .
 void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
   const renderer::EyeFrame eye{cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(level)), cv::Mat(4, 6, CV_8UC1, level),
                                cv::Mat(4, 6, CV_32FC1, cv::Scalar(level))};
-  dataset.write({step, {eye, eye}, {eye.colour, eye.colour}, {}});
+  dataset.write(
+      {.step = step, .frame = {eye, eye}, .pair = {eye.colour, eye.colour}, .observations = {}, .match = {}});
 }
 
 // Mutation: writing frames over again.

@@ -37,12 +37,17 @@ struct Drive {
   }
   RenderedTruth truth(const TestFolder& folder, const std::string& kinds,
                       TruthFormat format = TruthFormat::kExact) const {
-    return {
-        folder.path(), {parse_truth(kinds), format}, scenario, scenario.world, renderer::Backend::kOsmesa};
+    return {folder.path(), {parse_truth(kinds), format}, scenario, scenario.world, renderer::read_form};
   }
   void write(RenderedTruth& truth, std::size_t step) const {
+    renderer::Renderer renderer(scenario.world, scenario.rig);
     const renderer::StereoFrame seen = frame(step);
-    truth.write({step, seen, {seen.left.colour, seen.right.colour}, {}});
+    truth.write({.step = step,
+                 .frame = seen,
+                 .pair = {seen.left.colour, seen.right.colour},
+                 .observations = {},
+                 .match = {},
+                 .renderer = &renderer});
   }
 };
 

@@ -35,8 +35,15 @@ worlds::Scenario turning() {
 cv::Mat written_surface(const worlds::Scenario& scenario, const renderer::StereoFrame& frame, double late_s) {
   const TestFolder folder;
   RenderedTruth truth(folder.path(), {parse_truth("surface,range,normal")}, scenario, scenario.world,
-                      renderer::Backend::kOsmesa);
-  truth.write({1, frame, {frame.left.colour, frame.right.colour}, {}, late_s});
+                      renderer::read_form);
+  renderer::Renderer renderer(scenario.world, scenario.rig);
+  truth.write({.step = 1,
+               .frame = frame,
+               .pair = {frame.left.colour, frame.right.colour},
+               .observations = {},
+               .match = {},
+               .late_s = late_s,
+               .renderer = &renderer});
   return cv::imread((folder.path() / "left_surface/000001.png").string(), cv::IMREAD_UNCHANGED);
 }
 
