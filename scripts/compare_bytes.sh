@@ -33,7 +33,7 @@ write_all() {
   stereobench lens run "$scenarios/ball_circle.yaml" --seeds 0 --set path.laps=0.1 --set rig.distortion=[-0.1,0.02,0,0,0] \
     --out lens
   stereobench dataset render "$scenarios/ball_circle.yaml" --truth all --set path.laps=0.05 --out dataset
-  stereobench rooms render "$scenarios/room.yaml" --truth all --seeds 0 --frames 0..2 --out rooms
+  stereobench meshes render "$scenarios/office.yaml" --truth all --seeds 0 --frames 0..2 --out meshes
   stereobench replay slam dataset --seeds 0..1 --out replay
   stereobench detect detect dataset --draw drawn --out detections.jsonl
   stereobench calibrate calibrate "$scenarios/ball_circle.yaml" --seeds 0..3 --out calibrate
@@ -41,12 +41,13 @@ write_all() {
     --seeds 0..1 --out sweep
   stereobench plan world "$scenarios/corridor.yaml" -o plan.svg
   stereobench schema schema -o schema.json
-  stereobench metrics metrics
 }
 
-(write_all "$before" "$place/before") &
-(write_all "$after" "$place/after")
-wait $!
+(write_all "$before" "$place/before") & other=$!
+status=0
+(write_all "$after" "$place/after") || status=$?
+wait "$other" || status=$?
+[ "$status" -eq 0 ] || exit 2
 # Times differ from run to run, and where a command prints one the line names its seconds.
 find "$place" \( -name timing.json -o -name '*.err' \) -delete
 sed -i -E '/ [0-9.]+ m?s\b.*(took|second|pair)|seconds/d' "$place"/*/*.out
