@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "slam/filter_config.h"
-#include "slam/filter_names.h"
+#include "slam/filter_registry.h"
 #include "slam/types.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"

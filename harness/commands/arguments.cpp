@@ -11,7 +11,7 @@
 #include "harness/commands/talk.h"
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
-#include "slam/filter_names.h"
+#include "slam/filter_registry.h"
 #include "worlds/scenario/seeds.h"
 #include "worlds/yaml/advice.h"
 

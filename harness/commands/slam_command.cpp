@@ -22,7 +22,7 @@
 #include "harness/run/seed_drive.h"
 #include "harness/run/serialise.h"
 #include "harness/scoring/references.h"
-#include "slam/filter_names.h"
+#include "slam/filter_registry.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "slam/filter_registry.h"
 #include "slam/math/angles.h"
 
 namespace stereobench::harness {
@@ -68,14 +69,7 @@ Stroke filter_stroke(const std::string& filter) {
 }
 
 std::string filter_title(const std::string& filter) {
-  if (filter == "dead_reckoning") return "dead reckoning";
-  if (filter == "ekf") return "EKF-SLAM";
-  if (filter == "fastslam1") return "FastSLAM 1.0";
-  if (filter == "fastslam2") return "FastSLAM 2.0";
-  if (filter == "ufastslam") return "UFastSLAM";
-  if (filter == "ufastslam_kim") return "UFastSLAM, stacked";
-  if (filter == "fastslam2_block") return "FastSLAM 2.0 in blocks";
-  if (filter == "ufastslam_block") return "UFastSLAM in blocks";
+  if (const slam::FilterKind* const kind = slam::find_filter_kind(filter)) return std::string(kind->title);
   if (filter == "batch") return "whole log at once";
   return filter;
 }

@@ -9,7 +9,7 @@
 
 #include "harness/drive/recording.h"
 #include "harness/types.h"
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {

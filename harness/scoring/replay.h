@@ -5,7 +5,7 @@
 #include <string>
 
 #include "harness/types.h"
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 
 namespace stereobench::harness {
 

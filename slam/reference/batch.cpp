@@ -9,7 +9,7 @@
 
 #include <ceres/ceres.h>
 
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "slam/math/gaussian.h"
 #include "slam/models/linearised.h"
 #include "slam/models/measurement.h"

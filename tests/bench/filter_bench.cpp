@@ -8,7 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "slam/models/motion.h"
 
 namespace stereobench {

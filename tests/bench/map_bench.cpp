@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "slam/models/measurement.h"
 
 namespace stereobench {

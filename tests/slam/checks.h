@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "slam/models/measurement.h"
 #include "slam/models/motion.h"
 

@@ -1,6 +1,4 @@
 // The contract that every filter keeps.
-#include "slam/filter.h"
-
 #include <limits>
 #include <stdexcept>
 
@@ -8,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "slam/filter_registry.h"
 #include "tests/slam/checks.h"
 #include "tests/slam/named_filters.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "slam/filter_names.h"
+#include "slam/filter_registry.h"
 #include "worlds/generate/randomise.h"
 #include "worlds/scenario/generator.h"
 #include "worlds/scenario/scenario_checks.h"

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 
 namespace stereobench::harness {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "slam/block/backward_sampling.h"
 #include "slam/block/joint_moments.h"
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "tests/slam/checks.h"
 #include "tests/slam/nasty_drive.h"
 

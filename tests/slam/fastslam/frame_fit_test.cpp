@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/fastslam/pose_correction.h"
-#include "slam/filter.h"
+#include "slam/filter_registry.h"
 #include "slam/math/random.h"
 #include "slam/models/linearised.h"
 #include "slam/models/measurement.h"
