@@ -21,6 +21,7 @@
 #include "harness/run/run_output.h"
 #include "harness/run/seed_drive.h"
 #include "harness/run/serialise.h"
+#include "harness/scoring/association_score.h"
 #include "harness/scoring/references.h"
 #include "slam/filter_registry.h"
 
@@ -88,13 +89,6 @@ RunResult result_without_runs(const SlamArguments& arguments) {
   if (!arguments.detections.empty()) nothing_yet.vision = VisionScore{};
   for (const std::string& filter : arguments.run.filters) nothing_yet.filters.push_back({.filter = filter});
   return nothing_yet;
-}
-
-bool knows_identities(const MeasurementLog& log) {
-  return std::ranges::all_of(log.steps, [](const LogStep& step) {
-    return std::ranges::all_of(
-        step.measurements, [](const slam::RangeBearing& seen) { return seen.landmark_id != slam::kUnknown; });
-  });
 }
 
 void print_summary(const RunResult& result, std::size_t seeds, const RecordedLog& recorded) {
