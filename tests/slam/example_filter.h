@@ -16,8 +16,8 @@ class ExampleFilter {
   void predict(const Control& control) {
     if (!moves_) speed_mps_ = control.v_mps;
     moves_ = true;
-    pose_.x_m += speed_mps_ * std::cos(pose_.heading_rad) * control.dt_s;
-    pose_.y_m += speed_mps_ * std::sin(pose_.heading_rad) * control.dt_s;
+    pose_.x_m += speed_mps_ * std::cos(pose_.heading_rad) * control.duration_s;
+    pose_.y_m += speed_mps_ * std::sin(pose_.heading_rad) * control.duration_s;
   }
   void update(std::span<const RangeBearing>) {}
   Estimate estimate() const { return {.pose = pose_}; }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "slam/fastslam/fast_slam.h"
 #include "slam/fastslam/pose_correction.h"
 #include "slam/filter_registry.h"
 #include "slam/math/random.h"
