@@ -1,0 +1,14 @@
+/// The pages of the guide that list every key, made of the keys' declarations.
+#pragma once
+
+#include <string>
+
+namespace stereobench::harness {
+
+/// docs/guide/scenario_reference.md: the keys of scenario files, a table a group.
+std::string scenario_reference();
+
+/// docs/guide/metrics_reference.md: the keys of run.json, a table a group.
+std::string metrics_reference();
+
+}  // namespace stereobench::harness
