@@ -113,9 +113,9 @@ void add_group(const KeyGroup& group, const std::string& path, std::string& page
 
 /// The first parts of a metric's path: what its table is headed by.
 std::string table_of(const std::string& path) {
-  const bool has_deep_tables = path.starts_with("filters.*.consistency.");
-  std::size_t end = path.find_first_of(".[");
-  if (has_deep_tables) end = path.find('.', path.find("consistency.") + 12);
+  for (const std::string_view deep : {"filters.*.consistency", "filters.*.association", "filters.*.counters"})
+    if (path.starts_with(deep)) return std::string(deep);
+  const std::size_t end = path.find_first_of(".[");
   return end == std::string::npos ? "" : path.substr(0, end);
 }
 

@@ -4,6 +4,7 @@
 /// curvature in the coverage, no coverage, no rim; balls drawn near to far; red and blue exchanged.
 
 #include <cmath>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,10 @@ Seen see_a_ball(std::uint64_t seed, const Sizes& sizes) {
 
 double radius_px(const vision::OutlineEllipse& ellipse) {
   return std::sqrt(ellipse.semi_major_px * ellipse.semi_minor_px);
+}
+
+void PrintTo(const Sizes& value, std::ostream* out) {
+  *out << value.least_px << " to " << value.most_px << " px";
 }
 
 class BallShape : public testing::TestWithParam<Sizes> {};

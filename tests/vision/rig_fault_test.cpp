@@ -1,6 +1,7 @@
 // Rigs that are not as they are believed to be: what is found all the same, claimed of it, and learnt of the
 // rig.
 #include <cmath>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -77,6 +78,10 @@ Outcome drive_with(const Fault& fault) {
   }
   outcome.range_nis /= outcome.trusted;
   return outcome;
+}
+
+void PrintTo(const Fault& value, std::ostream* out) {
+  *out << "turned by " << value.turn_deg.transpose() << " deg, baseline " << value.baseline;
 }
 
 class OfThisRig : public testing::TestWithParam<Fault> {};

@@ -3,6 +3,7 @@
 #include "renderer/meshes/mesh_file.h"
 
 #include <functional>
+#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -141,6 +142,10 @@ struct BadFile {
   std::string text;
   std::string complaint;
 };
+
+void PrintTo(const BadFile& value, std::ostream* out) {
+  *out << value.name;
+}
 
 class BadMesh : public testing::TestWithParam<BadFile> {};
 

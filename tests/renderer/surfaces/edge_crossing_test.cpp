@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,6 +113,10 @@ void add_up(const EyeFrame& eye, const test::FinerEye& fine, const test::RayCast
 struct Pairing {
   Thing front, behind;
 };
+
+void PrintTo(const Pairing& value, std::ostream* out) {
+  *out << name_of(value.front) << " before " << name_of(value.behind);
+}
 
 class Crossings : public testing::TestWithParam<Pairing> {};
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -162,6 +163,10 @@ struct LongWall {
   Eigen::Vector2d from_m, to_m;
   double height_m = 0.45;
 };
+void PrintTo(const LongWall& value, std::ostream* out) {
+  *out << value.from_m.transpose() << " to " << value.to_m.transpose() << " m";
+}
+
 class LongWalls : public testing::TestWithParam<LongWall> {};
 
 // Walls along a street, across the view and far away, and the horizon behind them: seen are 0.09 to 0.18

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -94,6 +95,10 @@ struct Distance {
   double x_m;
   double scale;
 };
+
+void PrintTo(const Distance& value, std::ostream* out) {
+  *out << value.x_m << " m, scale " << value.scale;
+}
 
 class Textured : public testing::TestWithParam<Distance> {};
 

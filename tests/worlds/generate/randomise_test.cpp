@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -205,6 +206,10 @@ struct BadRange {
   std::string text;
   std::string complaint;
 };
+
+void PrintTo(const BadRange& value, std::ostream* out) {
+  *out << value.text;
+}
 
 class BadRandomisation : public testing::TestWithParam<BadRange> {};
 
