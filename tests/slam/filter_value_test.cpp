@@ -57,7 +57,8 @@ TEST_P(Registry, HasATitleAndIsFoundByItsName) {
   EXPECT_EQ(needs_identities(GetParam()), kind->needs_identities);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Registry, ::testing::ValuesIn(filter_names()));
+INSTANTIATE_TEST_SUITE_P(Filters, Registry, ::testing::ValuesIn(filter_names()),
+                         [](const auto& test) { return test.param; });
 
 // Red when a row is there twice.
 TEST(FilterRegistry, NamesAndTitlesAreThereOnce) {

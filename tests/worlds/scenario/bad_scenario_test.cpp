@@ -1,6 +1,5 @@
 // Everything that a scenario file can have wrong: each is refused in one line that names the place and the
 // cure.
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -35,10 +34,6 @@ struct Fault {
   const char* instead;
   const char* complaint;
 };
-
-void PrintTo(const Fault& value, std::ostream* out) {
-  *out << value.piece << " -> " << value.instead;
-}
 
 class BadScenario : public testing::TestWithParam<Fault> {};
 
@@ -309,10 +304,6 @@ struct BadOverride {
   const char* text;
   const char* complaint;
 };
-
-void PrintTo(const BadOverride& value, std::ostream* out) {
-  *out << value.text;
-}
 
 class BadOverrides : public testing::TestWithParam<BadOverride> {};
 
