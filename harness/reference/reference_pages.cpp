@@ -57,21 +57,6 @@ std::string type_of(const Key& key) {
   return lengths.single ? fmt::format("{}, or {}", name, list) : list;
 }
 
-std::string unit_of_key(std::string_view name) {
-  for (const auto& [suffix, unit] :
-       std::vector<std::pair<std::string_view, std::string_view>>{{"_m_per_s", "m/s"},
-                                                                  {"_rad_per_s", "rad/s"},
-                                                                  {"_deg_per_s", "deg/s"},
-                                                                  {"_m", "m"},
-                                                                  {"_px", "px"},
-                                                                  {"_deg", "deg"},
-                                                                  {"_rad", "rad"},
-                                                                  {"_s", "s"},
-                                                                  {"_hz", "Hz"}})
-    if (name.ends_with(suffix)) return std::string(unit);
-  return {};
-}
-
 std::string range_of(const Key& key) {
   if (key.kind == ValueKind::kChoice) return fmt::format("{}", fmt::join(key.names, ", "));
   if (key.kind == ValueKind::kNumber || key.kind == ValueKind::kWhole)
@@ -102,8 +87,9 @@ void add_group(const KeyGroup& group, const std::string& path, std::string& page
   page += fmt::format("\n## {}\n\n", path.empty() ? "Top of the file" : fmt::format("`{}`", path));
   page += "| key | type | unit | range or choices | default | meaning |\n|---|---|---|---|---|---|\n";
   for (const Key& key : group.keys)
-    page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, type_of(key), unit_of_key(key.name),
-                        cell(range_of(key)), cell(default_of(key)), cell(says_of(key)));
+    page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, type_of(key),
+                        unit_of(std::string(key.name)), cell(range_of(key)), cell(default_of(key)),
+                        cell(says_of(key)));
   for (const Key& key : group.keys) {
     if (key.kind != ValueKind::kGroup) continue;
     const std::string below = path.empty() ? std::string(key.name) : fmt::format("{}.{}", path, key.name);
@@ -140,9 +126,8 @@ std::string metrics_reference() {
   }
   std::string page =
       "# Keys of run.json\n\n"
-      "Made by `stereobench metrics --markdown`; do not edit. `*` is the name of a filter, `[]` any entry of "
-      "a "
-      "list.\n[filters_and_scores](filters_and_scores.md) explains the scores.\n";
+      "Made by `stereobench metrics --markdown`; do not edit. `*` is the name of a filter, `[]` any entry\n"
+      "of a list. [filters_and_scores](filters_and_scores.md) explains the scores.\n";
   for (const auto& [name, rows] : tables)
     page += fmt::format("\n## {}\n\n| key | unit | meaning |\n|---|---|---|\n{}",
                         name.empty() ? "Top of the file" : fmt::format("`{}`", name), rows);

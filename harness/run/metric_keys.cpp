@@ -209,9 +209,18 @@ std::string unit_of(const std::string& path) {
   std::string_view name = path;
   for (const std::string_view part : kStatistics)
     if (name.ends_with(part)) name.remove_suffix(part.size());
-  for (const std::string_view unit : {"m", "rad", "px", "s"})
-    if (name.size() > unit.size() && name.ends_with(unit) && name[name.size() - unit.size() - 1] == '_')
-      return std::string(unit);
+  using Unit = std::pair<std::string_view, const char*>;
+  constexpr std::array<Unit, 9> kUnits = {{{"_m", "m"},
+                                           {"_rad", "rad"},
+                                           {"_deg", "deg"},
+                                           {"_px", "px"},
+                                           {"_s", "s"},
+                                           {"_mps", "m/s"},
+                                           {"_radps", "rad/s"},
+                                           {"_degps", "deg/s"},
+                                           {"_mib", "MiB"}}};
+  for (const auto& [suffix, unit] : kUnits)
+    if (name.size() > suffix.size() && name.ends_with(suffix)) return unit;
   return {};
 }
 

@@ -18,7 +18,7 @@ struct MetricKey {
 /// All keys of run.json that have a value: numbers, text, and null where there is none.
 std::vector<MetricKey> metric_keys();
 
-/// The unit that a key's suffix says: "m", "rad", "px", "s", or empty.
+/// The unit that a key's suffix says, e.g. "m" or "m/s"; empty where it says none.
 std::string unit_of(const std::string& path);
 
 /// The keys that a run.json has, each once, as metric_keys() writes them.

@@ -175,7 +175,8 @@ const KeyGroup& scenario_keys() {
           group("believed_rig", believed_rig_keys(), "What vision takes the rig for, where it is wrong."),
           group("camera", camera_keys(), "What the camera makes of the light."),
           group("shutter", shutter_keys(), "When the cameras look."),
-          text("detector", "Command of a program that finds the balls in the pictures.")
+          text("detector",
+               "What finds the balls: the name of a linked detector, or the command of a program.")
               .otherwise_says("our own detector"),
           number("detector_timeout_s", {1e-3, 1e6}, "How long it may think about a frame, in seconds.")
               .otherwise("30"),
