@@ -30,15 +30,15 @@ worlds::World test_world() {
 }
 
 vision::StereoRig test_rig() {
-  return {.camera = {.width_px = 160, .height_px = 120, .focal_px = 150.0, .cx_px = 79.5, .cy_px = 59.5},
+  return {.intrinsics = {.width_px = 160, .height_px = 120, .focal_px = 150.0, .cx_px = 79.5, .cy_px = 59.5},
           .baseline_m = 0.12,
           .height_m = 0.3};
 }
 
-std::string eye_complaint(const EyeFrame& frame, const vision::StereoRig& rig, vision::Eye eye) {
+std::string image_complaint(const RenderedImage& frame, const vision::StereoRig& rig, vision::Side side) {
   const worlds::Ball ball = test_world().balls.front();
-  const double side_m = (eye == vision::Eye::kLeft ? 0.5 : -0.5) * rig.baseline_m;
-  const auto outline = vision::sphere_outline(rig.camera, {side_m, 0.0, kBallAhead_m}, ball.radius_m);
+  const double side_m = (side == vision::Side::kLeft ? 0.5 : -0.5) * rig.baseline_m;
+  const auto outline = vision::sphere_outline(rig.intrinsics, {side_m, 0.0, kBallAhead_m}, ball.radius_m);
   const cv::Point centre(static_cast<int>(std::lround(outline->centre_px.x())),
                          static_cast<int>(std::lround(outline->centre_px.y())));
   if (frame.ball_id.at<std::uint8_t>(centre) != 1) return "the ball is not where it should be";
@@ -57,18 +57,18 @@ std::string eye_complaint(const EyeFrame& frame, const vision::StereoRig& rig, v
 }
 
 std::string frame_complaint(const StereoFrame& frame, const vision::StereoRig& rig) {
-  const std::string left = eye_complaint(frame.left, rig, vision::Eye::kLeft);
-  if (!left.empty()) return "left eye: " + left;
-  const std::string right = eye_complaint(frame.right, rig, vision::Eye::kRight);
-  return right.empty() ? std::string() : "right eye: " + right;
+  const std::string left = image_complaint(frame.left, rig, vision::Side::kLeft);
+  if (!left.empty()) return "left camera: " + left;
+  const std::string right = image_complaint(frame.right, rig, vision::Side::kRight);
+  return right.empty() ? std::string() : "right camera: " + right;
 }
 
 /// FNV-1a, 64 bits: the same wherever it is computed, unlike std::hash.
 /// (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, The FNV Non-Cryptographic Hash Algorithm.)
 std::uint64_t hash_of(const StereoFrame& frame) {
   std::uint64_t hash = 14695981039346656037U;
-  for (const EyeFrame* eye : {&frame.left, &frame.right}) {
-    for (const cv::Mat& picture : {eye->colour, eye->ball_id, eye->depth_m}) {
+  for (const RenderedImage* image : {&frame.left, &frame.right}) {
+    for (const cv::Mat& picture : {image->colour, image->ball_id, image->depth_m}) {
       for (const std::uint8_t* byte = picture.datastart; byte != picture.dataend; ++byte) {
         hash = (hash ^ *byte) * 1099511628211U;
       }

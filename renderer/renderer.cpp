@@ -55,7 +55,7 @@ const vision::StereoRig& checked(const vision::StereoRig& rig) {
   return rig;
 }
 
-/// State that never changes: see eye_view.h for the depth's convention.
+/// State that never changes: see camera_view.h for the depth's convention.
 void set_state(const Gl& gl) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
@@ -72,27 +72,27 @@ std::optional<Lens> lens_of(const vision::StereoRig& rig) {
   return rig.distortion == vision::Distortion{} ? std::nullopt : std::optional<Lens>(rig);
 }
 
-cv::Range columns_of(const EyeView& view) {
-  return {view.first_column_px, view.first_column_px + view.camera.width_px};
+cv::Range columns_of(const CameraView& view) {
+  return {view.first_column_px, view.first_column_px + view.intrinsics.width_px};
 }
 
-/// One eye's picture while it is made.
-struct EyePicture {
-  EyeView view;
-  EyeFrame frame;
+/// One camera's picture while it is made.
+struct CameraPicture {
+  CameraView view;
+  RenderedImage frame;
   std::vector<EdgeMix> mixes;
   std::vector<BallOutline> balls;
 };
 
-/// The same eye with a picture of some rows alone.
-EyeView part_of(EyeView view, const cv::Range& rows) {
-  view.camera.cy_px -= rows.start;
-  view.camera.height_px = rows.size();
+/// The same camera with a picture of some rows alone.
+CameraView part_of(CameraView view, const cv::Range& rows) {
+  view.intrinsics.cy_px -= rows.start;
+  view.intrinsics.height_px = rows.size();
   return view;
 }
 
 /// Some rows of a picture that begins with a row of the whole one.
-EyeFrame part_of(const EyeFrame& frame, int first_row, const cv::Range& rows) {
+RenderedImage part_of(const RenderedImage& frame, int first_row, const cv::Range& rows) {
   const cv::Range part(rows.start - first_row, rows.end - first_row);
   return {frame.colour.rowRange(part), frame.ball_id.rowRange(part), frame.depth_m.rowRange(part)};
 }
@@ -125,8 +125,8 @@ struct Renderer::Parts {
         sky_rgb(world.sky_rgb.cast<float>()),
         context(make_context(backend)),
         gl(*context),
-        framebuffer(gl, depth == LightDepth::kEightBits ? GL_RGBA8 : GL_RGBA16, 2 * rig.camera.width_px,
-                    rig.camera.height_px),
+        framebuffer(gl, depth == LightDepth::kEightBits ? GL_RGBA8 : GL_RGBA16, 2 * rig.intrinsics.width_px,
+                    rig.intrinsics.height_px),
         surfaces(gl, world, placed),
         balls(gl, world),
         edges(world, placed.meshes) {
@@ -137,23 +137,24 @@ struct Renderer::Parts {
   Parts& operator=(const Parts&) = delete;
   ~Parts() { context->make_current(); }  // what is deleted next belongs to it
 
-  /// Where the eyes are, with an empty framebuffer of a colour before them.
-  std::array<EyeView, 2> open_eyes(const slam::Pose& left_pose, const slam::Pose& right_pose,
-                                   const Eigen::Vector3f& rgb, const cv::Range& rows) {
+  /// Where the cameras are, with an empty framebuffer of a colour before them.
+  std::array<CameraView, 2> open_cameras(const slam::Pose& left_pose, const slam::Pose& right_pose,
+                                         const Eigen::Vector3f& rgb, const cv::Range& rows) {
     for (const slam::Pose& pose : {left_pose, right_pose}) {
       require(std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad),
               "Renderer: the pose is not finite");
     }
     context->make_current();
     framebuffer.bind();
-    gl.Scissor(0, rows.start, 2 * rig.camera.width_px, rows.size());
+    gl.Scissor(0, rows.start, 2 * rig.intrinsics.width_px, rows.size());
     gl.ClearColor(rgb.z(), rgb.y(), rgb.x(), 0.0F);  // the picture's order is blue, green, red, identity
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    return {eye_view(rig, vision::Eye::kLeft, left_pose), eye_view(rig, vision::Eye::kRight, right_pose)};
+    return {camera_view(rig, vision::Side::kLeft, left_pose),
+            camera_view(rig, vision::Side::kRight, right_pose)};
   }
 
-  void look_through(const EyeView& view) {
-    gl.Viewport(view.first_column_px, 0, view.camera.width_px, view.camera.height_px);
+  void look_through(const CameraView& view) {
+    gl.Viewport(view.first_column_px, 0, view.intrinsics.width_px, view.intrinsics.height_px);
   }
 
   /// What compiled the first pair's shaders makes room for its pictures.
@@ -161,7 +162,7 @@ struct Renderer::Parts {
     if (!std::exchange(has_drawn, true)) release_code(kCompiler);
   }
 
-  int height_px() const { return lens ? lens->height_px() : rig.camera.height_px; }
+  int height_px() const { return lens ? lens->height_px() : rig.intrinsics.height_px; }
 
   /// Rows of the picture that is asked for, not of what is drawn.
   cv::Range checked_rows(const cv::Range& asked) const {
@@ -174,27 +175,27 @@ struct Renderer::Parts {
 
   /// With the rows beside them, whose edges may reach into them.
   cv::Range with_neighbours(const cv::Range& rows) const {
-    return {std::max(rows.start - 1, 0), std::min(rows.end + 1, rig.camera.height_px)};
+    return {std::max(rows.start - 1, 0), std::min(rows.end + 1, rig.intrinsics.height_px)};
   }
 
   /// Reads what has been drawn: surfaces, before any ball hides their edges.
-  EyePicture read_surfaces(const EyeView& view, const cv::Range& rows) {
-    EyePicture picture = {.view = view,
-                          .frame = blank_frame({view.camera.width_px, rows.size()}, depth,
-                                               lens ? straight_pictures : pictures)};
+  CameraPicture read_surfaces(const CameraView& view, const cv::Range& rows) {
+    CameraPicture picture = {.view = view,
+                             .frame = blank_frame({view.intrinsics.width_px, rows.size()}, depth,
+                                                  lens ? straight_pictures : pictures)};
     read_part(gl, {view.first_column_px, rows.start}, {{0, 0}, picture.frame.colour.size()}, picture.frame);
     picture.mixes = edges.mixes(part_of(view, rows), picture.frame);
     picture.balls = balls.outlines(view);
     return picture;
   }
 
-  void draw_balls(const EyePicture& picture) {
+  void draw_balls(const CameraPicture& picture) {
     look_through(picture.view);
     balls.draw(picture.view, picture.balls);
   }
 
   /// Reads the balls that have been drawn, and smooths what is behind and before them.
-  void finish(EyePicture& picture, const cv::Range& rows) const {
+  void finish(CameraPicture& picture, const cv::Range& rows) const {
     const BallVeil veil(picture.view, picture.balls, rows);
     for (const cv::Rect& box : veil.boxes())
       read_part(gl, {picture.view.first_column_px, rows.start}, box, picture.frame);
@@ -221,22 +222,22 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
                              const cv::Range& asked) {
   const cv::Range rows = parts_->checked_rows(asked);
   const cv::Range drawn = parts_->with_neighbours(parts_->lens ? parts_->lens->rows_seen(rows) : rows);
-  const auto views = parts_->open_eyes(left_pose, right_pose, parts_->sky_rgb, drawn);
-  for (const EyeView& view : views) {
+  const auto views = parts_->open_cameras(left_pose, right_pose, parts_->sky_rgb, drawn);
+  for (const CameraView& view : views) {
     parts_->look_through(view);
     parts_->surfaces.draw(view);
   }
-  std::array<EyePicture, 2> eyes = {parts_->read_surfaces(views[0], drawn),
-                                    parts_->read_surfaces(views[1], drawn)};
-  for (const EyePicture& eye : eyes) parts_->draw_balls(eye);
+  std::array<CameraPicture, 2> pictures = {parts_->read_surfaces(views[0], drawn),
+                                           parts_->read_surfaces(views[1], drawn)};
+  for (const CameraPicture& picture : pictures) parts_->draw_balls(picture);
   parts_->release_compiler();
-  const auto finished = [&](EyePicture& eye) {
-    parts_->finish(eye, drawn);
+  const auto finished = [&](CameraPicture& picture) {
+    parts_->finish(picture, drawn);
     const std::optional<Lens>& lens = parts_->lens;
-    return lens ? lens->bend(eye.frame, drawn.start, rows, parts_->pictures)
-                : part_of(eye.frame, drawn.start, rows);
+    return lens ? lens->bend(picture.frame, drawn.start, rows, parts_->pictures)
+                : part_of(picture.frame, drawn.start, rows);
   };
-  return {finished(eyes[0]), finished(eyes[1])};
+  return {finished(pictures[0]), finished(pictures[1])};
 }
 
 StereoIdBuffers Renderer::id_buffers(const slam::Pose& left_pose, const slam::Pose& right_pose,
@@ -244,14 +245,14 @@ StereoIdBuffers Renderer::id_buffers(const slam::Pose& left_pose, const slam::Po
   require(!parts_->lens || asked == cv::Range::all(),
           "Renderer::id_buffers: behind a lens, of all rows alone");
   const cv::Range rows =
-      parts_->lens ? cv::Range(0, parts_->rig.camera.height_px) : parts_->checked_rows(asked);
-  const auto [left, right] = parts_->open_eyes(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
-  for (const EyeView& view : {left, right}) {
+      parts_->lens ? cv::Range(0, parts_->rig.intrinsics.height_px) : parts_->checked_rows(asked);
+  const auto [left, right] = parts_->open_cameras(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
+  for (const CameraView& view : {left, right}) {
     parts_->look_through(view);
     parts_->surfaces.draw_facets(view);
     parts_->balls.draw_facets(view);
   }
-  const auto seen = [&](const EyeView& view) {
+  const auto seen = [&](const CameraView& view) {
     return IdBuffer{part_of(view, rows), read_facets(parts_->gl, columns_of(view), rows)};
   };
   return {seen(left), seen(right)};

@@ -28,8 +28,8 @@ class Renderer {
   Renderer(Renderer&& other) noexcept;
   Renderer& operator=(Renderer&& other) noexcept;
 
-  /// What both eyes see. Balls are exact: shape, depth, shading and the share of each edge pixel that they
-  /// cover. A ball that reaches behind the near plane (1 cm ahead of an eye) is not drawn in that eye.
+  /// What both cameras see. Balls are exact: shape, depth, shading and the share of each edge pixel that they
+  /// cover. A ball that reaches behind the near plane (1 cm ahead of a camera) is not drawn in that camera.
   /// @param world_from_robot where the robot stands
   /// @return the same bytes for the same pose, whatever was rendered before
   /// @throws std::invalid_argument when the pose is not finite
@@ -37,8 +37,8 @@ class Renderer {
     return render(world_from_robot, world_from_robot);
   }
 
-  /// The same with eyes that open at different times.
-  /// @param left_pose, right_pose where the robot stands when the eye looks
+  /// The same with cameras that open at different times.
+  /// @param left_pose, right_pose where the robot stands when the camera looks
   StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose) {
     return render(left_pose, right_pose, cv::Range::all());
   }
@@ -56,7 +56,7 @@ class Renderer {
   StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose, const cv::Range& rows);
 
   /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
-  /// want more truth than a frame carries (eye_truth.h, correspondence.h).
+  /// want more truth than a frame carries (pixel_truth.h, correspondence.h).
   /// @param rows of the picture, those that look now; the views are of a picture of these alone
   ///
   /// Behind a lens that distorts they are those of the rig's pinhole (lens.h), from which distorted_ids.h

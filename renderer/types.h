@@ -21,17 +21,17 @@ enum class LightDepth { kEightBits, kSixteenBits };
 /// What one of 255 levels of light is in 16 bits.
 inline constexpr int kStepsOfALevel = 257;
 
-/// One eye's picture with its truth, all of the rig's width and height.
-struct EyeFrame {
+/// One camera's picture with its truth, all of the rig's width and height.
+struct RenderedImage {
   /// BGR, linear light, anti-aliased, noise-free: CV_8UC3 in levels, or CV_16UC3 in steps of 1/257 level
   cv::Mat colour;
   cv::Mat ball_id;  ///< CV_8UC1, 0 = no ball, k = World::balls[k - 1] is what the pixel's centre sees
-  cv::Mat depth_m;  ///< CV_32FC1, planar Z in the eye's camera frame of what the centre sees, +inf = nothing
+  cv::Mat depth_m;  ///< CV_32FC1, planar Z in the camera's frame of what the centre sees, +inf = nothing
 };
 
 struct StereoFrame {
-  EyeFrame left;
-  EyeFrame right;
+  RenderedImage left;
+  RenderedImage right;
 };
 
 }  // namespace stereobench::renderer

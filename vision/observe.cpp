@@ -30,11 +30,11 @@ constexpr int kMostLooks = 3;         // at a picture out of focus
 constexpr double kSameBlur = 0.1;     // relative
 constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
 
-void check_image(const cv::Mat& image, const Intrinsics& camera, const char* eye) {
+void check_image(const cv::Mat& image, const Intrinsics& camera, const char* side) {
   if (image.type() != CV_8UC3 || image.empty())
-    throw std::invalid_argument(fmt::format("{} image: expected 8-bit BGR (CV_8UC3)", eye));
+    throw std::invalid_argument(fmt::format("{} image: expected 8-bit BGR (CV_8UC3)", side));
   if (image.cols != camera.width_px || image.rows != camera.height_px)
-    throw std::invalid_argument(fmt::format("{} image: {} x {} pixels, the rig's have {} x {}", eye,
+    throw std::invalid_argument(fmt::format("{} image: {} x {} pixels, the rig's have {} x {}", side,
                                             image.cols, image.rows, camera.width_px, camera.height_px));
 }
 
@@ -72,7 +72,7 @@ Outlines without_duplicates(Outlines outlines) {
   return result;
 }
 
-// What was found in one eye's picture.
+// What was found in one camera's picture.
 struct Found {
   const cv::Mat& image;
   FitSettings settings;  // with the picture's blur
@@ -125,16 +125,16 @@ Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSett
 }
 
 // Balls share their light source: each is measured once more by what the others tell of it, seen by either
-// eye.
-void share_light_source(std::span<Found> eyes, const ObserverSettings& settings) {
+// camera.
+void share_light_source(std::span<Found> sides, const ObserverSettings& settings) {
   LightSourcePool pool(pixel_variance(settings.noise_sd_levels));
-  for (const Found& eye : eyes) {
-    for (const MeasuredOutline& outline : eye.outlines) pool.add(outline.light);
+  for (const Found& side : sides) {
+    for (const MeasuredOutline& outline : side.outlines) pool.add(outline.light);
   }
-  for (Found& eye : eyes) {
-    for (MeasuredOutline& outline : eye.outlines) {
+  for (Found& side : sides) {
+    for (MeasuredOutline& outline : side.outlines) {
       if (const auto light_source = pool.without(outline.light))
-        outline = refine_outline(eye.image, outline, *light_source, eye.settings);
+        outline = refine_outline(side.image, outline, *light_source, side.settings);
     }
   }
 }
@@ -142,7 +142,7 @@ void share_light_source(std::span<Found> eyes, const ObserverSettings& settings)
 BallObservation measure(const OutlinePair& pair, const Matched& matched, const BallSize& size) {
   const StereoRig& rig = matched.rig;
   BallFit fit = fit_ball_of_size(rig, pair.left, pair.right, size, pair.ball, pair.disparity_variance_px2);
-  fit.covariance_m2(0, 0) += matched.eye_variance_m2;
+  fit.covariance_m2(0, 0) += matched.camera_variance_m2;
   BallObservation ball;
   ball.colour = pair.left.colour;
   ball.left_px = pair.left.centre_px;
@@ -167,13 +167,13 @@ ObservedPair look_at(const StereoPair& pair, const StereoRig& rig, const Observe
                      const RigWatch& watch) {
   if (!is_usable(rig))
     throw std::invalid_argument("rig: expected finite values, positive focal length and baseline");
-  check_image(pair.left, rig.camera, "left");
-  check_image(pair.right, rig.camera, "right");
-  std::array<Found, 2> eyes = {find_in(pair.left, rig.camera, settings),
-                               find_in(pair.right, rig.camera, settings)};
-  share_light_source(eyes, settings);
+  check_image(pair.left, rig.intrinsics, "left");
+  check_image(pair.right, rig.intrinsics, "right");
+  std::array<Found, 2> sides = {find_in(pair.left, rig.intrinsics, settings),
+                                find_in(pair.right, rig.intrinsics, settings)};
+  share_light_source(sides, settings);
   const BallSize size = {settings.ball_radius_m, settings.ball_radius_sd_m};
-  const Matched matched = match_by_watch(eyes[0].outlines, eyes[1].outlines, rig, settings, watch);
+  const Matched matched = match_by_watch(sides[0].outlines, sides[1].outlines, rig, settings, watch);
   ObservedPair look{{}, matched.watch};
   look.balls.reserve(matched.pairs.size());
   for (const OutlinePair& outlines : matched.pairs) look.balls.push_back(measure(outlines, matched, size));
@@ -204,11 +204,11 @@ ObservedPair observe(const StereoPair& pair, const Rectification& rectification,
   of_straightened.resampled = true;
   ObservedPair look = look_at(rectification.apply(pair), rectification.rig(), of_straightened, watch);
   for (BallObservation& seen : look.balls) {
-    const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Eye::kLeft) &&
-                       rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Eye::kRight);
+    const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Side::kLeft) &&
+                       rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Side::kRight);
     seen.truncated = seen.truncated || !whole;
-    seen.left_px = rectification.taken_px(seen.left_px, Eye::kLeft);
-    seen.right_px = rectification.taken_px(seen.right_px, Eye::kRight);
+    seen.left_px = rectification.taken_px(seen.left_px, Side::kLeft);
+    seen.right_px = rectification.taken_px(seen.right_px, Side::kRight);
   }
   return look;
 }

@@ -11,9 +11,9 @@
 
 namespace stereobench::vision {
 
-enum class Eye { kLeft = 0, kRight = 1 };
+enum class Side { kLeft = 0, kRight = 1 };
 
-/// A pinhole camera without distortion; both eyes of a rectified rig share it.
+/// A pinhole camera without distortion; both cameras of a rectified rig share it.
 struct Intrinsics {
   int width_px = 1024;
   int height_px = 768;
@@ -35,15 +35,15 @@ struct Distortion {
 
 /// A stereo rig and how it sits on the robot: both optical centres at `height_m` above the floor, half a
 /// baseline left and right of the robot's origin, looking forward and `pitch_down_rad` down. It is rectified
-/// unless the right eye is turned, the lenses distort, or pixels are not square.
+/// unless the right camera is turned, the lenses distort, or pixels are not square.
 struct StereoRig {
-  Intrinsics camera;
+  Intrinsics intrinsics;        ///< of both cameras
   double baseline_m = 0.12;     ///< > 0
   double height_m = 0.30;       ///< above the floor
   double pitch_down_rad = 0.0;  ///< positive looks at the floor
-  /// How the right eye is turned against the left one: first about its z axis, then y, then x.
+  /// How the right camera is turned against the left one: first about its z axis, then y, then x.
   Eigen::Vector3d right_turn_rad = Eigen::Vector3d::Zero();
-  Distortion distortion;  ///< of both eyes' lenses, and their pixels' aspect
+  Distortion distortion;  ///< of both cameras' lenses, and their pixels' aspect
 };
 
 /// The two images of one instant, 8-bit BGR, linear light.
@@ -52,7 +52,7 @@ struct StereoPair {
   cv::Mat right;  ///< CV_8UC3
 };
 
-/// One ball seen by both eyes.
+/// One ball seen by both cameras.
 struct BallObservation {
   int colour = slam::kUnknown;                        ///< index into the palette
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  ///< centre of the outline's ellipse
@@ -62,8 +62,8 @@ struct BallObservation {
   bool has_pixels = true;  ///< false: range and bearing are all that was seen, and the pixels are made up
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< centre in the left camera's frame, m
   slam::RangeBearing range_bearing;  ///< in the robot frame; colour_class is set, landmark_id is not
-  bool truncated = false;            ///< cut by the image border, in an eye, by more than can be measured
-  bool occluded = false;             ///< hidden, in an eye, by more than can be measured
+  bool truncated = false;            ///< cut by the image border, in a camera, by more than can be measured
+  bool occluded = false;             ///< hidden, in a camera, by more than can be measured
   /// True when the measurement can be trusted as far as its covariance says.
   bool trusted() const { return !truncated && !occluded; }
 };

@@ -17,10 +17,10 @@ struct Shutter {
   double open_s = 0.0;            ///< how long, centred on the frame's time: what moves is blurred
   int samples = 8;                ///< instants that the blur is the average of, at least
   int most_samples = 128;         ///< and at most, where points move by more than a pixel between them
-  double right_delay_s = 0.0;     ///< of the right eye's shutter behind the left one's
+  double right_delay_s = 0.0;     ///< of the right camera's shutter behind the left one's
   double readout_s = 0.0;         ///< from the first row's look to the last one's, around the frame's time
   double drop_probability = 0.0;  ///< that a frame is lost
-  double late_probability = 0.0;  ///< that both eyes look late, at a frame whose time is not told
+  double late_probability = 0.0;  ///< that both cameras look late, at a frame whose time is not told
   double late_s = 0.0;            ///< how late they are then
 };
 
@@ -30,7 +30,8 @@ struct Shutter {
 /// electrons, whose number is Poisson's; reading it adds noise; gain and white balance make levels of it;
 /// the levels are encoded, rounded and clamped (EMVA 1288 calls it the linear camera model).
 struct CameraSensor {
-  double noise_sd_levels = 0.0;  ///< Gaussian, per pixel, channel and eye, in levels of 255, before encoding
+  double noise_sd_levels =
+      0.0;  ///< Gaussian, per pixel, channel and camera, in levels of 255, before encoding
 
   double defocus_sd_px = 0.0;  ///< of the Gaussian that a point of light becomes
   double vignette = 0.0;  ///< share of the light that is lost in the corners, as the square of the radius

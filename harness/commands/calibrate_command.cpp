@@ -77,7 +77,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<CalibrateArguments>();
   ScenarioArguments& scenario = arguments->scenario;
   scenario.run.seeds = worlds::parse_seeds(kUsualSeeds);
-  add_eyes_options(*command, scenario);
+  add_camera_options(*command, scenario);
   add_seed_options(*command, scenario.run);
   add_gate_option(*command, scenario.run.gates);
   command
@@ -87,7 +87,8 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_flag("--plain", arguments->plain, "before walls and floors without texture");
   command->footer(
-      "Takes the eyes of a scenario (rig, camera, detector, size of balls) through galleries: balls of all\n"
+      "Takes the cameras of a scenario (rig, camera, detector, size of balls) through galleries: balls of "
+      "all\n"
       "colours at all depths, under any light, before any wall. The noise is fitted to the galleries of "
       "every\n"
       "other seed and held against the rest, by depth: errors beside the Cramer-Rao bound, and NIS/2, which "

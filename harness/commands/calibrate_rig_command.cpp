@@ -94,7 +94,7 @@ int calibrate(CalibrateRigArguments arguments) {
   const BoardCalibration calibration = calibrate_rig(files, settings);
   prepare_output_folder(arguments.out);
   write_file_atomically(arguments.out / "calibration.yaml",
-                        calibration_yaml(calibration.rig.rig, calibration.rig.eyes));
+                        calibration_yaml(calibration.rig.rig, calibration.rig.cameras));
   write_file_atomically(arguments.out / "calibration.json", calibration_json(calibration, settings));
   write_file_atomically(arguments.out / "rectified.png", picture_of(calibration, files));
   fmt::print("{}{}\n", calibration_text(calibration, settings),
@@ -131,7 +131,7 @@ void add_calibrate_rig_command(CLI::App& program, Action& action) {
   command
       ->add_option(
           "--pixels", arguments->pixels,
-          "square; free: two focal lengths an eye, across and down; or free where the views ask for it")
+          "square; free: two focal lengths a camera, across and down; or free where the views ask for it")
       ->check(CLI::IsMember({"compare", "square", "free"}))
       ->capture_default_str();
   command->add_option("--fewest-views", arguments->settings.fewest_views, "that are enough")

@@ -102,7 +102,7 @@ class Looker {
     if (!file.empty()) {
       const RigCalibration calibration = read_rig_calibration(file);
       rig_ = calibration.rig;
-      setup_.eyes = calibration.eyes;
+      setup_.cameras = calibration.cameras;
     }
     read_ball_size(given);
     if (const auto told = read_rows_within_px(given)) setup_.rows_within_px = *told;
@@ -146,7 +146,7 @@ class Looker {
 
   void take_rows_within() {
     if (!arguments_.rows_within_px) return;
-    const double half_a_picture_px = 0.5 * rig_->camera.height_px;
+    const double half_a_picture_px = 0.5 * rig_->intrinsics.height_px;
     setup_.rows_within_px = *arguments_.rows_within_px;
     if (setup_.rows_within_px > half_a_picture_px)
       throw std::runtime_error(
@@ -162,10 +162,10 @@ class Looker {
   }
 
   std::string look_at_pair(const Task& task) const {
-    if (!rig_) throw std::runtime_error("--rig: two eyes need the calibration of their rig");
+    if (!rig_) throw std::runtime_error("--rig: two cameras need the calibration of their rig");
     const vision::StereoPair pair = {read_picture(task.left), read_picture(task.right)};
-    check_size(task.left, pair.left, rig_->camera);
-    check_size(task.right, pair.right, rig_->camera);
+    check_size(task.left, pair.left, rig_->intrinsics);
+    check_size(task.right, pair.right, rig_->intrinsics);
     const auto balls = detector_({task.frame, 0, pair, *rig_});
     if (balls.empty()) check_not_swapped(task, pair);
     if (!arguments_.draw.empty()) write_drawing(task, draw_detection_picture(pair, balls));
@@ -173,22 +173,22 @@ class Looker {
     return detections_line(task.frame, balls, names, names_);
   }
 
-  /// No ball that both eyes see is no error, unless the other way round there are some.
+  /// No ball that both cameras see is no error, unless the other way round there are some.
   void check_not_swapped(const Task& task, const vision::StereoPair& pair) const {
     constexpr std::size_t kEnough = 2;  // one may match by chance
     const vision::StereoPair swapped = {pair.right, pair.left};
     const std::size_t balls = our_detector(setup_)({task.frame, 0, swapped, *rig_}).size();
     if (balls >= kEnough)
       throw std::runtime_error(
-          fmt::format("{}: left and right are swapped: both eyes see no ball, and {} the other way round",
+          fmt::format("{}: left and right are swapped: both cameras see no ball, and {} the other way round",
                       task.left.string(), balls));
   }
 
   std::string look_at_one(const Task& task) const {
     const cv::Mat picture = read_picture(task.left);
-    if (rig_) check_size(task.left, picture, rig_->camera);
+    if (rig_) check_size(task.left, picture, rig_->intrinsics);
     const cv::Mat light = table_ ? picture : renderer::decode(picture, {.encoding = setup_.encoding});
-    const auto outlines = vision::find_outlines(light, rig_ ? rig_->camera : camera_for(picture),
+    const auto outlines = vision::find_outlines(light, rig_ ? rig_->intrinsics : camera_for(picture),
                                                 {.ball_radius_m = setup_.ball_radius_m,
                                                  .noise_sd_levels = setup_.noise_sd_levels,
                                                  .learned = table_ ? &*table_ : nullptr});

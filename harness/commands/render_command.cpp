@@ -138,7 +138,7 @@ void add_render_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("render", "write a scenario's stereo pairs with their truth as a folder");
   auto arguments = std::make_shared<RenderArguments>();
-  add_eyes_options(*command, arguments->scenario);
+  add_camera_options(*command, arguments->scenario);
   add_seed_options(*command, arguments->scenario.run);
   command
       ->add_option_function<std::string>(
@@ -164,7 +164,7 @@ void add_render_command(CLI::App& program, Action& action) {
       "reads. Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a "
       "folder of its own\n"
       "there (seed_0/). Interrupted, it goes on where it was; what is complete is left as it is.\n"
-      "--truth adds folders of the same names for each eye (left_flow/...), those of disparity, match and "
+      "--truth adds folders of the same names for each camera (left_flow/...), those of disparity, match and "
       "flow "
       "with\n"
       "what becomes of each pixel there: 0 nothing, 85 out of the other picture, 170 hidden in it, 255 "

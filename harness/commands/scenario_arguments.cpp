@@ -13,11 +13,11 @@
 namespace stereobench::harness {
 
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
-  add_eyes_options(command, arguments);
+  add_camera_options(command, arguments);
   add_run_options(command, arguments.run);
 }
 
-void add_eyes_options(CLI::App& command, ScenarioArguments& arguments) {
+void add_camera_options(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("scenario", arguments.scenario, "scenario file (YAML)")->required();
   add_set_option(command, arguments.overrides);
   add_backend_option(command, arguments.backend);

@@ -29,7 +29,7 @@ struct ScenarioArguments {
 };
 
 /// Adds SCENARIO, --set, --backend, --detector and its times.
-void add_eyes_options(CLI::App& command, ScenarioArguments& arguments);
+void add_camera_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Adds those and the options of a run.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);

@@ -107,7 +107,8 @@ void add_world_command(CLI::App& program, Action& action) {
       ->needs(seed);
   add_quiet_option(*command);
   command->footer(
-      "A ball is in view where both eyes see it whole and large enough to be measured; walls and balls hide\n"
+      "A ball is in view where both cameras see it whole and large enough to be measured; walls and balls "
+      "hide\n"
       "what is behind them, and so do meshes, boxes and other shapes. For an oracle it is what lies in its "
       "sector.\n\n"
       "Example: stereobench world assets/scenarios/corridor.yaml -o out/corridor.svg");

@@ -107,8 +107,8 @@ DatasetTruth read_dataset_truth(const fs::path& folder) {
 renderer::StereoFrame read_ball_ids(const fs::path& folder, std::size_t frame, const vision::StereoRig& rig) {
   const std::string name = fmt::format("{:06}.png", frame);
   renderer::StereoFrame ids;
-  ids.left.ball_id = read_ids(folder / "left_id" / name, rig.camera);
-  ids.right.ball_id = read_ids(folder / "right_id" / name, rig.camera);
+  ids.left.ball_id = read_ids(folder / "left_id" / name, rig.intrinsics);
+  ids.right.ball_id = read_ids(folder / "right_id" / name, rig.intrinsics);
   return ids;
 }
 

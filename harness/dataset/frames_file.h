@@ -10,8 +10,8 @@
 namespace stereobench::harness {
 
 /// A line for each step of a drive: its number and time; whether there are pictures of it; by how much later
-/// than that time the eyes looked; and the robot's true pose when the left one did (its middle row, halfway
-/// through the exposure). Of a frame that the shutter drops, or that is not wanted, the last four are
+/// than that time the cameras looked; and the robot's true pose when the left one did (its middle row,
+/// halfway through the exposure). Of a frame that the shutter drops, or that is not wanted, the last four are
 /// empty.
 /// @param frames of which there are pictures, unless the shutter drops them
 /// @return CSV with a header

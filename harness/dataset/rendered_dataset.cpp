@@ -129,13 +129,13 @@ void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
 void RenderedDataset::write(const FrameEvent& event) const {
   if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
   const std::string name = fmt::format("{:06}", event.step);
-  const std::array<std::pair<const char*, const renderer::EyeFrame*>, 2> eyes = {
+  const std::array<std::pair<const char*, const renderer::RenderedImage*>, 2> images = {
       {{"left", &event.frame.left}, {"right", &event.frame.right}}};
-  for (const auto& [eye, frame] : eyes) {
+  for (const auto& [side, frame] : images) {
     const cv::Mat& picture = frame == &event.frame.left ? event.pair.left : event.pair.right;
-    write_once(folder_ / eye / (name + ".png"), picture);
-    write_once(folder_ / (std::string(eye) + "_id") / (name + ".png"), frame->ball_id);
-    write_once(folder_ / (std::string(eye) + "_depth") / (name + ".pfm"), frame->depth_m);
+    write_once(folder_ / side / (name + ".png"), picture);
+    write_once(folder_ / (std::string(side) + "_id") / (name + ".png"), frame->ball_id);
+    write_once(folder_ / (std::string(side) + "_depth") / (name + ".pfm"), frame->depth_m);
   }
 }
 

@@ -20,18 +20,18 @@ namespace {
 
 using renderer::IdBuffer;
 using renderer::StereoIdBuffers;
-using vision::Eye;
+using vision::Side;
 
-const char* name_of(Eye eye) {
-  return eye == Eye::kLeft ? "left" : "right";
+const char* name_of(Side side) {
+  return side == Side::kLeft ? "left" : "right";
 }
 
-const IdBuffer& eye_of(const StereoIdBuffers& ids, Eye eye) {
-  return eye == Eye::kLeft ? ids.left : ids.right;
+const IdBuffer& side_of(const StereoIdBuffers& ids, Side side) {
+  return side == Side::kLeft ? ids.left : ids.right;
 }
 
-Eye other(Eye eye) {
-  return eye == Eye::kLeft ? Eye::kRight : Eye::kLeft;
+Side other(Side side) {
+  return side == Side::kLeft ? Side::kRight : Side::kLeft;
 }
 
 bool is_shift(TruthKind kind) {
@@ -57,10 +57,10 @@ cv::Mat surface_picture(const cv::Mat& surface) {
 
 }  // namespace
 
-/// One eye at one step.
-struct RenderedTruth::EyeFrameEvent {
+/// One camera at one step.
+struct RenderedTruth::ImageEvent {
   std::size_t step;
-  Eye eye;
+  Side side;
   const cv::Mat& ball_id;
   double late_s;
   renderer::Renderer& renderer;
@@ -80,9 +80,9 @@ RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
   if (wants(TruthKind::kSurface) && surfaces > std::numeric_limits<std::uint16_t>::max())
     throw std::runtime_error(
         fmt::format("--truth surface: {} surfaces are more than 16 bits can number", surfaces));
-  for (const Eye eye : {Eye::kLeft, Eye::kRight}) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
     for (const TruthKind kind : request_.kinds) {
-      const std::filesystem::path path = file(0, eye, kind);
+      const std::filesystem::path path = file(0, side, kind);
       prepare_output_folder(path.parent_path());
       if (is_shift(kind)) prepare_output_folder(fate_file(path).parent_path());
     }
@@ -93,15 +93,15 @@ bool RenderedTruth::wants(TruthKind kind) const {
   return std::find(request_.kinds.begin(), request_.kinds.end(), kind) != request_.kinds.end();
 }
 
-std::filesystem::path RenderedTruth::file(std::size_t step, Eye eye, TruthKind kind) const {
-  return folder_ / fmt::format("{}_{}", name_of(eye), harness::name_of(kind)) /
+std::filesystem::path RenderedTruth::file(std::size_t step, Side side, TruthKind kind) const {
+  return folder_ / fmt::format("{}_{}", name_of(side), harness::name_of(kind)) /
          fmt::format("{:06}{}", step, extension_of(kind, request_.format));
 }
 
-bool RenderedTruth::has_all(const EyeFrameEvent& event) const {
+bool RenderedTruth::has_all(const ImageEvent& event) const {
   const bool is_last = event.step + 1 == scenario_.path.size();
   return std::all_of(request_.kinds.begin(), request_.kinds.end(), [&](TruthKind kind) {
-    const std::filesystem::path path = file(event.step, event.eye, kind);
+    const std::filesystem::path path = file(event.step, event.side, kind);
     return (kind == TruthKind::kFlow && is_last) ||
            (std::filesystem::exists(path) && (!is_shift(kind) || std::filesystem::exists(fate_file(path))));
   });
@@ -109,8 +109,8 @@ bool RenderedTruth::has_all(const EyeFrameEvent& event) const {
 
 void RenderedTruth::write(const FrameEvent& event) {
   buffers_.erase(buffers_.begin(), buffers_.lower_bound(event.step));
-  write_eye({event.step, Eye::kLeft, event.frame.left.ball_id, event.late_s, *event.renderer});
-  write_eye({event.step, Eye::kRight, event.frame.right.ball_id, event.late_s, *event.renderer});
+  write_side({event.step, Side::kLeft, event.frame.left.ball_id, event.late_s, *event.renderer});
+  write_side({event.step, Side::kRight, event.frame.right.ball_id, event.late_s, *event.renderer});
 }
 
 StereoIdBuffers RenderedTruth::id_buffers_of(renderer::Renderer& renderer, const RowBand& band,
@@ -125,20 +125,20 @@ StereoIdBuffers RenderedTruth::id_buffers_of(renderer::Renderer& renderer, const
           renderer::distorted_ids(scene_, undistorted.right, scenario_.rig)};
 }
 
-/// What the eyes look at, by bands of rows; one where all rows look at once.
+/// What the cameras look at, by bands of rows; one where all rows look at once.
 const std::vector<StereoIdBuffers>& RenderedTruth::id_buffers_at(renderer::Renderer& renderer,
                                                                  std::size_t step, double late_s) {
   const auto [known, is_new] = buffers_.try_emplace(step);
   if (!is_new) return known->second;
-  for (const RowBand& band : row_bands(scenario_.shutter, scenario_.rig.camera.height_px))
+  for (const RowBand& band : row_bands(scenario_.shutter, scenario_.rig.intrinsics.height_px))
     known->second.push_back(id_buffers_of(renderer, band, step, late_s));
   return known->second;
 }
 
-renderer::EyeTruth RenderedTruth::truth_of(const EyeFrameEvent& event) {
-  renderer::EyeTruth whole;
+renderer::PixelTruth RenderedTruth::truth_of(const ImageEvent& event) {
+  renderer::PixelTruth whole;
   for (const StereoIdBuffers& band : id_buffers_at(event.renderer, event.step, event.late_s)) {
-    const renderer::EyeTruth rows = renderer::eye_truth(scene_, eye_of(band, event.eye));
+    const renderer::PixelTruth rows = renderer::pixel_truth(scene_, side_of(band, event.side));
     whole.surface.push_back(rows.surface);
     whole.range_m.push_back(rows.range_m);
     whole.normal.push_back(rows.normal);
@@ -146,38 +146,38 @@ renderer::EyeTruth RenderedTruth::truth_of(const EyeFrameEvent& event) {
   return whole;
 }
 
-void RenderedTruth::write_pictures(const EyeFrameEvent& event) {
-  const renderer::EyeTruth truth = truth_of(event);
+void RenderedTruth::write_pictures(const ImageEvent& event) {
+  const renderer::PixelTruth truth = truth_of(event);
   if (wants(TruthKind::kSurface))
-    write_once(file(event.step, event.eye, TruthKind::kSurface), surface_picture(truth.surface));
-  if (wants(TruthKind::kRange)) write_once(file(event.step, event.eye, TruthKind::kRange), truth.range_m);
+    write_once(file(event.step, event.side, TruthKind::kSurface), surface_picture(truth.surface));
+  if (wants(TruthKind::kRange)) write_once(file(event.step, event.side, TruthKind::kRange), truth.range_m);
   if (wants(TruthKind::kNormal))
-    write_once(file(event.step, event.eye, TruthKind::kNormal), normal_picture(truth.normal));
+    write_once(file(event.step, event.side, TruthKind::kNormal), normal_picture(truth.normal));
 }
 
-void RenderedTruth::write_eye(const EyeFrameEvent& event) {
+void RenderedTruth::write_side(const ImageEvent& event) {
   if (has_all(event)) return;
   if (wants(TruthKind::kSurface) || wants(TruthKind::kRange) || wants(TruthKind::kNormal))
     write_pictures(event);
   const StereoIdBuffers ids = id_buffers_at(event.renderer, event.step, event.late_s).front();
   if (wants(TruthKind::kBalls)) {
-    const auto truths = renderer::ball_truths(world_, eye_of(ids, event.eye).view, event.ball_id);
-    write_file_atomically(file(event.step, event.eye, TruthKind::kBalls), ball_lines(world_, truths));
+    const auto truths = renderer::ball_truths(world_, side_of(ids, event.side).view, event.ball_id);
+    write_file_atomically(file(event.step, event.side, TruthKind::kBalls), ball_lines(world_, truths));
   }
   for (const TruthKind kind : {TruthKind::kDisparity, TruthKind::kMatch})
-    if (wants(kind)) write_shift(event, kind, eye_of(ids, other(event.eye)));
+    if (wants(kind)) write_shift(event, kind, side_of(ids, other(event.side)));
   if (wants(TruthKind::kFlow) && event.step + 1 < scenario_.path.size())
     write_shift(event, TruthKind::kFlow,
-                eye_of(id_buffers_at(event.renderer, event.step + 1, 0.0).front(), event.eye));
+                side_of(id_buffers_at(event.renderer, event.step + 1, 0.0).front(), event.side));
 }
 
-void RenderedTruth::write_shift(const EyeFrameEvent& event, TruthKind kind, const IdBuffer& to) const {
-  const std::filesystem::path path = file(event.step, event.eye, kind);
+void RenderedTruth::write_shift(const ImageEvent& event, TruthKind kind, const IdBuffer& to) const {
+  const std::filesystem::path path = file(event.step, event.side, kind);
   const renderer::Correspondence found =
-      renderer::correspond(scene_, eye_of(buffers_.at(event.step).front(), event.eye), to);
+      renderer::correspond(scene_, side_of(buffers_.at(event.step).front(), event.side), to);
   const bool kitti = request_.format == TruthFormat::kKitti;
   if (kind == TruthKind::kDisparity) {
-    const cv::Mat disparity = renderer::disparity_px(found, event.eye);
+    const cv::Mat disparity = renderer::disparity_px(found, event.side);
     write_once(path, kitti ? kitti_disparity(disparity) : disparity);
   } else {
     write_once(path, kitti ? kitti_shift(found) : exact_shift(found));

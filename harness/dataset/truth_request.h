@@ -11,9 +11,9 @@ enum class TruthKind {
   kSurface,    ///< which wall, mesh, ball or floor
   kRange,      ///< along the ray
   kNormal,     ///< of the geometry, in the camera frame
-  kDisparity,  ///< columns, and what becomes of the pixel in the other eye
-  kMatch,      ///< the whole shift to the other eye, for rigs that are not rectified
-  kFlow        ///< the shift to the next step's picture of the same eye
+  kDisparity,  ///< columns, and what becomes of the pixel in the other camera
+  kMatch,      ///< the whole shift to the other camera, for rigs that are not rectified
+  kFlow        ///< the shift to the next step's picture of the same camera
 };
 
 /// How disparity, matches and flow are written.

@@ -50,13 +50,13 @@ Eigen::Vector3d at_camera_height(const vision::StereoRig& rig, const slam::Range
          Eigen::Vector3d(seen.range_m * c, seen.range_m * s, rig.height_m);
 }
 
-/// The pixels and radii that a ball must have where only its place is known; false where an eye cannot see
+/// The pixels and radii that a ball must have where only its place is known; false where a camera cannot see
 /// it.
 bool imagine_pixels(const BallGeometry& geometry, BallObservation& ball) {
-  const vision::Intrinsics& camera = geometry.rig.camera;
+  const vision::Intrinsics& camera = geometry.rig.intrinsics;
   const auto left = vision::sphere_outline(camera, ball.ball_in_camera, geometry.radius_m);
   const auto right = vision::sphere_outline(
-      camera, vision::point_in_eye(geometry.rig, ball.ball_in_camera, vision::Eye::kRight),
+      camera, vision::camera_point(geometry.rig, ball.ball_in_camera, vision::Side::kRight),
       geometry.radius_m);
   if (!left || !right) return false;
   ball.left_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, left->centre_px));
@@ -72,8 +72,8 @@ struct StraightCentres {
 };
 
 StraightCentres straight_centres(const BallGeometry& geometry, const BallObservation& ball) {
-  return {vision::straight_point(geometry.rig, ball.left_px, vision::Eye::kLeft),
-          vision::straight_point(geometry.rig, ball.right_px, vision::Eye::kRight)};
+  return {vision::rectified_point(geometry.rig, ball.left_px, vision::Side::kLeft),
+          vision::rectified_point(geometry.rig, ball.right_px, vision::Side::kRight)};
 }
 
 /// Range, bearing and covariance that the centres' pixels stand for.
@@ -100,7 +100,7 @@ void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallO
   ball.ball_in_camera = *place;
   const auto left = value.find("left_radius_px");
   const auto right = value.find("right_radius_px");
-  const double expected_px = geometry.rig.camera.focal_px * geometry.radius_m / place->z();
+  const double expected_px = geometry.rig.intrinsics.focal_px * geometry.radius_m / place->z();
   ball.left_radius_px = left ? left->number(kLeast, kMost_px) : expected_px;
   ball.right_radius_px = right ? right->number(kLeast, kMost_px) : expected_px;
 }
@@ -112,7 +112,7 @@ void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallOb
   if (ball.has_pixels) return;
   ball.ball_in_camera = at_camera_height(geometry.rig, seen);
   if (!imagine_pixels(geometry, ball) && !value.find("covariance"))
-    value.refuse("a covariance beside a ball that is not ahead of both eyes");
+    value.refuse("a covariance beside a ball that is not ahead of both cameras");
 }
 
 BallObservation read_ball(const JsonValue& value, const BallGeometry& geometry) {

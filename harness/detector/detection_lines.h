@@ -5,7 +5,7 @@
 ///
 /// A ball has
 /// - `colour`: an index into the palette, or null; `name`: what a learned colour is called;
-/// - `left_px` and `right_px`: [column, row] of its outline's centre in each eye, (0, 0) the centre of the
+/// - `left_px` and `right_px`: [column, row] of its outline's centre in each camera, (0, 0) the centre of the
 ///   top-left pixel; `left_radius_px` and `right_radius_px` where they are known;
 /// - or, or beside them, `range_m` and `bearing_rad`: horizontal, left-positive, from the robot's origin;
 /// - `covariance`: [[of range, both], [both, of bearing]], in m and rad; or `centre_sd_px`, the standard
@@ -24,7 +24,7 @@
 
 namespace stereobench::harness {
 
-/// What a ball's error is taken to be that states none: of each coordinate of its centre, in each eye.
+/// What a ball's error is taken to be that states none: of each coordinate of its centre, in each camera.
 inline constexpr double kUnstatedSd_px = 0.5;
 
 /// What a reader has to know of a ball to place it.

@@ -33,10 +33,10 @@ Detector our_detector(const DetectorSetup& setup) {
   settings.rows_within_px = setup.rows_within_px;
   settings.noise_sd_levels = setup.noise_sd_levels;
   const worlds::CameraSensor camera{.encoding = setup.encoding, .gamma = setup.gamma};
-  const vision::EyePair eyes = setup.eyes ? *setup.eyes : vision::eyes_of(setup.rig);
+  const vision::CameraPair cameras = setup.cameras ? *setup.cameras : vision::cameras_of(setup.rig);
   std::optional<vision::ColourTable> learned;
   if (!setup.palette.empty()) learned = vision::table_of(setup.palette, levels_of(setup.encoding));
-  return [settings, camera, learned, rectification = vision::Rectification(setup.rig, eyes),
+  return [settings, camera, learned, rectification = vision::Rectification(setup.rig, cameras),
           watch = vision::RigWatch{}](const DetectorInput& input) mutable {
     vision::ObserverSettings with_colours = settings;
     with_colours.learned = learned ? &*learned : nullptr;

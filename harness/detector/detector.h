@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "vision/camera/eye_pair.h"
+#include "vision/camera/camera_pair.h"
 #include "vision/colour/learned_palette.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
@@ -26,18 +26,18 @@ struct DetectorInput {
 /// Finds the balls of a pair. Each drive has one of its own, which is shown the frames in order of time.
 ///
 /// An observation needs `range_bearing` with its covariance, in the robot's frame and with its colour_class,
-/// `colour` (or kUnknown), and both eyes' pixels, or `has_pixels = false`; one that is not trusted() goes
+/// `colour` (or kUnknown), and both cameras' pixels, or `has_pixels = false`; one that is not trusted() goes
 /// neither to the score nor to the filters.
 using Detector = std::function<std::vector<vision::BallObservation>(const DetectorInput&)>;
 
 /// What a detector may know before it is shown anything.
 struct DetectorSetup {
-  vision::StereoRig rig;                ///< as it is believed to be
-  std::optional<vision::EyePair> eyes;  ///< of a rig of two different cameras; ours alone knows of them
-  double ball_radius_m = 0.05;          ///< that balls are made to
-  double ball_radius_sd_m = 0.0;        ///< how exactly they are; 0: exactly
-  double rows_within_px = 10.0;         ///< that the rig may be off by
-  double noise_sd_levels = 0.0;         ///< of a grey pixel, in levels of 255
+  vision::StereoRig rig;                      ///< as it is believed to be
+  std::optional<vision::CameraPair> cameras;  ///< of a rig of two different cameras; ours alone knows of them
+  double ball_radius_m = 0.05;                ///< that balls are made to
+  double ball_radius_sd_m = 0.0;              ///< how exactly they are; 0: exactly
+  double rows_within_px = 10.0;               ///< that the rig may be off by
+  double noise_sd_levels = 0.0;               ///< of a grey pixel, in levels of 255
   worlds::Encoding encoding = worlds::Encoding::kLinear;
   double gamma = 2.2;                          ///< of Encoding::kGamma
   std::vector<vision::LearnedColour> palette;  ///< colours that were learned; empty: vision::kPalette

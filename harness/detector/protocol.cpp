@@ -20,11 +20,11 @@ constexpr std::array<const char*, 3> kEncodings = {"linear", "srgb", "gamma"};  
 Json rig_json(const vision::StereoRig& rig) {
   const Eigen::Vector3d& turn = rig.right_turn_rad;
   const vision::Distortion& lens = rig.distortion;
-  return {{"width_px", rig.camera.width_px},
-          {"height_px", rig.camera.height_px},
-          {"focal_px", rig.camera.focal_px},
-          {"cx_px", rig.camera.cx_px},
-          {"cy_px", rig.camera.cy_px},
+  return {{"width_px", rig.intrinsics.width_px},
+          {"height_px", rig.intrinsics.height_px},
+          {"focal_px", rig.intrinsics.focal_px},
+          {"cx_px", rig.intrinsics.cx_px},
+          {"cy_px", rig.intrinsics.cy_px},
           {"baseline_m", rig.baseline_m},
           {"height_m", rig.height_m},
           {"pitch_down_rad", rig.pitch_down_rad},
@@ -44,11 +44,11 @@ vision::StereoRig read_rig(const JsonValue& value) {
                "pitch_down_rad", "right_turn_rad", "distortion", "pixel_aspect"});
   constexpr std::int64_t kMost_px = 1 << 16;
   vision::StereoRig rig;
-  rig.camera.width_px = static_cast<int>(value.at("width_px").integer(1, kMost_px));
-  rig.camera.height_px = static_cast<int>(value.at("height_px").integer(1, kMost_px));
-  rig.camera.focal_px = value.at("focal_px").number(kLeast, kMost);
-  rig.camera.cx_px = value.at("cx_px").number(-kMost, kMost);
-  rig.camera.cy_px = value.at("cy_px").number(-kMost, kMost);
+  rig.intrinsics.width_px = static_cast<int>(value.at("width_px").integer(1, kMost_px));
+  rig.intrinsics.height_px = static_cast<int>(value.at("height_px").integer(1, kMost_px));
+  rig.intrinsics.focal_px = value.at("focal_px").number(kLeast, kMost);
+  rig.intrinsics.cx_px = value.at("cx_px").number(-kMost, kMost);
+  rig.intrinsics.cy_px = value.at("cy_px").number(-kMost, kMost);
   rig.baseline_m = value.at("baseline_m").number(kLeast, kMost);
   rig.height_m = value.at("height_m").number(-kMost, kMost);
   rig.pitch_down_rad = value.at("pitch_down_rad").number(-kMost, kMost);

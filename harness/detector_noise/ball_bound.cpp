@@ -21,10 +21,10 @@ Eigen::Matrix3d place_covariance(Eigen::Matrix4d information, double radius_sd_m
 BallBounds ball_bounds(const vision::StereoRig& rig, const vision::SizedBall& ball, double radius_sd_m,
                        const std::array<Eigen::Matrix3d, 2>& information) {
   const vision::SizedBall in_right = ball - vision::SizedBall(rig.baseline_m, 0.0, 0.0, 0.0);
-  const vision::SeenOutline left = vision::seen_outline(rig.camera, ball);
-  const vision::SeenOutline right = vision::seen_outline(rig.camera, in_right);
-  for (const Eigen::Matrix3d& eye : information)
-    if (!(eye.topLeftCorner<2, 2>().determinant() > 0.0)) return {};
+  const vision::SeenOutline left = vision::seen_outline(rig.intrinsics, ball);
+  const vision::SeenOutline right = vision::seen_outline(rig.intrinsics, in_right);
+  for (const Eigen::Matrix3d& camera : information)
+    if (!(camera.topLeftCorner<2, 2>().determinant() > 0.0)) return {};
   const Eigen::Isometry3d robot_from_camera = vision::robot_from_camera(rig);
   const auto in_robot = [&](const Eigen::Matrix3d& covariance_m2) -> Eigen::Matrix2d {
     return vision::range_bearing(ball.head<3>(), covariance_m2, robot_from_camera).covariance;

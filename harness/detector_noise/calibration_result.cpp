@@ -110,8 +110,8 @@ std::string noise_yaml(const CalibrationResult& result, NoiseKind kind, const vi
   if (kind == NoiseKind::kStereo)
     return about + fmt::format("kind: stereo\nrange_sd_m: {}\ndisparity_sd_px: {}\nbearing_sd_px: {}\n",
                                noise.stereo.range_sd_m,
-                               noise.stereo.range_sd_per_m2 * rig.camera.focal_px * rig.baseline_m,
-                               noise.stereo.bearing_sd_rad * rig.camera.focal_px);
+                               noise.stereo.range_sd_per_m2 * rig.intrinsics.focal_px * rig.baseline_m,
+                               noise.stereo.bearing_sd_rad * rig.intrinsics.focal_px);
   return about + fmt::format("kind: per_observation\nrange_sd_scale: {}\nbearing_sd_scale: {}\n",
                              noise.stated_sd_scale.x(), noise.stated_sd_scale.y());
 }

@@ -11,7 +11,7 @@
 namespace stereobench::harness {
 
 /// Looks around in one gallery a seed, with progress, in processes of their own.
-/// @param scenario whose eyes and detector look
+/// @param scenario whose cameras and detector look
 /// @param jobs processes at a time; the outcome does not depend on it
 /// @return one take a seed, in their order
 /// @throws as run_in_processes

@@ -42,7 +42,7 @@ struct CalibrationBin {
   Eigen::Vector2d correlation = Eigen::Vector2d::Zero();  ///< of range and bearing: of the errors, as stated
   Eigen::Vector3d half_nis = Eigen::Vector3d::Zero();     ///< by NoiseKind; 1 when honest
   Summary disparity_error_px;                             ///< of those that tell of pixels
-  double radius_rms_px = 0.0;                             ///< error of the outlines' radii, over both eyes
+  double radius_rms_px = 0.0;                             ///< error of the outlines' radii, over both cameras
 };
 
 /// @param noise fitted to other samples

@@ -30,8 +30,8 @@ BallBounds bounds_of(const worlds::Scenario& gallery, const worlds::World& world
       world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
   return ball_bounds(
       rig, sized, world.ball_radius_sd_m,
-      {outline_information(renderer::in_levels(frame.left.colour), rig.camera, ball.left, quality),
-       outline_information(renderer::in_levels(frame.right.colour), rig.camera, ball.right, quality)});
+      {outline_information(renderer::in_levels(frame.left.colour), rig.intrinsics, ball.left, quality),
+       outline_information(renderer::in_levels(frame.right.colour), rig.intrinsics, ball.right, quality)});
 }
 
 CalibrationSample compare(const BallOutline& ball, const vision::BallObservation& observation) {

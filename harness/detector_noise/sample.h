@@ -22,7 +22,7 @@ struct CalibrationSample {
   double disparity_error_px = 0.0;                   ///< NaN where nothing is said of pixels, and so below
   Eigen::Vector2d radius_error_px = Eigen::Vector2d::Zero();  ///< of the outlines, left and right
   double depth_m = 0.0;
-  bool whole = true;  ///< at least 95 % of the ball is seen by each eye
+  bool whole = true;  ///< at least 95 % of the ball is seen by each camera
 };
 
 /// What one gallery gave.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "worlds/drive/path.h"
 
 namespace stereobench::harness {
@@ -20,7 +20,7 @@ struct SeenPoint {
   Eigen::Vector2d place_px;
 };
 
-std::vector<SeenPoint> seen_points(const renderer::EyeFrame& frame, const renderer::EyeView& view) {
+std::vector<SeenPoint> seen_points(const renderer::RenderedImage& frame, const renderer::CameraView& view) {
   std::vector<SeenPoint> points;
   for (int v = 0; v < frame.depth_m.rows; v += kGrid_px)
     for (int u = 0; u < frame.depth_m.cols; u += kGrid_px) {
@@ -31,15 +31,15 @@ std::vector<SeenPoint> seen_points(const renderer::EyeFrame& frame, const render
   return points;
 }
 
-renderer::EyeView view_at(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& pose) {
-  renderer::EyeView view = renderer::eye_view(rig, eye, pose);
+renderer::CameraView view_at(const vision::StereoRig& rig, vision::Side side, const slam::Pose& pose) {
+  renderer::CameraView view = renderer::camera_view(rig, side, pose);
   view.lens = rig.distortion;
   return view;
 }
 
-/// The longest way of points that one eye sees, from where it is to a place nearby.
-double longest_way_to(const std::vector<SeenPoint>& points, const renderer::EyeView& here,
-                      const renderer::EyeView& there) {
+/// The longest way of points that one camera sees, from where it is to a place nearby.
+double longest_way_to(const std::vector<SeenPoint>& points, const renderer::CameraView& here,
+                      const renderer::CameraView& there) {
   if (there.camera_from_world.matrix() == here.camera_from_world.matrix()) return 0.0;
   const Eigen::Isometry3d moved = there.camera_from_world * here.camera_from_world.inverse();
   double longest_px = 0.0;
@@ -57,12 +57,12 @@ double longest_way_px(const renderer::StereoFrame& middle, const vision::StereoR
                       const Exposure& exposure) {
   const double moment_s = kMoment * exposure.open_s;
   double longest_px = 0.0;
-  for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
-    const bool is_left = eye == vision::Eye::kLeft;
+  for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight}) {
+    const bool is_left = side == vision::Side::kLeft;
     const double delay_s = is_left ? 0.0 : exposure.right_delay_s;
     const auto view = [&](double offset_s) {
       const double at_s = exposure.middle_s + delay_s + offset_s;
-      return view_at(rig, eye, worlds::pose_near(exposure.path, exposure.index, at_s));
+      return view_at(rig, side, worlds::pose_near(exposure.path, exposure.index, at_s));
     };
     const std::vector<SeenPoint> points = seen_points(is_left ? middle.left : middle.right, view(0.0));
     for (const double share : {-0.5, 0.0, 0.5})

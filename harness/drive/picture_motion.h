@@ -15,13 +15,13 @@ struct Exposure {
   std::size_t index = 0;       ///< of the step
   double middle_s = 0.0;       ///< halfway, since the step's time
   double open_s = 0.0;         ///< how long, > 0
-  double right_delay_s = 0.0;  ///< of the right eye's shutter behind the left one's
+  double right_delay_s = 0.0;  ///< of the right camera's shutter behind the left one's
 };
 
 /// The longest way that a point of the picture goes while the shutter is open: its largest speed at the
 /// beginning, halfway and at the end, times the time. Looked at are every eighth row and column, each point
 /// as far away as the picture halfway says.
-/// @param middle what both eyes see halfway
+/// @param middle what both cameras see halfway
 /// @param rig as it is
 /// @return pixels; 0 where the robot stands still
 double longest_way_px(const renderer::StereoFrame& middle, const vision::StereoRig& rig,

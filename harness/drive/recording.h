@@ -30,14 +30,14 @@ struct FrameEvent {
   const vision::StereoPair& pair;
   const std::vector<vision::BallObservation>& observations;
   const FrameMatch& match;
-  double late_s = 0.0;                     ///< by how much the eyes looked later than the step's time says
+  double late_s = 0.0;                     ///< by how much the cameras looked later than the step's time says
   renderer::Renderer* renderer = nullptr;  ///< that made the pictures, for those who want more of the truth
 };
 
 /// Who wants to be told while a drive goes on, and of which steps.
 struct Listeners {
-  /// Whether the eyes open at a step (sensors with pixels only). At others nothing is rendered or seen; what
-  /// is seen at this one does not depend on it, unless a detector has a memory.
+  /// Whether the cameras open at a step (sensors with pixels only). At others nothing is rendered or seen;
+  /// what is seen at this one does not depend on it, unless a detector has a memory.
   std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
   std::function<void(const FrameEvent&)> on_frame = [](const FrameEvent&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]

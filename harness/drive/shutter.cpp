@@ -26,7 +26,7 @@ struct Step {
   }
 };
 
-void append(const renderer::EyeFrame& rows, renderer::EyeFrame& picture) {
+void append(const renderer::RenderedImage& rows, renderer::RenderedImage& picture) {
   picture.colour.push_back(rows.colour);
   picture.ball_id.push_back(rows.ball_id);
   picture.depth_m.push_back(rows.depth_m);

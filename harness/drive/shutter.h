@@ -20,11 +20,11 @@ struct RowBand {
 /// The bands of a picture, from the first row to the last; one where all rows look at once.
 std::vector<RowBand> row_bands(const worlds::Shutter& shutter, int height_px);
 
-/// When the eyes look at a step of a drive, which the shutter leaves to chance.
+/// When the cameras look at a step of a drive, which the shutter leaves to chance.
 /// @return by how much later than the step's time, in seconds; none where the frame is dropped
 std::optional<double> lateness_s(const worlds::Shutter& shutter, std::uint64_t seed, std::size_t step);
 
-/// What both eyes see while their shutters are open.
+/// What both cameras see while their shutters are open.
 struct ExposedFrame {
   renderer::StereoFrame frame;
   /// How far the fastest point of a blurred picture goes from one of its instants to the next, px. Above 1
@@ -33,11 +33,11 @@ struct ExposedFrame {
 };
 
 /// Renders a step of a drive as its camera sees it: the average of the instants while the shutter is open,
-/// row after row while the chip is read out, the right eye later by its delay.
+/// row after row while the chip is read out, the right camera later by its delay.
 ///
 /// @param index of the step; the left shutter opens half its time before the step and closes half after, the
 ///   middle row halfway through the readout
-/// @param late_s by how much both eyes are late this time
+/// @param late_s by how much both cameras are late this time
 /// @return light as an average over instants, rounded: as many that no point moves by more than a pixel from
 /// one
 ///   to the next, at least shutter.samples and at most shutter.most_samples; identity and depth are those of

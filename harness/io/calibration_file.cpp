@@ -84,7 +84,7 @@ Eigen::Matrix3d rotation_of(const cv::Mat& transform) {
 }
 
 /// The camera of a K, with pictures of a size that is yet to be said.
-vision::Intrinsics camera_in(const fs::path& file, const YAML::Node& storage) {
+vision::Intrinsics intrinsics_in(const fs::path& file, const YAML::Node& storage) {
   const cv::Mat k = matrix(file, storage, "K", {3, 3});
   if (k.empty()) refuse(file, "K: this key is missing");
   return {0, 0, k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2)};
@@ -114,28 +114,29 @@ vision::Distortion lens_in(const fs::path& file, const YAML::Node& storage) {
   return lens;
 }
 
-vision::EyeCamera eye_in(const fs::path& file, const YAML::Node& storage, const vision::Intrinsics& size) {
+vision::CameraModel camera_in(const fs::path& file, const YAML::Node& storage,
+                              const vision::Intrinsics& size) {
   if (!storage.IsDefined() || !storage.IsMap())
     refuse(file, "left_eye, right_eye: expected both, each with K, D, rectified_from_eye");
-  vision::EyeCamera eye{.camera = camera_in(file, storage), .lens = lens_in(file, storage)};
-  eye.camera.width_px = size.width_px;
-  eye.camera.height_px = size.height_px;
+  vision::CameraModel camera{.intrinsics = intrinsics_in(file, storage), .lens = lens_in(file, storage)};
+  camera.intrinsics.width_px = size.width_px;
+  camera.intrinsics.height_px = size.height_px;
   const cv::Mat turn = matrix(file, storage, "rectified_from_eye", {3, 3});
-  if (!turn.empty()) eye.rectified_from_eye = rotation_of(turn);
-  if (!vision::is_usable(eye))
+  if (!turn.empty()) camera.rectified_from_camera = rotation_of(turn);
+  if (!vision::is_usable(camera))
     refuse(file, "left_eye, right_eye: expected cameras that can be computed with");
-  return eye;
+  return camera;
 }
 
 vision::StereoRig rig_in(const fs::path& file, const YAML::Node& storage) {
   vision::StereoRig rig;
-  rig.camera = camera_in(file, storage);
-  rig.camera.width_px = pixels(file, storage, "image_width");
-  rig.camera.height_px = pixels(file, storage, "image_height");
+  rig.intrinsics = intrinsics_in(file, storage);
+  rig.intrinsics.width_px = pixels(file, storage, "image_width");
+  rig.intrinsics.height_px = pixels(file, storage, "image_height");
   rig.baseline_m = number(file, storage, "baseline_m");
   rig.height_m = 0.0;
   rig.distortion = lens_in(file, storage);
-  if (!vision::directions_seen(rig.distortion, rig.camera))
+  if (!vision::directions_seen(rig.distortion, rig.intrinsics))
     refuse(file, "D: expected a lens that does not fold its picture");
   const cv::Mat left = matrix(file, storage, "robot_from_left_camera", {4, 4});
   const cv::Mat right = matrix(file, storage, "robot_from_right_camera", {4, 4});
@@ -163,17 +164,17 @@ cv::Mat camera_matrix(const vision::Intrinsics& c, const vision::Distortion& len
   return (cv::Mat_<double>(3, 3) << c.focal_px, 0, c.cx_px, 0, down_px, c.cy_px, 0, 0, 1);
 }
 
-/// From the left camera's frame to an eye's pixels, K [R | t].
-cv::Mat projection(const vision::StereoRig& rig, vision::Eye eye) {
-  const Eigen::Vector3d origin = vision::point_in_eye(rig, Eigen::Vector3d::Zero(), eye);
-  cv::Mat eye_from_left(3, 4, CV_64F);
+/// From the left camera's frame to a camera's pixels, K [R | t].
+cv::Mat projection(const vision::StereoRig& rig, vision::Side side) {
+  const Eigen::Vector3d origin = vision::camera_point(rig, Eigen::Vector3d::Zero(), side);
+  cv::Mat camera_from_left(3, 4, CV_64F);
   for (int column = 0; column < 4; ++column) {
     const Eigen::Vector3d axis =
-        column < 3 ? Eigen::Vector3d(vision::point_in_eye(rig, Eigen::Vector3d::Unit(column), eye) - origin)
+        column < 3 ? Eigen::Vector3d(vision::camera_point(rig, Eigen::Vector3d::Unit(column), side) - origin)
                    : origin;
-    for (int row = 0; row < 3; ++row) eye_from_left.at<double>(row, column) = axis[row];
+    for (int row = 0; row < 3; ++row) camera_from_left.at<double>(row, column) = axis[row];
   }
-  return camera_matrix(rig.camera, rig.distortion) * eye_from_left;
+  return camera_matrix(rig.intrinsics, rig.distortion) * camera_from_left;
 }
 
 template <typename Matrix>
@@ -188,28 +189,28 @@ cv::Mat coefficients(const vision::Distortion& lens) {
   return cv::Mat(cv::Matx<double, 1, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3));
 }
 
-void write_eye(cv::FileStorage& file, const char* name, const vision::EyeCamera& eye) {
+void write_camera(cv::FileStorage& file, const char* name, const vision::CameraModel& camera) {
   file << name << "{";
-  file << "K" << camera_matrix(eye.camera, eye.lens) << "D" << coefficients(eye.lens);
-  file << "rectified_from_eye" << matrix_of(eye.rectified_from_eye) << "}";
+  file << "K" << camera_matrix(camera.intrinsics, camera.lens) << "D" << coefficients(camera.lens);
+  file << "rectified_from_eye" << matrix_of(camera.rectified_from_camera) << "}";
 }
 
 }  // namespace
 
-std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes) {
+std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::CameraPair>& cameras) {
   cv::FileStorage file(".yaml",
                        cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-  file << "image_width" << rig.camera.width_px << "image_height" << rig.camera.height_px;
-  file << "K" << camera_matrix(rig.camera, rig.distortion);
+  file << "image_width" << rig.intrinsics.width_px << "image_height" << rig.intrinsics.height_px;
+  file << "K" << camera_matrix(rig.intrinsics, rig.distortion);
   file << "D" << coefficients(rig.distortion);
-  file << "P1" << projection(rig, vision::Eye::kLeft) << "P2" << projection(rig, vision::Eye::kRight);
+  file << "P1" << projection(rig, vision::Side::kLeft) << "P2" << projection(rig, vision::Side::kRight);
   file << "baseline_m" << rig.baseline_m;
-  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Eye::kLeft).matrix());
+  file << "robot_from_left_camera" << matrix_of(vision::robot_from_camera(rig, vision::Side::kLeft).matrix());
   file << "robot_from_right_camera"
-       << matrix_of(vision::robot_from_camera(rig, vision::Eye::kRight).matrix());
-  if (eyes) {
-    write_eye(file, "left_eye", eyes->front());
-    write_eye(file, "right_eye", eyes->back());
+       << matrix_of(vision::robot_from_camera(rig, vision::Side::kRight).matrix());
+  if (cameras) {
+    write_camera(file, "left_eye", cameras->front());
+    write_camera(file, "right_eye", cameras->back());
   }
   return file.releaseAndGetString();
 }
@@ -229,8 +230,8 @@ RigCalibration parse_calibration(const std::string& text, const fs::path& name) 
   if (!vision::is_usable(calibration.rig))
     refuse(name, "expected finite numbers, positive sizes and baseline");
   if (!root["left_eye"].IsDefined() && !root["right_eye"].IsDefined()) return calibration;
-  calibration.eyes = {eye_in(name, root["left_eye"], calibration.rig.camera),
-                      eye_in(name, root["right_eye"], calibration.rig.camera)};
+  calibration.cameras = {camera_in(name, root["left_eye"], calibration.rig.intrinsics),
+                         camera_in(name, root["right_eye"], calibration.rig.intrinsics)};
   return calibration;
 }
 
@@ -240,7 +241,7 @@ RigCalibration read_rig_calibration(const fs::path& file) {
 
 vision::StereoRig read_calibration(const fs::path& file) {
   const RigCalibration calibration = read_rig_calibration(file);
-  if (calibration.eyes) refuse(file, "expected one camera twice (it has left_eye and right_eye)");
+  if (calibration.cameras) refuse(file, "expected one camera twice (it has left_eye and right_eye)");
   return calibration.rig;
 }
 

@@ -5,22 +5,23 @@
 #include <optional>
 #include <string>
 
-#include "vision/camera/eye_pair.h"
+#include "vision/camera/camera_pair.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {
 
 /// What a calibration says of a rig.
 struct RigCalibration {
-  vision::StereoRig rig;  ///< where `eyes` are given, without faults: what rectified pictures are of
-  std::optional<vision::EyePair> eyes;  ///< where each eye is a camera of its own
+  vision::StereoRig rig;  ///< where `cameras` are given, without faults: what rectified pictures are of
+  std::optional<vision::CameraPair> cameras;  ///< where the two differ
 };
 
 /// The rig as an OpenCV YAML file: image size, K, P1 and P2 from the left camera's frame (P2[3] = -f B for a
 /// rectified rig), baseline, and robot_from_camera.
-/// @param eyes of a rig of two different cameras: each one's K, D and rectified_from_eye, beside `rig`, which
-///        is then what rectified pictures are of
-std::string calibration_yaml(const vision::StereoRig& rig, const std::optional<vision::EyePair>& eyes = {});
+/// @param cameras of a rig of two different cameras: each one's K, D and rectified_from_eye, beside `rig`,
+///        which is then what rectified pictures are of
+std::string calibration_yaml(const vision::StereoRig& rig,
+                             const std::optional<vision::CameraPair>& cameras = {});
 
 /// Reads calibration.yaml: `image_width`, `image_height`, `K`, `baseline_m`; where they are left out, `D` is
 /// zero, and the cameras (`robot_from_left_camera`, `robot_from_right_camera`) look level, at height 0.
@@ -35,7 +36,7 @@ RigCalibration read_rig_calibration(const std::filesystem::path& file);
 RigCalibration parse_calibration(const std::string& text, const std::filesystem::path& name);
 
 /// The same of one camera twice.
-/// @throws std::runtime_error as above, and where the eyes differ
+/// @throws std::runtime_error as above, and where the cameras differ
 vision::StereoRig read_calibration(const std::filesystem::path& file);
 
 /// The angles of StereoRig::right_turn_rad, R = Rx Ry Rz.

@@ -77,17 +77,18 @@ bool overlap(const Box& a, const Box& b) {
          a.top_px < b.top_px + b.height_px && b.top_px < a.top_px + a.height_px;
 }
 
-/// Puts labels below their balls, farther down where another label is in the way, inside one eye's picture.
+/// Puts labels below their balls, farther down where another label is in the way, inside one camera's
+/// picture.
 class LabelPlacer {
  public:
-  explicit LabelPlacer(const Box& eye) : eye_(eye) {}
+  explicit LabelPlacer(const Box& area) : area_(area) {}
 
   Box place(const Point& below, double width_px, double height_px) {
     Box box = {below.x_px - 0.5 * width_px, below.y_px, width_px, height_px};
-    const double last_left_px = std::max(eye_.left_px, eye_.left_px + eye_.width_px - width_px);
-    box.left_px = std::clamp(box.left_px, eye_.left_px, last_left_px);
-    const double last_top_px = std::max(eye_.top_px, eye_.top_px + eye_.height_px - height_px);
-    box.top_px = std::clamp(box.top_px, eye_.top_px, last_top_px);
+    const double last_left_px = std::max(area_.left_px, area_.left_px + area_.width_px - width_px);
+    box.left_px = std::clamp(box.left_px, area_.left_px, last_left_px);
+    const double last_top_px = std::max(area_.top_px, area_.top_px + area_.height_px - height_px);
+    box.top_px = std::clamp(box.top_px, area_.top_px, last_top_px);
     for (std::size_t tried = 0; tried <= taken_.size(); ++tried) {
       const auto hit =
           std::find_if(taken_.begin(), taken_.end(), [&](const Box& b) { return overlap(b, box); });
@@ -99,7 +100,7 @@ class LabelPlacer {
   }
 
  private:
-  Box eye_;
+  Box area_;
   std::vector<Box> taken_;
 };
 
@@ -114,7 +115,7 @@ void draw_label(Canvas& canvas, LabelPlacer& placer, const Point& below, const s
   canvas.write({box.left_px + 4.0, box.top_px + 0.5 * box.height_px}, label, style);
 }
 
-/// What is drawn of a ball in one eye's picture, in that picture's pixels.
+/// What is drawn of a ball in one camera's picture, in that picture's pixels.
 struct Ring {
   Eigen::Vector2d centre_px;
   double radius_px;
@@ -122,10 +123,10 @@ struct Ring {
   std::string label;
 };
 
-std::vector<Ring> rings_of(std::span<const vision::BallObservation> observations, vision::Eye eye) {
+std::vector<Ring> rings_of(std::span<const vision::BallObservation> observations, vision::Side side) {
   std::vector<Ring> rings;
   for (const vision::BallObservation& ball : observations) {
-    const bool left = eye == vision::Eye::kLeft;
+    const bool left = side == vision::Side::kLeft;
     rings.push_back({left ? ball.left_px : ball.right_px, left ? ball.left_radius_px : ball.right_radius_px,
                      ball.trusted(), label_of(ball)});
   }
@@ -147,9 +148,9 @@ std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines,
   return rings;
 }
 
-/// Draws rings on an eye's part of the picture.
-/// @param scale pixels of the picture per pixel of the eye's image
-void draw_eye(Canvas& canvas, const Box& box, double scale, std::span<const Ring> rings) {
+/// Draws rings on a camera's part of the picture.
+/// @param scale pixels of the picture per pixel of the camera's image
+void draw_side(Canvas& canvas, const Box& box, double scale, std::span<const Ring> rings) {
   // Pixel (0, 0) of an image is the centre of its top-left pixel; a canvas begins at that pixel's corner.
   const auto centre_of = [&](const Ring& ring) {
     return Point{box.left_px + scale * (ring.centre_px.x() + 0.5),
@@ -172,7 +173,7 @@ void draw_eye(Canvas& canvas, const Box& box, double scale, std::span<const Ring
 
 }  // namespace
 
-vision::StereoPair for_the_eye(const vision::StereoPair& pair, const worlds::CameraSensor& camera) {
+vision::StereoPair for_display(const vision::StereoPair& pair, const worlds::CameraSensor& camera) {
   if (camera.encoding != worlds::Encoding::kLinear) return pair;
   const worlds::CameraSensor screen{.encoding = worlds::Encoding::kSrgb};
   return {renderer::develop(pair.left, screen, 0, 0), renderer::develop(pair.right, screen, 0, 0)};
@@ -184,13 +185,13 @@ std::string draw_detection_picture(const vision::StereoPair& pair,
   const double scale = std::min(1.0, max_width_px / (2.0 * pair.left.cols));
   const cv::Mat both = side_by_side(pair, scale);
   Canvas canvas(both);
-  const double eye_width_px = 0.5 * both.cols;
-  for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
-    const double left_px = eye == vision::Eye::kLeft ? 0.0 : eye_width_px;
-    const Box box = {left_px, 0.0, eye_width_px, static_cast<double>(both.rows)};
-    draw_eye(canvas, box, eye_width_px / pair.left.cols, rings_of(observations, eye));
+  const double side_width_px = 0.5 * both.cols;
+  for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight}) {
+    const double left_px = side == vision::Side::kLeft ? 0.0 : side_width_px;
+    const Box box = {left_px, 0.0, side_width_px, static_cast<double>(both.rows)};
+    draw_side(canvas, box, side_width_px / pair.left.cols, rings_of(observations, side));
   }
-  const std::vector<Point> seam = {{eye_width_px, 0.0}, {eye_width_px, static_cast<double>(both.rows)}};
+  const std::vector<Point> seam = {{side_width_px, 0.0}, {side_width_px, static_cast<double>(both.rows)}};
   canvas.draw_line(seam, {kLine, 2.0});
   return canvas.png();
 }
@@ -202,7 +203,7 @@ std::string draw_outline_picture(const cv::Mat& picture, std::span<const vision:
   const cv::Mat backdrop = behind_drawing(picture.clone(), scale);
   Canvas canvas(backdrop);
   const Box box = {0.0, 0.0, static_cast<double>(backdrop.cols), static_cast<double>(backdrop.rows)};
-  draw_eye(canvas, box, static_cast<double>(backdrop.cols) / picture.cols, rings_of(outlines, names));
+  draw_side(canvas, box, static_cast<double>(backdrop.cols) / picture.cols, rings_of(outlines, names));
   return canvas.png();
 }
 

@@ -12,10 +12,10 @@ namespace stereobench::harness {
 
 /// The pair as screens show it rightly: light that a camera stores as it is becomes sRGB (IEC 61966-2-1).
 /// @param pair two CV_8UC3 images, as `camera` stores them
-vision::StereoPair for_the_eye(const vision::StereoPair& pair, const worlds::CameraSensor& camera);
+vision::StereoPair for_display(const vision::StereoPair& pair, const worlds::CameraSensor& camera);
 
-/// Draws the observed balls' outlines, centres, colour index and range on both eyes' pictures, side by side.
-/// Observations that are not to be trusted are dashed and say why.
+/// Draws the observed balls' outlines, centres, colour index and range on both cameras' pictures, side by
+/// side. Observations that are not to be trusted are dashed and say why.
 /// @param pair two CV_8UC3 images of one size, not empty
 /// @param max_width_px the picture is scaled down to this width when it is wider, >= 64
 /// @return the bytes of a PNG file

@@ -48,7 +48,7 @@ struct Sector {
 Sector sector_of(const worlds::Scenario& scenario) {
   if (scenario.sensor == worlds::SensorKind::kOracle)
     return {scenario.oracle.max_range_m, scenario.oracle.field_of_view_rad / 2.0};
-  const vision::Intrinsics& camera = scenario.rig.camera;
+  const vision::Intrinsics& camera = scenario.rig.intrinsics;
   const double radius_m = scenario.world.balls.front().radius_m;  // stereo: one for all
   return {camera.focal_px * radius_m / worlds::kLeastRadius_px,
           std::atan(0.5 * camera.width_px / camera.focal_px)};
@@ -89,11 +89,11 @@ void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<
 }
 
 /// What a plan's lines of sight end at.
-std::vector<FloorLine> hiding_lines(const worlds::World& world, double eye_height_m,
+std::vector<FloorLine> hiding_lines(const worlds::World& world, double camera_height_m,
                                     std::span<const FloorLine> outlines) {
   std::vector<FloorLine> lines(outlines.begin(), outlines.end());
   for (const worlds::Wall& wall : world.walls)
-    lines.push_back({wall.from_m, wall.to_m, wall.height_m > eye_height_m});
+    lines.push_back({wall.from_m, wall.to_m, wall.height_m > camera_height_m});
   return lines;
 }
 
@@ -168,7 +168,7 @@ ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World
   return coverage;
 }
 
-std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m,
+std::vector<FloorLine> mesh_outlines(const worlds::World& world, double camera_height_m,
                                      const renderer::FormReader& read) {
   const renderer::MeshSurfaces placed = renderer::place_meshes(world, read);
   const auto corner = [&](int i) {
@@ -178,7 +178,7 @@ std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_heig
   for (const renderer::MeshRun& run : placed.runs) {
     double top_m = 0.0;
     for (int i = run.first; i < run.first + run.count; ++i) top_m = std::max(top_m, corner(i).z());
-    const double level_m = std::min(eye_height_m, 0.5 * top_m);
+    const double level_m = std::min(camera_height_m, 0.5 * top_m);
     for (int i = run.first; i < run.first + run.count; i += 3) {
       std::vector<Eigen::Vector2d> ends;
       for (int k = 0; k < 3; ++k) {
@@ -187,7 +187,7 @@ std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_heig
         if ((a.z() > level_m) == (b.z() > level_m)) continue;
         ends.push_back((a + (level_m - a.z()) / (b.z() - a.z()) * (b - a)).head<2>());
       }
-      if (ends.size() == 2) lines.push_back({ends[0], ends[1], level_m == eye_height_m});
+      if (ends.size() == 2) lines.push_back({ends[0], ends[1], level_m == camera_height_m});
     }
   }
   return lines;

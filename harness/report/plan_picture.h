@@ -26,15 +26,15 @@ ViewCoverage view_coverage(const worlds::Scenario& scenario, const worlds::World
 struct FloorLine {
   Eigen::Vector2d from_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
-  bool hides = true;  ///< what it stands for reaches above the eyes
+  bool hides = true;  ///< what it stands for reaches above the cameras
 };
 
-/// The outlines of the meshes, cut level with the eyes, or at half their height where they are lower.
+/// The outlines of the meshes, cut level with the cameras, or at half their height where they are lower.
 /// @throws std::runtime_error when a mesh file cannot be read
-std::vector<FloorLine> mesh_outlines(const worlds::World& world, double eye_height_m,
+std::vector<FloorLine> mesh_outlines(const worlds::World& world, double camera_height_m,
                                      const renderer::FormReader& read = renderer::read_form);
 
-/// Where the drive goes through a wall, or through the outline of a mesh that reaches above the eyes.
+/// Where the drive goes through a wall, or through the outline of a mesh that reaches above the cameras.
 std::vector<worlds::Crossing> drive_crossings(const worlds::World& world, const worlds::GroundTruth& path,
                                               std::span<const FloorLine> outlines);
 

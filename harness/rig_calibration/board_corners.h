@@ -19,8 +19,8 @@ namespace stereobench::harness {
 /// @return row by row; empty when the board is not seen whole
 std::optional<std::vector<Eigen::Vector2d>> find_corners(const cv::Mat& picture, const Board& board);
 
-/// Gives both eyes the same order of corners: a board that looks the same upside down may be read from either
-/// end, and the eyes of a rig are not upside down to each other.
+/// Gives both cameras the same order of corners: a board that looks the same upside down may be read from
+/// either end, and the cameras of a rig are not upside down to each other.
 void align_orders(BoardView& view);
 
 }  // namespace stereobench::harness

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, kEyeSize> kNames = {"focal_px", "cx_px", "cy_px", "k1",          "k2",
-                                                      "p1",       "p2",    "k3",    "pixel_aspect"};
+constexpr std::array<const char*, kCameraSize> kNames = {"focal_px", "cx_px", "cy_px", "k1",          "k2",
+                                                         "p1",       "p2",    "k3",    "pixel_aspect"};
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 /// A parameter, its standard deviation, and where it is told.
@@ -27,10 +27,10 @@ struct Entry {
   double sd;
 };
 
-std::vector<Entry> eye_entries(const RigFit& fit, std::size_t eye) {
+std::vector<Entry> camera_entries(const RigFit& fit, std::size_t side) {
   std::vector<Entry> entries;
-  for (int i = 0; i < kEyeSize; ++i)
-    entries.push_back({kNames[static_cast<std::size_t>(i)], fit.eyes[eye][i], fit.eyes_sd[eye][i]});
+  for (int i = 0; i < kCameraSize; ++i)
+    entries.push_back({kNames[static_cast<std::size_t>(i)], fit.cameras[side][i], fit.cameras_sd[side][i]});
   return entries;
 }
 
@@ -102,8 +102,8 @@ Json models_json(const std::vector<ModelTrial>& trials) {
 
 AlignedTable parameters_table(const RigFit& fit) {
   AlignedTable table{{"", "left", "right"}, {}};
-  const auto left = eye_entries(fit, 0);
-  const auto right = eye_entries(fit, 1);
+  const auto left = camera_entries(fit, 0);
+  const auto right = camera_entries(fit, 1);
   for (std::size_t i = 0; i < left.size(); ++i)
     table.rows.push_back({left[i].name, value_with_sd(left[i]), value_with_sd(right[i])});
   for (const Entry& entry : offset_entries(fit)) table.rows.push_back({entry.name, "", value_with_sd(entry)});
@@ -149,8 +149,8 @@ std::string calibration_json(const BoardCalibration& calibration, const BoardSet
   json["square_mean_m"] = number(calibration.square_mean_m);
   json["square_rms_m"] = number(calibration.square_rms_m);
   json["baseline_m"] = number(calibration.rig.rig.baseline_m);
-  json["left"] = json_of(eye_entries(fit, 0));
-  json["right"] = json_of(eye_entries(fit, 1));
+  json["left"] = json_of(camera_entries(fit, 0));
+  json["right"] = json_of(camera_entries(fit, 1));
   json["left_from_right"] = json_of(offset_entries(fit));
   json["views"] = Json::array();
   for (const ViewOutcome& view : calibration.outcomes) {

@@ -22,7 +22,7 @@ std::string advice_on_smooth_errors(const BoardCalibration& calibration, const B
     return t.refused.empty() && !t.taken && !(t.p < kRejected);
   });
   return fmt::format(
-      "no model here has it{}: a board that is bent, another lens (fish eye), or a picture "
+      "no model here has it{}: a board that is bent, another lens (fisheye), or a picture "
       "that was cropped or scaled unevenly",
       all_rejected ? ", the fullest included" : "");
 }
@@ -43,8 +43,8 @@ std::vector<std::string> warnings_of(const BoardCalibration& calibration, const 
         fmt::format("{} views: with fewer than {}, one that is off cannot be told by the others",
                     calibration.used.size(), kFewViews));
   double focal_sd = 0.0;
-  for (std::size_t eye = 0; eye < 2; ++eye)
-    focal_sd = std::max(focal_sd, fit.eyes_sd[eye][0] / fit.eyes[eye][0]);
+  for (std::size_t side = 0; side < 2; ++side)
+    focal_sd = std::max(focal_sd, fit.cameras_sd[side][0] / fit.cameras[side][0]);
   if (focal_sd > kPoorlyKnown)
     warnings.push_back(
         fmt::format("the focal length is known to {:.1f} % only, and ranges are off as much: the "

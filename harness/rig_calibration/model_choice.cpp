@@ -54,7 +54,7 @@ Tried try_model(const std::vector<BoardView>& views, const FitSettings& settings
     rectified_rig(fit, settings.model, settings.width_px, settings.height_px);
     tried.fit = fit;
     tried.trial.rms_px = fit.rms_px;
-    tried.trial.aspect_sd = std::max(fit.eyes_sd[0][kAspect], fit.eyes_sd[1][kAspect]);
+    tried.trial.aspect_sd = std::max(fit.cameras_sd[0][kAspect], fit.cameras_sd[1][kAspect]);
   } catch (const std::runtime_error& error) {
     tried.trial.refused = error.what();
   }

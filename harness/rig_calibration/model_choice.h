@@ -25,7 +25,7 @@ struct ModelTrial {
   double rms_px = std::numeric_limits<double>::quiet_NaN();
   double f = std::numeric_limits<double>::quiet_NaN();  ///< against the fullest model; NaN for that one
   double p = std::numeric_limits<double>::quiet_NaN();
-  double aspect_sd = 0.0;  ///< of the less known eye; 0 where it was not fitted
+  double aspect_sd = 0.0;  ///< of the less known camera; 0 where it was not fitted
   bool taken = false;
 };
 

@@ -6,7 +6,7 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr long kPlanes = 4;  // two eyes, two axes
+constexpr long kPlanes = 4;  // two cameras, two axes
 
 /// Adds up squared sums along lines of corners, and how many corners they have.
 struct LineSums {

@@ -7,7 +7,7 @@ namespace stereobench::harness {
 
 /// Each coordinate's standard deviation by second differences along the board's rows: what is smooth over
 /// three corners, as all that a model leaves out is, falls out of them.
-/// @param residuals px, by view, corner (row by row), eye, axis
+/// @param residuals px, by view, corner (row by row), camera, axis
 /// @param columns of a board
 double neighbour_sd(const Eigen::VectorXd& residuals, int columns);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kOutlier = 3.0;         // times the median error of views
 constexpr double kAlwaysFine_px = 0.05;  // of a view's error: no outlier, however good the others are
 
-/// The views in which both eyes see the board, and what became of all.
+/// The views in which both cameras see the board, and what became of all.
 struct Sighted {
   std::vector<BoardView> views;
   std::vector<ViewOutcome> outcomes;
@@ -38,15 +38,15 @@ cv::Size usual_size(const std::vector<std::array<cv::Mat, 2>>& pairs) {
 /// Looks for the board in a pair. @return why it cannot be used; empty when `view` can
 std::string look(const std::array<cv::Mat, 2>& pair, const cv::Size& size, const Board& board,
                  BoardView& view) {
-  for (std::size_t eye = 0; eye < 2; ++eye)
-    if (pair[eye].size() != size)
-      return fmt::format("the {} picture has {} x {} pixels, most have {} x {}", eye == 0 ? "left" : "right",
-                         pair[eye].cols, pair[eye].rows, size.width, size.height);
+  for (std::size_t side = 0; side < 2; ++side)
+    if (pair[side].size() != size)
+      return fmt::format("the {} picture has {} x {} pixels, most have {} x {}", side == 0 ? "left" : "right",
+                         pair[side].cols, pair[side].rows, size.width, size.height);
   const auto left = find_corners(pair[0], board);
   const auto right = find_corners(pair[1], board);
   if (!left || !right)
     return fmt::format("no board of {} x {} inner corners in the {}", board.columns, board.rows,
-                       !left && !right ? "pictures of both eyes"
+                       !left && !right ? "pictures of both cameras"
                        : !left         ? "left picture"
                                        : "right picture");
   view.corners_px = {*left, *right};
@@ -74,12 +74,12 @@ Sighted find_boards(const std::vector<ViewFiles>& files, const Board& board) {
   for (const ViewOutcome& outcome : sighted.outcomes)
     if (!outcome.dropped.empty()) reasons += fmt::format("; {}: {}", outcome.name, outcome.dropped);
   throw std::runtime_error(
-      fmt::format("expected at least {} views in which both eyes see the board (got {}){}", expected,
+      fmt::format("expected at least {} views in which both cameras see the board (got {}){}", expected,
                   sighted.views.size(), reasons));
 }
 
-double error_of(const std::array<double, 2>& eyes) {
-  return std::sqrt(0.5 * (eyes[0] * eyes[0] + eyes[1] * eyes[1]));
+double error_of(const std::array<double, 2>& cameras) {
+  return std::sqrt(0.5 * (cameras[0] * cameras[0] + cameras[1] * cameras[1]));
 }
 
 /// Takes out the views that do not suit the others.
@@ -88,7 +88,7 @@ void drop_outliers(Sighted& sighted, const FitSettings& settings, const Compared
   robust.robust = true;
   const RigFit fit = fit_rig(sighted.views, robust);
   std::vector<double> errors;
-  for (const auto& eyes : fit.view_rms_px) errors.push_back(error_of(eyes));
+  for (const auto& cameras : fit.view_rms_px) errors.push_back(error_of(cameras));
   std::vector<double> sorted = errors;
   std::sort(sorted.begin(), sorted.end());
   const double median = sorted[sorted.size() / 2];
@@ -107,7 +107,7 @@ void drop_outliers(Sighted& sighted, const FitSettings& settings, const Compared
   sighted.views = kept;
 }
 
-/// Rows: how far apart the eyes' corners are across the epipolar lines, once rectified.
+/// Rows: how far apart the cameras' corners are across the epipolar lines, once rectified.
 void judge_rows(BoardCalibration& calibration) {
   double squares = 0.0;
   double sizes = 0.0;
@@ -117,8 +117,8 @@ void judge_rows(BoardCalibration& calibration) {
     const auto& [left, right] = calibration.used[outcome.index].corners_px;
     double view_squares = 0.0;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      const auto a = rectified_px(calibration.rig, left[i], vision::Eye::kLeft);
-      const auto b = rectified_px(calibration.rig, right[i], vision::Eye::kRight);
+      const auto a = rectified_px(calibration.rig, left[i], vision::Side::kLeft);
+      const auto b = rectified_px(calibration.rig, right[i], vision::Side::kRight);
       const double error = a && b ? std::abs(a->y() - b->y()) : 1e9;
       view_squares += error * error;
       sizes += error;
@@ -134,11 +134,11 @@ void judge_rows(BoardCalibration& calibration) {
 
 /// The board as the rig sees it in space: a corner's depth is f B / disparity.
 std::vector<Eigen::Vector3d> corners_in_space(const RigCalibration& calibration, const BoardView& view) {
-  const vision::Intrinsics& camera = calibration.rig.camera;
+  const vision::Intrinsics& camera = calibration.rig.intrinsics;
   std::vector<Eigen::Vector3d> corners;
   for (std::size_t i = 0; i < view.corners_px[0].size(); ++i) {
-    const auto a = rectified_px(calibration, view.corners_px[0][i], vision::Eye::kLeft);
-    const auto b = rectified_px(calibration, view.corners_px[1][i], vision::Eye::kRight);
+    const auto a = rectified_px(calibration, view.corners_px[0][i], vision::Side::kLeft);
+    const auto b = rectified_px(calibration, view.corners_px[1][i], vision::Side::kRight);
     if (!a || !b) continue;
     const double depth_m = camera.focal_px * calibration.rig.baseline_m / (a->x() - b->x());
     corners.push_back(depth_m * vision::pixel_ray(camera, *a));

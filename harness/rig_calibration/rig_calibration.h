@@ -16,7 +16,7 @@ struct ViewOutcome {
   std::string name;
   std::string dropped;        ///< why it was not used; empty when it was
   std::size_t index = 0;      ///< into the fit's views, of those that were
-  double row_rms_px = 0.0;    ///< between the eyes, once rectified
+  double row_rms_px = 0.0;    ///< between the cameras, once rectified
   double row_worst_px = 0.0;  ///< the largest of them
 };
 

@@ -20,17 +20,17 @@ constexpr double kRobustScale_px = 0.5;  // beyond it a corner's pull grows no m
 constexpr double kWorstKnown = 0.1;      // of the focal length; what is known no better is not known
 constexpr std::size_t kFewestViews = 3;
 
-/// Where an eye shows a point: vision::image_point, with derivatives.
-/// @param eye as EyeParameters
+/// Where a camera shows a point: vision::image_point, with derivatives.
+/// @param camera as CameraParameters
 template <typename T>
-void project(const T* eye, const T* point, T* pixel) {
+void project(const T* camera, const T* point, T* pixel) {
   const T x = point[0] / point[2];
   const T y = point[1] / point[2];
   const T r2 = x * x + y * y;
-  const T radial = 1.0 + r2 * (eye[3] + r2 * (eye[4] + r2 * eye[7]));
-  pixel[0] = eye[1] + eye[0] * (x * radial + 2.0 * eye[5] * x * y + eye[6] * (r2 + 2.0 * x * x));
-  pixel[1] =
-      eye[2] + eye[0] * eye[kAspect] * (y * radial + eye[5] * (r2 + 2.0 * y * y) + 2.0 * eye[6] * x * y);
+  const T radial = 1.0 + r2 * (camera[3] + r2 * (camera[4] + r2 * camera[7]));
+  pixel[0] = camera[1] + camera[0] * (x * radial + 2.0 * camera[5] * x * y + camera[6] * (r2 + 2.0 * x * x));
+  pixel[1] = camera[2] + camera[0] * camera[kAspect] *
+                             (y * radial + camera[5] * (r2 + 2.0 * y * y) + 2.0 * camera[6] * x * y);
 }
 
 /// left = R(pose) point + shift
@@ -48,41 +48,41 @@ void transform_back(const T* pose, const T* point, T* result) {
   ceres::AngleAxisRotatePoint(turn, moved, result);
 }
 
-/// A corner in the left eye's picture, minus where it should be.
+/// A corner in the left camera's picture, minus where it should be.
 struct LeftCorner {
   Eigen::Vector3d corner_m;
   Eigen::Vector2d seen_px;
 
   template <typename T>
-  bool operator()(const T* eye, const T* left_from_board, T* residual) const {
+  bool operator()(const T* camera, const T* left_from_board, T* residual) const {
     const T corner[3] = {T(corner_m[0]), T(corner_m[1]), T(corner_m[2])};
     T in_left[3];
     transform(left_from_board, corner, in_left);
-    project(eye, in_left, residual);
+    project(camera, in_left, residual);
     for (int i = 0; i < 2; ++i) residual[i] -= seen_px[i];
     return true;
   }
 };
 
-/// The same in the right eye's.
+/// The same in the right camera's.
 struct RightCorner {
   Eigen::Vector3d corner_m;
   Eigen::Vector2d seen_px;
 
   template <typename T>
-  bool operator()(const T* eye, const T* left_from_right, const T* left_from_board, T* residual) const {
+  bool operator()(const T* camera, const T* left_from_right, const T* left_from_board, T* residual) const {
     const T corner[3] = {T(corner_m[0]), T(corner_m[1]), T(corner_m[2])};
     T in_left[3];
     T in_right[3];
     transform(left_from_board, corner, in_left);
     transform_back(left_from_right, in_left, in_right);
-    project(eye, in_right, residual);
+    project(camera, in_right, residual);
     for (int i = 0; i < 2; ++i) residual[i] -= seen_px[i];
     return true;
   }
 };
 
-std::vector<int> fixed_of_eye(const FitSettings& settings) {
+std::vector<int> fixed_of_camera(const FitSettings& settings) {
   std::vector<int> fixed;
   for (int i = 0; i < 5; ++i)
     if (!settings.lens[static_cast<std::size_t>(i)]) fixed.push_back(3 + i);
@@ -105,9 +105,9 @@ class RigProblem {
   RigProblem(const std::vector<BoardView>& views, const FitSettings& settings, RigState& state)
       : one_camera_(settings.model == RigModel::kOneCamera),
         loss_(settings.robust ? std::make_unique<ceres::CauchyLoss>(kRobustScale_px) : nullptr) {
-    blocks_.push_back({state.eyes[0].data(), kEyeSize, fixed_of_eye(settings)});
-    if (!one_camera_) blocks_.push_back({state.eyes[1].data(), kEyeSize, fixed_of_eye(settings)});
-    double* right_eye = blocks_.back().values;
+    blocks_.push_back({state.cameras[0].data(), kCameraSize, fixed_of_camera(settings)});
+    if (!one_camera_) blocks_.push_back({state.cameras[1].data(), kCameraSize, fixed_of_camera(settings)});
+    double* right_camera = blocks_.back().values;
     blocks_.push_back(
         {state.left_from_right.data(), 6, one_camera_ ? std::vector<int>{4, 5} : std::vector<int>{}});
     for (std::size_t view = 0; view < views.size(); ++view) {
@@ -118,11 +118,11 @@ class RigProblem {
         const auto& [left, right] = views[view].corners_px;
         const auto at = static_cast<std::size_t>(i);
         problem_.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<LeftCorner, 2, kEyeSize, 6>(new LeftCorner{corner, left[at]}),
-            loss_.get(), state.eyes[0].data(), pose);
-        problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RightCorner, 2, kEyeSize, 6, 6>(
+            new ceres::AutoDiffCostFunction<LeftCorner, 2, kCameraSize, 6>(new LeftCorner{corner, left[at]}),
+            loss_.get(), state.cameras[0].data(), pose);
+        problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RightCorner, 2, kCameraSize, 6, 6>(
                                       new RightCorner{corner, right[at]}),
-                                  loss_.get(), right_eye, state.left_from_right.data(), pose);
+                                  loss_.get(), right_camera, state.left_from_right.data(), pose);
       }
     }
     for (const Block& block : blocks_)
@@ -144,7 +144,7 @@ class RigProblem {
       throw std::runtime_error("the fit of the rig does not settle: the views contradict each other");
   }
 
-  /// Residuals without the loss: by view, corner, eye, axis.
+  /// Residuals without the loss: by view, corner, camera, axis.
   Eigen::VectorXd residuals() {
     std::vector<double> values;
     ceres::Problem::EvaluateOptions options;
@@ -171,7 +171,7 @@ class RigProblem {
  private:
   bool one_camera_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  std::vector<Block> blocks_;  ///< eyes, left_from_right, views
+  std::vector<Block> blocks_;  ///< cameras, left_from_right, views
   ceres::Problem problem_{{.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP}};
 };
 
@@ -227,11 +227,11 @@ void describe_residuals(const Eigen::VectorXd& residuals, std::size_t views, Rig
 }
 
 void check_known(const RigFit& fit) {
-  for (std::size_t eye = 0; eye < 2; ++eye)
-    if (!(fit.eyes_sd[eye][0] < kWorstKnown * fit.eyes[eye][0]))
+  for (std::size_t side = 0; side < 2; ++side)
+    if (!(fit.cameras_sd[side][0] < kWorstKnown * fit.cameras[side][0]))
       throw std::runtime_error(
           fmt::format("the views do not determine the focal length ({:.0f} px, sd {:.0f}): tilt the board",
-                      fit.eyes[eye][0], fit.eyes_sd[eye][0]));
+                      fit.cameras[side][0], fit.cameras_sd[side][0]));
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings)
   problem.solve();
 
   const bool one_camera = settings.model == RigModel::kOneCamera;
-  if (one_camera) state.eyes[1] = state.eyes[0];
+  if (one_camera) state.cameras[1] = state.cameras[0];
   const Eigen::VectorXd residuals = problem.residuals();
   RigFit fit;
   describe_residuals(residuals, views.size(), fit);
@@ -259,8 +259,8 @@ RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings)
   fit.corner_sd_px = std::sqrt(fit.squares_px2 / static_cast<double>(fit.degrees_of_freedom));
   const Eigen::VectorXd variances = fit.corner_sd_px * fit.corner_sd_px * inverse.diagonal();
   const std::size_t right = one_camera ? 0 : 1;
-  fit.eyes = state.eyes;
-  fit.eyes_sd = {problem.sds_of(0, variances), problem.sds_of(right, variances)};
+  fit.cameras = state.cameras;
+  fit.cameras_sd = {problem.sds_of(0, variances), problem.sds_of(right, variances)};
   const Eigen::VectorXd offset_sds = problem.sds_of(right + 1, variances);
   fit.turn_rad = state.left_from_right.head<3>();
   fit.turn_sd_rad = offset_sds.head<3>();

@@ -1,4 +1,4 @@
-/// The rig that explains best what two eyes saw of a board.
+/// The rig that explains best what two cameras saw of a board.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@ struct FitSettings {
   int height_px = 0;
   RigModel model = RigModel::kTwoCameras;
   FreeCoefficients lens = {true, true, true, true, false};
-  bool square_pixels = true;  ///< or else each eye has a pixel aspect of its own
+  bool square_pixels = true;  ///< or else each camera has a pixel aspect of its own
   bool robust = false;  ///< Cauchy's loss, so that corners that are far off do not count; no sd is worked out
 };
 
-/// Least squares over all corners in both eyes at once: the eyes, how the right one sits to the left one, and
-/// where the board was in each view (bundle adjustment). It starts from each eye's own calibration by Zhang's
-/// method (cv::calibrateCamera).
+/// Least squares over all corners in both cameras at once: the cameras, how the right one sits to the left
+/// one, and where the board was in each view (bundle adjustment). It starts from each camera's own
+/// calibration by Zhang's method (cv::calibrateCamera).
 ///
 /// Standard deviations are those of least squares, s^2 (J' J)^-1, with s^2 the squares' sum over the degrees
 /// of freedom.

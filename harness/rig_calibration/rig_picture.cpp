@@ -19,9 +19,9 @@ constexpr Colour kRow = {0.2, 0.9, 0.4, 0.8};
 constexpr Colour kCorner = {1.0, 0.35, 0.1, 1.0};
 constexpr std::array<Colour, 3> kBars = {
     {{0.2, 0.4, 0.8, 1.0}, {0.85, 0.45, 0.1, 1.0}, {0.2, 0.6, 0.3, 1.0}}};
-constexpr std::array<const char*, 3> kBarNames = {"left", "right", "rows between the eyes"};
+constexpr std::array<const char*, 3> kBarNames = {"left", "right", "rows between the cameras"};
 
-/// Both eyes' straightened pictures side by side, above white paper for the chart.
+/// Both cameras' straightened pictures side by side, above white paper for the chart.
 cv::Mat sheet_of(const vision::StereoPair& straight, double scale) {
   cv::Mat both;
   cv::hconcat(straight.left, straight.right, both);
@@ -40,12 +40,12 @@ void draw_rows(Canvas& canvas, double height_px) {
 
 void draw_corners(Canvas& canvas, const BoardCalibration& calibration, const BoardView& view,
                   const vision::Rectification& rectification, double scale) {
-  const vision::Intrinsics& drawn = rectification.rig().camera;
-  const vision::Intrinsics& plain = calibration.rig.rig.camera;
-  for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
-    const double left_px = eye == vision::Eye::kLeft ? 0.0 : 0.5 * kWidth_px;
-    for (const Eigen::Vector2d& corner : view.corners_px[static_cast<std::size_t>(eye)]) {
-      const auto at = rectified_px(calibration.rig, corner, eye);
+  const vision::Intrinsics& drawn = rectification.rig().intrinsics;
+  const vision::Intrinsics& plain = calibration.rig.rig.intrinsics;
+  for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight}) {
+    const double left_px = side == vision::Side::kLeft ? 0.0 : 0.5 * kWidth_px;
+    for (const Eigen::Vector2d& corner : view.corners_px[static_cast<std::size_t>(side)]) {
+      const auto at = rectified_px(calibration.rig, corner, side);
       if (!at) continue;
       const double x = left_px + scale * (at->x() - plain.cx_px + drawn.cx_px + 0.5);
       const double y = scale * (at->y() - plain.cy_px + drawn.cy_px + 0.5);
@@ -77,7 +77,7 @@ void draw_legend(Canvas& canvas, double top_px, const std::string& title) {
   }
 }
 
-/// Three bars a view: each eye's error, and that of rows.
+/// Three bars a view: each camera's error, and that of rows.
 void draw_errors(Canvas& canvas, const BoardCalibration& calibration, double top_px) {
   const double base_px = top_px + kChartHeight_px - 40.0;
   const double tallest_px = kChartHeight_px - 90.0;
@@ -114,9 +114,9 @@ void draw_errors(Canvas& canvas, const BoardCalibration& calibration, double top
 
 std::string draw_rig_picture(const BoardCalibration& calibration, std::size_t view,
                              const vision::StereoPair& pair) {
-  const vision::EyePair eyes =
-      calibration.rig.eyes ? *calibration.rig.eyes : vision::eyes_of(calibration.rig.rig);
-  const vision::Rectification rectification(calibration.rig.rig, eyes);
+  const vision::CameraPair cameras =
+      calibration.rig.cameras ? *calibration.rig.cameras : vision::cameras_of(calibration.rig.rig);
+  const vision::Rectification rectification(calibration.rig.rig, cameras);
   const vision::StereoPair straight = rectification.apply(pair);
   const double scale = 0.5 * kWidth_px / straight.left.cols;
   const cv::Mat sheet = sheet_of(straight, scale);

@@ -7,8 +7,8 @@
 
 namespace stereobench::harness {
 
-/// Draws a pair as the rig straightens it, with lines that go through both eyes' rows and the corners of the
-/// board, and below it each view's errors.
+/// Draws a pair as the rig straightens it, with lines that go through both cameras' rows and the corners of
+/// the board, and below it each view's errors.
 /// @param pair CV_8UC3, as taken
 /// @param view which of the fit's views it is
 /// @return the bytes of a PNG file

@@ -9,10 +9,10 @@
 namespace stereobench::harness {
 namespace {
 
-/// An eye and where it saw the board.
-struct EyeStart {
-  EyeParameters eye = EyeParameters::Zero();
-  std::vector<Eigen::Isometry3d> eye_from_board;
+/// A camera and where it saw the board.
+struct CameraStart {
+  CameraParameters camera = CameraParameters::Zero();
+  std::vector<Eigen::Isometry3d> camera_from_board;
 };
 
 Eigen::Isometry3d isometry_of(const cv::Mat& rotation_vector, const cv::Mat& shift) {
@@ -30,13 +30,13 @@ BoardPose pose_of(const Eigen::Isometry3d& transform) {
   return pose;
 }
 
-EyeStart start_eye(const std::vector<BoardView>& views, std::size_t eye, const FitSettings& settings) {
+CameraStart start_camera(const std::vector<BoardView>& views, std::size_t side, const FitSettings& settings) {
   std::vector<std::vector<cv::Point3f>> board(views.size());
   std::vector<std::vector<cv::Point2f>> seen(views.size());
   for (std::size_t view = 0; view < views.size(); ++view) {
     for (int i = 0; i < settings.board.corners(); ++i) {
       const Eigen::Vector3f at = settings.board.corner_m(i).cast<float>();
-      const Eigen::Vector2f pixel = views[view].corners_px[eye][static_cast<std::size_t>(i)].cast<float>();
+      const Eigen::Vector2f pixel = views[view].corners_px[side][static_cast<std::size_t>(i)].cast<float>();
       board[view].emplace_back(at.x(), at.y(), at.z());
       seen[view].emplace_back(pixel.x(), pixel.y());
     }
@@ -50,11 +50,11 @@ EyeStart start_eye(const std::vector<BoardView>& views, std::size_t eye, const F
   if (settings.square_pixels) flags |= cv::CALIB_FIX_ASPECT_RATIO;
   if (!settings.lens[0]) flags |= cv::CALIB_FIX_K1;
   cv::calibrateCamera(board, seen, {settings.width_px, settings.height_px}, k, d, turns, shifts, flags);
-  EyeStart start;
-  start.eye << k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2), d.at<double>(0), 0, 0, 0, 0,
+  CameraStart start;
+  start.camera << k.at<double>(0, 0), k.at<double>(0, 2), k.at<double>(1, 2), d.at<double>(0), 0, 0, 0, 0,
       settings.square_pixels ? 1.0 : k.at<double>(1, 1) / k.at<double>(0, 0);
   for (std::size_t view = 0; view < turns.size(); ++view)
-    start.eye_from_board.push_back(isometry_of(turns[view], shifts[view]));
+    start.camera_from_board.push_back(isometry_of(turns[view], shifts[view]));
   return start;
 }
 
@@ -73,18 +73,18 @@ BoardPose median_of(const std::vector<BoardPose>& poses) {
 }  // namespace
 
 RigState start_rig(const std::vector<BoardView>& views, const FitSettings& settings) try {
-  const EyeStart left = start_eye(views, 0, settings);
-  const EyeStart right = start_eye(views, 1, settings);
+  const CameraStart left = start_camera(views, 0, settings);
+  const CameraStart right = start_camera(views, 1, settings);
   RigState state;
-  state.eyes = {left.eye, right.eye};
+  state.cameras = {left.camera, right.camera};
   std::vector<BoardPose> offsets;
   for (std::size_t view = 0; view < views.size(); ++view) {
-    state.left_from_board.push_back(pose_of(left.eye_from_board[view]));
-    offsets.push_back(pose_of(left.eye_from_board[view] * right.eye_from_board[view].inverse()));
+    state.left_from_board.push_back(pose_of(left.camera_from_board[view]));
+    offsets.push_back(pose_of(left.camera_from_board[view] * right.camera_from_board[view].inverse()));
   }
   state.left_from_right = median_of(offsets);
   if (settings.model == RigModel::kOneCamera) {
-    state.eyes[0] = state.eyes[1] = 0.5 * (left.eye + right.eye);
+    state.cameras[0] = state.cameras[1] = 0.5 * (left.camera + right.camera);
     state.left_from_right.tail<2>().setZero();
   }
   return state;

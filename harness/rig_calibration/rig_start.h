@@ -13,13 +13,13 @@ using BoardPose = Eigen::Matrix<double, 6, 1>;
 
 /// All that is fitted.
 struct RigState {
-  std::array<EyeParameters, 2> eyes;
+  std::array<CameraParameters, 2> cameras;
   BoardPose left_from_right = BoardPose::Zero();
   std::vector<BoardPose> left_from_board;  ///< by view
 };
 
-/// Calibrates each eye by itself and puts the two together: where most views have the right eye.
-/// @throws std::runtime_error where an eye's views do not determine its camera
+/// Calibrates each camera by itself and puts the two together: where most views have the right one.
+/// @throws std::runtime_error where a camera's views do not determine its parameters
 RigState start_rig(const std::vector<BoardView>& views, const FitSettings& settings);
 
 }  // namespace stereobench::harness

@@ -85,7 +85,7 @@ constexpr SummaryKey kSingles[] = {
      "Who found the balls: a linked detector's name (stereobench: ours), a program's command, callable, "
      "file, or none."},
     {"vision.recall",
-     "Part of the balls to be found that were found; at least 95 % of those is seen by both eyes."},
+     "Part of the balls to be found that were found; at least 95 % of those is seen by both cameras."},
     {"vision.precision",
      "Part of the trusted detections that are of a ball, of its colour, and the first of it."},
     {"vision.misidentified", "Trusted detections on a ball of another colour."},

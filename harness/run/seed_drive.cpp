@@ -66,7 +66,7 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
     if (is_snapshot_step(event.step, task.snapshots, task.scenario->path.size()))
       drive.snapshots.push_back(
           {event.step,
-           draw_detection_picture(for_the_eye(event.pair, task.scenario->camera), event.observations)});
+           draw_detection_picture(for_display(event.pair, task.scenario->camera), event.observations)});
   };
   drive.recording = record(*task.scenario, task.seed, listeners, task.backend, task.detector);
   drive.runs = replay_filters(drive.recording.log, task.scenario->filters, filter_config(*task.scenario),

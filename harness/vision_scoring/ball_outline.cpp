@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kWholeFraction = 0.95;  // that is seen of a ball that is called whole
 
-using vision::Eye;
 using vision::OutlineEllipse;
+using vision::Side;
 
 Eigen::Vector3d in_robot(const slam::Pose& world_from_robot, const Eigen::Vector3d& point_in_world) {
   const double dx = point_in_world.x() - world_from_robot.x_m;
@@ -37,19 +37,19 @@ Eigen::Vector2d point_on(const OutlineEllipse& ellipse, double turn_rad) {
 bool lies_inside(const vision::StereoRig& rig, const std::optional<Eigen::AlignedBox2d>& seen,
                  const OutlineEllipse& ellipse) {
   constexpr int kPoints = 64;
-  if (rig.distortion == vision::Distortion{}) return vision::lies_inside(rig.camera, ellipse);
+  if (rig.distortion == vision::Distortion{}) return vision::lies_inside(rig.intrinsics, ellipse);
   for (int i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d ray =
-        vision::pixel_ray(rig.camera, point_on(ellipse, 2.0 * slam::kPi * i / kPoints));
+        vision::pixel_ray(rig.intrinsics, point_on(ellipse, 2.0 * slam::kPi * i / kPoints));
     if (!seen || !seen->contains(ray.head<2>())) return false;  // beyond, the lens may fold
-    if (!vision::is_inside(rig.camera, vision::image_point(rig, ray))) return false;
+    if (!vision::is_inside(rig.intrinsics, vision::image_point(rig, ray))) return false;
   }
   return true;
 }
 
 /// The area that a rig's picture shows of an outline with nothing in its way, to first order in the lens.
 double whole_area_px(const vision::StereoRig& rig, const OutlineEllipse& ellipse) {
-  const Eigen::Vector2d direction = vision::pixel_ray(rig.camera, ellipse.centre_px).head<2>();
+  const Eigen::Vector2d direction = vision::pixel_ray(rig.intrinsics, ellipse.centre_px).head<2>();
   return slam::kPi * ellipse.semi_major_px * ellipse.semi_minor_px *
          vision::distortion_slope(rig.distortion, direction).determinant();
 }
@@ -69,7 +69,7 @@ bool is_whole(const BallOutline& ball) {
 }
 
 std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
-  const vision::Intrinsics& camera = truth.rig.camera;
+  const vision::Intrinsics& camera = truth.rig.intrinsics;
   const Eigen::Isometry3d camera_from_robot = vision::robot_from_camera(truth.rig).inverse();
   const auto left_ids = renderer::pixels_by_id(truth.frame.left.ball_id);
   const auto right_ids = renderer::pixels_by_id(truth.frame.right.ball_id);
@@ -79,7 +79,7 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     const worlds::Ball& ball = truth.world.balls[i];
     const Eigen::Vector3d ball_in_robot = in_robot(truth.world_from_robot, ball.centre_m);
     const Eigen::Vector3d in_left = camera_from_robot * ball_in_robot;
-    const Eigen::Vector3d in_right = vision::point_in_eye(truth.rig, in_left, Eye::kRight);
+    const Eigen::Vector3d in_right = vision::camera_point(truth.rig, in_left, Side::kRight);
     const auto left = vision::sphere_outline(camera, in_left, ball.radius_m);
     const auto right = vision::sphere_outline(camera, in_right, ball.radius_m);
     if (!left || !right) continue;

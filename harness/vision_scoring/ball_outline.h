@@ -19,7 +19,7 @@ struct VisionTruth {
   const renderer::StereoFrame& frame;
 };
 
-/// A ball as both eyes would see it with nothing in its way, and how much of it they do see.
+/// A ball as both cameras would see it with nothing in its way, and how much of it they do see.
 struct BallOutline {
   int ball = 0;  ///< index into World::balls
   Eigen::Vector3d ball_in_robot = Eigen::Vector3d::Zero();
@@ -30,11 +30,11 @@ struct BallOutline {
   bool inside_both = false;  ///< the whole outline lies within both images
 };
 
-/// Whether both eyes see a ball all but whole: inside of their images, at least 95 % of it not hidden.
+/// Whether both cameras see a ball all but whole: inside of their images, at least 95 % of it not hidden.
 bool is_whole(const BallOutline& ball);
 
 /// The outlines of the balls in a pair.
-/// @return one for each ball that is wholly ahead of both eyes, also outside the images, in order of the
+/// @return one for each ball that is wholly ahead of both cameras, also outside the images, in order of the
 /// balls
 std::vector<BallOutline> ball_outlines(const VisionTruth& truth);
 

@@ -16,7 +16,7 @@ bool suits_colour(const VisionTruth& truth, const BallOutline& ball,
          observation.colour == truth.world.balls[static_cast<std::size_t>(ball.ball)].colour;
 }
 
-/// Whether an observation is within a ball's outline in both eyes. Where it says nothing of heights it is
+/// Whether an observation is within a ball's outline in both cameras. Where it says nothing of heights it is
 /// taken to be at the ball's.
 bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::BallObservation& observation) {
   if (observation.has_pixels)
@@ -25,10 +25,10 @@ bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::Ball
   const auto [s, c] = slam::sine_cosine(seen.bearing_rad);
   const Eigen::Vector3d in_robot(seen.range_m * c, seen.range_m * s, ball.ball_in_robot.z());
   const Eigen::Vector3d in_left = vision::robot_from_camera(truth.rig).inverse() * in_robot;
-  const Eigen::Vector3d in_right = vision::point_in_eye(truth.rig, in_left, vision::Eye::kRight);
+  const Eigen::Vector3d in_right = vision::camera_point(truth.rig, in_left, vision::Side::kRight);
   return in_left.z() > 0.0 && in_right.z() > 0.0 &&
-         contains(ball.left, vision::project(truth.rig.camera, in_left)) &&
-         contains(ball.right, vision::project(truth.rig.camera, in_right));
+         contains(ball.left, vision::project(truth.rig.intrinsics, in_left)) &&
+         contains(ball.right, vision::project(truth.rig.intrinsics, in_right));
 }
 
 /// The ball under an observation: one whose colour suits it if there is one, else any that is not wholly

@@ -22,13 +22,13 @@ struct MatchedObservation {
 
 /// The balls of a pair and its observations.
 struct FrameMatch {
-  std::vector<BallOutline> outlines;             ///< of the balls ahead of both eyes
+  std::vector<BallOutline> outlines;             ///< of the balls ahead of both cameras
   std::vector<MatchedObservation> observations;  ///< in the order in which they were given
 };
 
 /// Matches the observations of one pair with the balls. An observation is of a ball when its centres lie
-/// within the ball's outlines in both eyes; one without pixels is looked for at the height of each ball. Of
-/// several balls one whose colour agrees goes first; without pixels, then the one whose range is nearest.
+/// within the ball's outlines in both cameras; one without pixels is looked for at the height of each ball.
+/// Of several balls one whose colour agrees goes first; without pixels, then the one whose range is nearest.
 FrameMatch match_observations(const VisionTruth& truth,
                               std::span<const vision::BallObservation> observations);
 

@@ -76,11 +76,11 @@ RigCheck& RigCheck::operator+=(const RigCheck& other) {
 RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& size,
                    std::span<const vision::BallObservation> observations) {
   constexpr double kOfRows = 2.0 * kOutline_px * kOutline_px;
-  RigCheck check{believed.camera, believed.baseline_m, {}};
+  RigCheck check{believed.intrinsics, believed.baseline_m, {}};
   for (const vision::BallObservation& seen : observations) {
     if (!seen.trusted() || !seen.has_pixels) continue;
-    const auto left_px = vision::straight_point(believed, seen.left_px, vision::Eye::kLeft);
-    const auto right_px = vision::straight_point(believed, seen.right_px, vision::Eye::kRight);
+    const auto left_px = vision::rectified_point(believed, seen.left_px, vision::Side::kLeft);
+    const auto right_px = vision::rectified_point(believed, seen.right_px, vision::Side::kRight);
     if (!left_px || !right_px) continue;
     vision::BallApart apart{*left_px, *right_px, kOfRows, left_px->x() - right_px->x(), kUnknownRadius};
     if (seen.left_radius_px > 0.0 && seen.right_radius_px > 0.0) {
@@ -91,7 +91,7 @@ RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& si
       const double made_px = apart.disparity_by_size_px * size.radius_sd_m / size.radius_m;
       apart.disparity_variance_px2 = kOfRows * (1.0 + per_radius * per_radius) + made_px * made_px;
     }
-    check.watch.add(believed.camera, apart, {});
+    check.watch.add(believed.intrinsics, apart, {});
   }
   return check;
 }

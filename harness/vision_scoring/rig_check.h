@@ -13,7 +13,7 @@
 
 namespace stereobench::harness {
 
-/// Differences between both eyes, summed over detections of one believed rig.
+/// Differences between both cameras, summed over detections of one believed rig.
 struct RigCheck {
   vision::Intrinsics camera;
   double baseline_m = 0.0;  ///< as believed; 0 while nothing was detected
@@ -29,7 +29,7 @@ struct RigCheck {
 RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& size,
                    std::span<const vision::BallObservation> observations);
 
-/// `rows_off_px`: by how many rows the left eye sees things further down, at the left and the right end of
+/// `rows_off_px`: by how many rows the left camera sees things further down, at the left and the right end of
 /// the middle row, and its standard deviation. `size_disagrees`: by what share disparities of 40 px are
 /// larger than sizes say. Null where nothing tells.
 nlohmann::ordered_json rig_json(const RigCheck& check);

@@ -36,8 +36,8 @@ struct VisionScore {
 };
 
 /// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
-/// radius of at least 5 px, and at least 95 % of it is seen by each eye. Of several trusted observations of
-/// one ball the first counts as right.
+/// radius of at least 5 px, and at least 95 % of it is seen by each camera. Of several trusted observations
+/// of one ball the first counts as right.
 VisionScore score_match(const FrameMatch& match);
 
 /// Measured minus true. @param undistorted of a MatchedObservation @return NaN for one without pixels

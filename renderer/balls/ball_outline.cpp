@@ -47,7 +47,7 @@ std::array<float, 4> visible_bounds(const vision::Intrinsics& camera, const Elli
   return {narrow(low.x()), narrow(low.y()), narrow(high.x()), narrow(high.y())};
 }
 
-std::array<float, 4> split_centre(const EyeView& view, const Eigen::Vector2d& centre_px) {
+std::array<float, 4> split_centre(const CameraView& view, const Eigen::Vector2d& centre_px) {
   const Eigen::Vector2d whole = centre_px.array().round();
   const Eigen::Vector2d rest = centre_px - whole;
   return {narrow(whole.x() + 0.5 + view.first_column_px), narrow(whole.y() + 0.5), narrow(rest.x()),
@@ -61,18 +61,18 @@ std::array<float, 4> colour_of(const worlds::Ball& ball, int identity) {
 
 }  // namespace
 
-std::optional<BallOutline> ball_outline(const EyeView& view, const worlds::Ball& ball, int identity) {
+std::optional<BallOutline> ball_outline(const CameraView& view, const worlds::Ball& ball, int identity) {
   const Eigen::Vector3d c = view.camera_from_world * ball.centre_m;
   if (!(c.z() - ball.radius_m > kNear_m)) return std::nullopt;
-  const Ellipse ellipse = ellipse_of(view.camera, c, ball.radius_m);
-  const std::array<float, 4> bounds = visible_bounds(view.camera, ellipse);
+  const Ellipse ellipse = ellipse_of(view.intrinsics, c, ball.radius_m);
+  const std::array<float, 4> bounds = visible_bounds(view.intrinsics, ellipse);
   if (!(bounds[0] < bounds[2] && bounds[1] < bounds[3])) return std::nullopt;
   const Eigen::Vector3d ray = ellipse.centre_ray.homogeneous();
   return BallOutline{
       .centre = split_centre(view, ellipse.centre_px),
       .shape = {narrow(ellipse.shape(0, 0)), narrow(ellipse.shape(0, 1)), narrow(ellipse.shape(1, 1)),
                 narrow(ellipse.peak_m2)},
-      .ray = {narrow(ray.x()), narrow(ray.y()), narrow(ray.dot(c)), narrow(1.0 / view.camera.focal_px)},
+      .ray = {narrow(ray.x()), narrow(ray.y()), narrow(ray.dot(c)), narrow(1.0 / view.intrinsics.focal_px)},
       .ball = {narrow(c.x()), narrow(c.y()), narrow(c.z()), narrow(1.0 / ball.radius_m)},
       .colour = colour_of(ball, identity),
       .bounds = bounds};

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "worlds/types.h"
 
 namespace stereobench::renderer {
@@ -25,9 +25,9 @@ struct BallOutline {
       bounds;  ///< of the outline with a margin, device coordinates: left, top, right, bottom
 };
 
-/// The outline of a ball in an eye.
+/// The outline of a ball in a camera.
 /// @param identity 1..254, what is written into the picture's ids
 /// @return empty when no pixel can see the ball, or when it reaches behind the near plane
-std::optional<BallOutline> ball_outline(const EyeView& view, const worlds::Ball& ball, int identity);
+std::optional<BallOutline> ball_outline(const CameraView& view, const worlds::Ball& ball, int identity);
 
 }  // namespace stereobench::renderer

@@ -10,11 +10,11 @@ namespace {
 constexpr std::array<int, 6> kOutlineWidths = {4, 4, 4, 4, 4, 4};
 static_assert(sizeof(BallOutline) == 24 * sizeof(float), "outlines are streamed to the shader as they are");
 
-/// Indices of the balls, the farthest from the eye first.
-std::vector<std::size_t> far_to_near(const EyeView& view, const std::vector<worlds::Ball>& balls) {
-  const Eigen::Vector3d eye = view.centre_in_world();
+/// Indices of the balls, the farthest from the camera first.
+std::vector<std::size_t> far_to_near(const CameraView& view, const std::vector<worlds::Ball>& balls) {
+  const Eigen::Vector3d camera_m = view.centre_in_world();
   const auto nearest = [&](std::size_t index) {
-    return (balls[index].centre_m - eye).norm() - balls[index].radius_m;
+    return (balls[index].centre_m - camera_m).norm() - balls[index].radius_m;
   };
   std::vector<std::size_t> order(balls.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -65,7 +65,7 @@ BallPainter::Part BallPainter::make_part(const Gl& gl, BallPart which) const {
   return {std::move(program), towards_light};
 }
 
-void BallPainter::prepare(const Part& part, const EyeView& view) const {
+void BallPainter::prepare(const Part& part, const CameraView& view) const {
   const Eigen::Vector3f towards =
       (view.camera_from_world.linear() * light_.towards_light.normalized()).cast<float>();
   part.program.use();
@@ -80,7 +80,7 @@ void BallPainter::draw_boxes(std::size_t count) const {
   gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), 0);
 }
 
-std::vector<BallOutline> BallPainter::outlines(const EyeView& view) const {
+std::vector<BallOutline> BallPainter::outlines(const CameraView& view) const {
   std::vector<BallOutline> seen;
   for (const std::size_t index : far_to_near(view, balls_)) {
     const auto outline = ball_outline(view, balls_[index], static_cast<int>(index) + 1);
@@ -89,7 +89,7 @@ std::vector<BallOutline> BallPainter::outlines(const EyeView& view) const {
   return seen;
 }
 
-void BallPainter::draw(const EyeView& view, const std::vector<BallOutline>& outlines) {
+void BallPainter::draw(const CameraView& view, const std::vector<BallOutline>& outlines) {
   if (outlines.empty()) return;
   prepare(core_, view);
   prepare(rim_, view);
@@ -110,7 +110,7 @@ void BallPainter::draw(const EyeView& view, const std::vector<BallOutline>& outl
   gl_->Disable(GL_BLEND);
 }
 
-void BallPainter::draw_facets(const EyeView& view) {
+void BallPainter::draw_facets(const CameraView& view) {
   const std::vector<BallOutline> outlines = this->outlines(view);
   if (outlines.empty()) return;
   if (!facet_) facet_.emplace(make_part(*gl_, BallPart::kFacet));

@@ -15,15 +15,15 @@ class BallPainter {
  public:
   BallPainter(const Gl& gl, const worlds::World& world);
 
-  /// The balls that the eye can see, what is behind another first.
-  std::vector<BallOutline> outlines(const EyeView& view) const;
+  /// The balls that the camera can see, what is behind another first.
+  std::vector<BallOutline> outlines(const CameraView& view) const;
 
   /// Draws balls over a picture whose surfaces are already there.
   /// @param outlines as above
-  void draw(const EyeView& view, const std::vector<BallOutline>& outlines);
+  void draw(const CameraView& view, const std::vector<BallOutline>& outlines);
 
-  /// Draws those that the eye can see with the numbers of facets (facets.h) in place of colours.
-  void draw_facets(const EyeView& view);
+  /// Draws those that the camera can see with the numbers of facets (facets.h) in place of colours.
+  void draw_facets(const CameraView& view);
 
  private:
   struct Part {
@@ -31,7 +31,7 @@ class BallPainter {
     GLint towards_light;
   };
   Part make_part(const Gl& gl, BallPart which) const;
-  void prepare(const Part& part, const EyeView& view) const;
+  void prepare(const Part& part, const CameraView& view) const;
   void upload(const std::vector<BallOutline>& outlines);
   void draw_boxes(std::size_t count) const;
 

@@ -29,7 +29,7 @@ Eigen::Vector2d offset(const BallOutline& outline, const cv::Point& pixel) {
           pixel.y + 0.5 - double{centre[1]} - double{centre[3]}};
 }
 
-/// The pixels of the eye's whole picture that the outline's bounds touch.
+/// The pixels of the camera's whole picture that the outline's bounds touch.
 cv::Rect box_of(const BallOutline& outline, const vision::Intrinsics& camera) {
   const auto place = [](float device, int size_px) { return (double{device} + 1.0) / 2.0 * size_px; };
   const auto& bounds = outline.bounds;
@@ -42,11 +42,11 @@ cv::Rect box_of(const BallOutline& outline, const vision::Intrinsics& camera) {
 
 }  // namespace
 
-BallVeil::BallVeil(const EyeView& view, std::vector<BallOutline> outlines, const cv::Range& rows)
+BallVeil::BallVeil(const CameraView& view, std::vector<BallOutline> outlines, const cv::Range& rows)
     : outlines_(std::move(outlines)), origin_(view.first_column_px, rows.start) {
-  const cv::Rect picture(0, 0, view.camera.width_px, rows.size());
+  const cv::Rect picture(0, 0, view.intrinsics.width_px, rows.size());
   for (const BallOutline& outline : outlines_)
-    boxes_.push_back((box_of(outline, view.camera) - cv::Point(0, rows.start)) & picture);
+    boxes_.push_back((box_of(outline, view.intrinsics) - cv::Point(0, rows.start)) & picture);
 }
 
 float BallVeil::light_left(const cv::Point& pixel, double inverse_depth) const {

@@ -9,15 +9,15 @@
 
 namespace stereobench::renderer {
 
-/// The balls before an eye, as ball_shader.h draws them.
+/// The balls before a camera, as ball_shader.h draws them.
 class BallVeil {
  public:
   /// No balls.
   BallVeil() = default;
 
-  /// @param outlines of the balls that the eye sees
-  /// @param rows of the eye's picture that pixels are counted in
-  BallVeil(const EyeView& view, std::vector<BallOutline> outlines, const cv::Range& rows);
+  /// @param outlines of the balls that the camera sees
+  /// @param rows of the camera's picture that pixels are counted in
+  BallVeil(const CameraView& view, std::vector<BallOutline> outlines, const cv::Range& rows);
 
   const std::vector<BallOutline>& outlines() const { return outlines_; }
 

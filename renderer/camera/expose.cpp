@@ -121,8 +121,8 @@ vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& 
   }
   if (sensor.noise_sd_levels == 0.0) return {in_levels(left), in_levels(right)};
   const Shifts shifts = shifts_for(sensor.noise_sd_levels);
-  const auto key = [&](std::uint64_t eye) {
-    return NoiseBlocks({seed, slam::Stream::kImageNoise, 2 * frame_index + eye});
+  const auto key = [&](std::uint64_t side) {
+    return NoiseBlocks({seed, slam::Stream::kImageNoise, 2 * frame_index + side});
   };
   return {noisy(in_levels(left), shifts, key(0)), noisy(in_levels(right), shifts, key(1))};
 }

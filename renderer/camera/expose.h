@@ -14,12 +14,12 @@ namespace stereobench::renderer {
 LightDepth light_for(const worlds::CameraSensor& sensor);
 
 /// Takes the picture: lens, chip and encoding as the sensor says (develop.h), independent for each pixel,
-/// channel, eye and frame, rounded to whole levels (which adds a variance of 1/12 of its own), clamped to
+/// channel, camera and frame, rounded to whole levels (which adds a variance of 1/12 of its own), clamped to
 /// 0..255.
 ///
-/// Noise is a function of (seed, frame, eye, position) alone, the numbers of
-/// slam::RandomStream(seed, stream, 2 * frame + eye): frame 17 alone gets what frame 17 of a run gets.
-/// @param frame both eyes' colour
+/// Noise is a function of (seed, frame, camera, position) alone, the numbers of
+/// slam::RandomStream(seed, stream, 2 * frame + camera): frame 17 alone gets what frame 17 of a run gets.
+/// @param frame both cameras' colour
 /// @param frame_index >= 0, counts the instants of a run
 /// @return pictures of the same size; a sensor that changes nothing leaves them the frame's pixels
 /// @throws std::invalid_argument when a number of the sensor is out of range, or a picture has neither 8 nor

@@ -1,4 +1,4 @@
-/// Random numbers for pictures: a function of seed, frame, eye and position, and of nothing else.
+/// Random numbers for pictures: a function of seed, frame, camera and position, and of nothing else.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline constexpr std::size_t kNumbersPerBlock = 8;  ///< of 16 bits each
 struct NoiseKey {
   std::uint64_t seed = 0;
   slam::Stream stream = slam::Stream::kImageNoise;
-  std::uint64_t sequence = 0;  ///< 2 * frame + eye
+  std::uint64_t sequence = 0;  ///< 2 * frame + camera
 };
 
 /// The blocks of a random stream, whole and without a call for each number.

@@ -30,7 +30,7 @@ void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int d
   for (std::size_t column = 0; column < places.size(); ++column) {
     const Eigen::Vector2d pixel((static_cast<double>(column) + 0.5) / density - 0.5,
                                 (row + 0.5) / density - 0.5);
-    const Eigen::Vector2d bent = vision::pixel_ray(rig.camera, pixel).head<2>();
+    const Eigen::Vector2d bent = vision::pixel_ray(rig.intrinsics, pixel).head<2>();
     std::optional<Eigen::Vector2d> found;
     if (column >= 2) found = vision::undistort(rig.distortion, bent, 2.0 * last - before);  // it goes on so
     if (!found) found = vision::undistort(rig.distortion, bent);
@@ -66,45 +66,47 @@ std::vector<cv::Range> rows_of(const cv::Mat& places) {
 vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
   const auto pinhole = vision::pinhole_rig(rig);
   if (!pinhole) throw std::invalid_argument("Lens: the lens folds its picture");
-  if (!vision::can_be_drawn(pinhole->camera))
+  if (!vision::can_be_drawn(pinhole->intrinsics))
     throw std::invalid_argument("Lens: it sees more than a pinhole camera can draw");
   return *pinhole;
 }
 
 Lens::Lens(const vision::StereoRig& rig)
     : pinhole_(pinhole_rig_of(rig)),
-      light_places_(kOversampling * rig.camera.height_px, kOversampling * rig.camera.width_px, CV_16SC2),
+      light_places_(kOversampling * rig.intrinsics.height_px, kOversampling * rig.intrinsics.width_px,
+                    CV_16SC2),
       light_fractions_(light_places_.size(), CV_16UC1),
-      truth_places_(rig.camera.height_px, rig.camera.width_px, CV_16SC2) {
+      truth_places_(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_16SC2) {
   std::vector<cv::Vec2d> places(static_cast<std::size_t>(light_places_.cols));
   for (int row = 0; row < light_places_.rows; ++row) {
-    look(rig, pinhole_.camera, kOversampling, row, places);
+    look(rig, pinhole_.intrinsics, kOversampling, row, places);
     cv::Mat light, at = light_places_.row(row), fractions = light_fractions_.row(row);
     cv::Mat(places, false).reshape(2, 1).convertTo(light, CV_32F);
     cv::convertMaps(light, cv::noArray(), at, fractions, CV_16SC2);
   }
   places.resize(static_cast<std::size_t>(truth_places_.cols));
   for (int row = 0; row < truth_places_.rows; ++row) {
-    look(rig, pinhole_.camera, 1, row, places);
+    look(rig, pinhole_.intrinsics, 1, row, places);
     std::transform(places.begin(), places.end(), truth_places_.ptr<cv::Vec2s>(row), rounded);
   }
   rows_seen_ = rows_of(light_places_);
 }
 
 cv::Range Lens::rows_seen(const cv::Range& rows) const {
-  cv::Range seen(pinhole_.camera.height_px, 0);
+  cv::Range seen(pinhole_.intrinsics.height_px, 0);
   for (int row = rows.start; row < rows.end; ++row) {
     const cv::Range& of_row = rows_seen_[static_cast<std::size_t>(row)];
     seen = {std::min(seen.start, of_row.start), std::max(seen.end, of_row.end)};
   }
   return {std::max(seen.start - kMargin_px, 0),
-          std::min(seen.end + kMargin_px + 1, pinhole_.camera.height_px)};
+          std::min(seen.end + kMargin_px + 1, pinhole_.intrinsics.height_px)};
 }
 
-EyeFrame Lens::bend(const EyeFrame& straight, int first_row, const cv::Range& rows, PicturePool& pool) const {
+RenderedImage Lens::bend(const RenderedImage& straight, int first_row, const cv::Range& rows,
+                         PicturePool& pool) const {
   const cv::Size size(truth_places_.cols, rows.size());
   const bool is_fine = straight.colour.depth() == CV_16U;
-  EyeFrame bent = blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
+  RenderedImage bent = blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
   const auto bend_row = [&](int v) {
     const int row = rows.start + v;
     const auto light = [&](int k) {

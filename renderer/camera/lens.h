@@ -35,7 +35,8 @@ class Lens {
   /// @param straight of the pinhole rig, from a row of its picture on
   /// @param rows of the bent picture, all of whose rows_seen() are there
   /// @param pool that the bent pictures' memory is of
-  EyeFrame bend(const EyeFrame& straight, int first_row, const cv::Range& rows, PicturePool& pool) const;
+  RenderedImage bend(const RenderedImage& straight, int first_row, const cv::Range& rows,
+                     PicturePool& pool) const;
 
  private:
   vision::StereoRig pinhole_;

@@ -5,7 +5,7 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -23,7 +23,7 @@ void store_identities(std::uint8_t* id, const cv::v_uint16x8& identities) {
 
 /// @tparam Lanes numbers of the pixels that are looked at together
 template <class Lanes>
-void split_row(const cv::Mat& pixels, EyeFrame& frame, int row) {
+void split_row(const cv::Mat& pixels, RenderedImage& frame, int row) {
   using Number = typename Lanes::lane_type;
   const auto* from = pixels.ptr<Number>(row);
   auto* colour = frame.colour.ptr<Number>(row);
@@ -52,7 +52,7 @@ void row_to_metres(float* depth, int count, float near_m) {
 
 }  // namespace
 
-void split_colour_and_id(const cv::Mat& pixels, EyeFrame& frame) {
+void split_colour_and_id(const cv::Mat& pixels, RenderedImage& frame) {
   const bool is_fine = pixels.depth() == CV_16U;
   frame.colour.create(pixels.size(), is_fine ? CV_16UC3 : CV_8UC3);
   frame.ball_id.create(pixels.size(), CV_8UC1);
@@ -75,14 +75,14 @@ cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& row
   return facets;
 }
 
-void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeFrame& frame) {
+void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, RenderedImage& frame) {
   if (part.empty()) return;
   const bool is_fine = frame.colour.depth() == CV_16U;
   cv::Mat pixels(std::min(kBandRows, part.height), part.width, is_fine ? CV_16UC4 : CV_8UC4);
   for (int row = part.y; row < part.br().y; row += kBandRows) {
     const cv::Rect band_px(part.x, row, part.width, std::min(kBandRows, part.br().y - row));
     const cv::Point first = origin + band_px.tl();
-    EyeFrame band{frame.colour(band_px), frame.ball_id(band_px), frame.depth_m(band_px)};
+    RenderedImage band{frame.colour(band_px), frame.ball_id(band_px), frame.depth_m(band_px)};
     const cv::Mat read = pixels.rowRange(0, band_px.height);
     gl.ReadPixels(first.x, first.y, band_px.width, band_px.height, GL_RGBA,
                   is_fine ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, read.data);
@@ -95,7 +95,7 @@ void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, EyeF
   }
 }
 
-EyeFrame blank_frame(const cv::Size& size_px, LightDepth depth, PicturePool& pool) {
+RenderedImage blank_frame(const cv::Size& size_px, LightDepth depth, PicturePool& pool) {
   return {pool.take(size_px, depth == LightDepth::kEightBits ? CV_8UC3 : CV_16UC3),
           pool.take(size_px, CV_8UC1), pool.take(size_px, CV_32FC1)};
 }

@@ -16,7 +16,7 @@ namespace stereobench::renderer {
 /// (z^2 - 1) / 6 with a standard normal z, which has Poisson's first three moments. Read noise and gain make
 /// levels of it. A camera without a full well has neither shot nor read noise.
 /// @param light BGR, linear: CV_8UC3 in levels, or CV_16UC3 in steps of 1/257 level
-/// @param seed, sequence key of the noise, sequence = 2 * frame + eye; shot noise and the rest draw from
+/// @param seed, sequence key of the noise, sequence = 2 * frame + camera; shot noise and the rest draw from
 /// streams of their own
 /// @return CV_8UC3 of the same size, encoded
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,

@@ -38,7 +38,7 @@ void mix_pixels(const std::vector<EdgeMix>& mixes, const BallVeil& veil, cv::Mat
 
 }  // namespace
 
-void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, EyeFrame& frame) {
+void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, RenderedImage& frame) {
   if (frame.colour.depth() == CV_16U)
     mix_pixels<cv::Vec3w>(mixes, veil, frame.colour);
   else

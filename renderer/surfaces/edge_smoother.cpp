@@ -89,17 +89,17 @@ Line bare_line(const vision::Intrinsics& camera, const Eigen::Vector3d& from, co
 }
 
 /// @return with an empty range where the edge is out of the picture, or no edge from there
-Line line_of(const SurfaceEdge& edge, const EyeView& view) {
+Line line_of(const SurfaceEdge& edge, const CameraView& view) {
   Eigen::Vector3d from = view.camera_from_world * edge.from_m;
   Eigen::Vector3d to = view.camera_from_world * edge.to_m;
   const Eigen::Vector3d along = to - from;
-  const Eigen::Vector3d across = from.cross(to);  // of the plane through the eye and the edge
+  const Eigen::Vector3d across = from.cross(to);  // of the plane through the camera and the edge
   if (!cut_near(from, to)) return {};
-  Line line = bare_line(view.camera, from, to);
+  Line line = bare_line(view.intrinsics, from, to);
   if (line.first > line.last) return line;
   for (std::size_t i = 0; i < static_cast<std::size_t>(edge.faces); ++i) {
     const Eigen::Vector3d inner = view.camera_from_world * edge.inner_m[i];
-    line.faces[i] = face_of(view.camera, along.cross(inner - from), from);
+    line.faces[i] = face_of(view.intrinsics, along.cross(inner - from), from);
     line.faces[i].is_low = (across.dot(inner) > 0.0) != (across[1 - line.major] > 0.0);
   }
   const bool goes_on = edge.is_smooth && line.faces[0].is_low != line.faces[1].is_low;
@@ -109,7 +109,7 @@ Line line_of(const SurfaceEdge& edge, const EyeView& view) {
 /// The pairs of pixels that edges divide, of a picture of surfaces alone.
 class Pairing {
  public:
-  explicit Pairing(const EyeFrame& frame)
+  explicit Pairing(const RenderedImage& frame)
       : frame_(frame), picture_({0, 0}, frame.colour.size()), done_(2 * frame.colour.total()) {
     mixes_.reserve(kUsualMixes);
   }
@@ -173,7 +173,7 @@ class Pairing {
     return std::nullopt;
   }
 
-  const EyeFrame& frame_;
+  const RenderedImage& frame_;
   cv::Rect picture_;
   std::vector<bool> done_;  // pairs that are mixed already, by their lower pixel and their axis
   std::vector<EdgeMix> mixes_;
@@ -188,7 +188,7 @@ double share_low(double at, double slope, int j) {
   return (clamp_integral(end) - clamp_integral(begin)) / (end - begin);
 }
 
-std::vector<EdgeMix> EdgeSmoother::mixes(const EyeView& view, const EyeFrame& surfaces) const {
+std::vector<EdgeMix> EdgeSmoother::mixes(const CameraView& view, const RenderedImage& surfaces) const {
   Pairing pairing(surfaces);
   const auto follow = [&](const SurfaceEdge& edge) { pairing.follow(line_of(edge, view)); };
   for (const EdgeGroup& group : groups_) {

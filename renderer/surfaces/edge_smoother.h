@@ -30,8 +30,8 @@ class EdgeSmoother {
       : groups_(surface_edges(world, meshes)), has_floor_(world.has_floor) {}
 
   /// The pairs of pixels that edges in view divide.
-  /// @param surfaces what the eye sees where there are no balls
-  std::vector<EdgeMix> mixes(const EyeView& view, const EyeFrame& surfaces) const;
+  /// @param surfaces what the camera sees where there are no balls
+  std::vector<EdgeMix> mixes(const CameraView& view, const RenderedImage& surfaces) const;
 
  private:
   std::vector<EdgeGroup> groups_;
@@ -40,8 +40,8 @@ class EdgeSmoother {
 
 /// Mixes the colours of pairs of pixels. Behind a ball it mixes what the ball leaves of them; identities and
 /// depths stay what pixels' centres see. What is thinner than a pixel, and seen by no centre, stays unseen.
-/// @param frame what the eye sees, balls included
-void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, EyeFrame& frame);
+/// @param frame what the camera sees, balls included
+void mix_edges(const std::vector<EdgeMix>& mixes, const BallVeil& veil, RenderedImage& frame);
 
 /// The share of a pixel, [-1/2, 1/2] x [j - 1/2, j + 1/2], where y is lower than at + slope x.
 /// @param slope in [-1, 1]

@@ -1,4 +1,5 @@
-/// Numbers for everything flat or round that an eye can see: whole surfaces, and the facets they are made of.
+/// Numbers for everything flat or round that a camera can see: whole surfaces, and the facets they are made
+/// of.
 ///
 /// A facet is what has one equation: a ball, the floor, a wall, a triangle of a mesh. A surface is what has
 /// one name. They share their numbers up to the first mesh: 0 nothing, k = World::balls[k - 1] as in ball_id,

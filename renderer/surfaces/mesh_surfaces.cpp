@@ -167,9 +167,9 @@ MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read) {
   return surfaces;
 }
 
-bool can_see(const EyeView& view, const MeshRun& run) {
+bool can_see(const CameraView& view, const MeshRun& run) {
   const Eigen::Vector4d centre = (view.camera_from_world * run.centre_m).homogeneous();
-  const auto planes = frustum_in_camera(view.camera);
+  const auto planes = frustum_in_camera(view.intrinsics);
   return std::all_of(planes.begin(), planes.end(), [&](const Eigen::Vector4d& plane) {
     return plane.dot(centre) >= -run.radius_m * plane.head<3>().norm();
   });

@@ -44,7 +44,7 @@ using FormReader = std::function<Mesh(const worlds::World& world, const worlds::
 /// texels, or, a line for each file, all textures that are missing, unless the world takes grey for them
 MeshSurfaces place_meshes(const worlds::World& world, const FormReader& read = read_form);
 
-/// Whether any of a run can be in the eye's picture.
-bool can_see(const EyeView& view, const MeshRun& run);
+/// Whether any of a run can be in the camera's picture.
+bool can_see(const CameraView& view, const MeshRun& run);
 
 }  // namespace stereobench::renderer

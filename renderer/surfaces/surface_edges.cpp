@@ -13,13 +13,13 @@ constexpr double kRound_cos =
 constexpr double kFlat_cos = 1.0 - 1e-6;  ///< and of that up to which they are one face
 
 /// One side of a face, by the places of its ends in the order of their coordinates.
-struct Side {
+struct FaceSide {
   std::array<float, 6> ends;  ///< in single precision, by which ends are the same
   Eigen::Vector3d first_m, last_m;
   Eigen::Vector3d inner_m;
 };
 
-Side side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& inner_m) {
+FaceSide side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& inner_m) {
   const Eigen::Vector3f p = a.cast<float>(), q = b.cast<float>();
   if (!std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end()))
     return {{q.x(), q.y(), q.z(), p.x(), p.y(), p.z()}, b, a, inner_m};
@@ -27,21 +27,22 @@ Side side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vecto
 }
 
 /// Cosine of the angle by which a surface bends where two faces meet; 1 when they go on straight.
-double bend_cos(const Side& a, const Side& b) {
+double bend_cos(const FaceSide& a, const FaceSide& b) {
   const Eigen::Vector3d along = a.last_m - a.first_m;
   const Eigen::Vector3d normal_a = along.cross(a.inner_m - a.first_m);
   const Eigen::Vector3d normal_b = (b.inner_m - b.first_m).cross(along);
   return normal_a.dot(normal_b) / std::sqrt(normal_a.squaredNorm() * normal_b.squaredNorm());
 }
 
-SurfaceEdge edge(const Side& only) {
+SurfaceEdge edge(const FaceSide& only) {
   return {only.first_m, only.last_m, {only.inner_m, only.inner_m}};
 }
 
 /// Joins sides that lie on each other two by two.
 /// @param are_round whether faces that hardly bend are one surface; walls may have other materials
-std::vector<SurfaceEdge> joined(std::vector<Side> sides, bool are_round) {
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.ends < b.ends; });
+std::vector<SurfaceEdge> joined(std::vector<FaceSide> sides, bool are_round) {
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const FaceSide& a, const FaceSide& b) { return a.ends < b.ends; });
   std::vector<SurfaceEdge> edges;
   for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
     while (next < sides.size() && sides[next].ends == sides[i].ends) ++next;
@@ -61,7 +62,7 @@ std::vector<SurfaceEdge> joined(std::vector<Side> sides, bool are_round) {
 }
 
 std::vector<SurfaceEdge> wall_edges(const std::vector<worlds::Wall>& walls) {
-  std::vector<Side> sides;
+  std::vector<FaceSide> sides;
   for (const worlds::Wall& wall : walls) {
     const auto corner = [&](const Eigen::Vector2d& foot, double up_m) {
       return Eigen::Vector3d(foot.x(), foot.y(), up_m);
@@ -76,7 +77,7 @@ std::vector<SurfaceEdge> wall_edges(const std::vector<worlds::Wall>& walls) {
 }
 
 std::vector<SurfaceEdge> mesh_edges(const MeshSurfaces& meshes, const MeshRun& run) {
-  std::vector<Side> sides;
+  std::vector<FaceSide> sides;
   for (int i = run.first; i < run.first + run.count; i += 3) {
     std::array<Eigen::Vector3d, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
@@ -97,8 +98,8 @@ std::vector<EdgeGroup> surface_edges(const worlds::World& world, const MeshSurfa
   return groups;
 }
 
-std::array<SurfaceEdge, 4> floor_edges(const Eigen::Vector3d& eye_m) {
-  const Eigen::Vector3d foot(eye_m.x(), eye_m.y(), 0.0);
+std::array<SurfaceEdge, 4> floor_edges(const Eigen::Vector3d& camera_m) {
+  const Eigen::Vector3d foot(camera_m.x(), camera_m.y(), 0.0);
   const auto corner = [&](double east, double north) {
     return Eigen::Vector3d(foot + kFloorReach_m * Eigen::Vector3d(east, north, 0.0));
   };

@@ -28,7 +28,7 @@ struct EdgeGroup {
 /// The edges of all walls and meshes. Faces meet where their corners have the same places.
 std::vector<EdgeGroup> surface_edges(const worlds::World& world, const MeshSurfaces& meshes);
 
-/// Where the floor ends for an eye: the horizon.
-std::array<SurfaceEdge, 4> floor_edges(const Eigen::Vector3d& eye_m);
+/// Where the floor ends for a camera: the horizon.
+std::array<SurfaceEdge, 4> floor_edges(const Eigen::Vector3d& camera_m);
 
 }  // namespace stereobench::renderer

@@ -92,7 +92,7 @@ void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat
 /// Draws meshes, then polygons. What each is painted with is for the callers to say; corners of polygons are
 /// in clip space already.
 template <typename UseMesh, typename UsePolygon>
-void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon) {
+void SurfacePainter::draw(const CameraView& view, UseMesh use_mesh, UsePolygon use_polygon) {
   meshes_.bind();
   for (const MeshRun& run : mesh_runs_) {
     if (!can_see(view, run)) continue;
@@ -122,7 +122,7 @@ void SurfacePainter::draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_
   }
 }
 
-void SurfacePainter::draw(const EyeView& view) {
+void SurfacePainter::draw(const CameraView& view) {
   draw(
       view,
       [this, matrix = clip_from_world(view)](const MeshRun& run) {
@@ -133,7 +133,7 @@ void SurfacePainter::draw(const EyeView& view) {
       });
 }
 
-void SurfacePainter::draw_facets(const EyeView& view) {
+void SurfacePainter::draw_facets(const CameraView& view) {
   const int meshes = first_mesh_facet(world_);
   draw(
       view,

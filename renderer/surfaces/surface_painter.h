@@ -17,11 +17,11 @@ class SurfacePainter {
   /// @param surfaces of the world
   SurfacePainter(const Gl& gl, const worlds::World& world, const Surfaces& surfaces);
 
-  /// Draws the surfaces that the eye can see over an empty picture; their identity is 0.
-  void draw(const EyeView& view);
+  /// Draws the surfaces that the camera can see over an empty picture; their identity is 0.
+  void draw(const CameraView& view);
 
   /// The same with the numbers of facets (facets.h) in place of colours.
-  void draw_facets(const EyeView& view);
+  void draw_facets(const CameraView& view);
 
  private:
   struct PaintProgram {
@@ -42,7 +42,7 @@ class SurfacePainter {
   const PolygonTexture& texture_of(const SurfacePolygon& polygon) const;
   void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
   template <typename UseMesh, typename UsePolygon>
-  void draw(const EyeView& view, UseMesh use_mesh, UsePolygon use_polygon);
+  void draw(const CameraView& view, UseMesh use_mesh, UsePolygon use_polygon);
 
   const Gl* gl_;
   worlds::World world_;

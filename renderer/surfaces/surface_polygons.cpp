@@ -27,15 +27,15 @@ std::vector<Corner> cut(const std::vector<Corner>& corners, const Eigen::Vector4
   return inside;
 }
 
-SurfaceVertex vertex(const EyeView& view, const Corner& corner, double light) {
-  const Eigen::Vector4f clip = clip_point(view.camera, corner.in_camera).cast<float>();
+SurfaceVertex vertex(const CameraView& view, const Corner& corner, double light) {
+  const Eigen::Vector4f clip = clip_point(view.intrinsics, corner.in_camera).cast<float>();
   const Eigen::Vector2f along = corner.along_m.cast<float>();
   return {{clip.x(), clip.y(), clip.z(), clip.w()}, {along.x(), along.y()}, static_cast<float>(light)};
 }
 
-SurfacePolygon polygon(const EyeView& view, std::vector<Corner> corners, worlds::Material material,
+SurfacePolygon polygon(const CameraView& view, std::vector<Corner> corners, worlds::Material material,
                        double light) {
-  for (const Eigen::Vector4d& plane : frustum_in_camera(view.camera)) corners = cut(corners, plane);
+  for (const Eigen::Vector4d& plane : frustum_in_camera(view.intrinsics)) corners = cut(corners, plane);
   SurfacePolygon result{.material = material};
   if (corners.size() < 3) return result;
   result.nearest_m = corners.front().in_camera.z();
@@ -46,7 +46,7 @@ SurfacePolygon polygon(const EyeView& view, std::vector<Corner> corners, worlds:
   return result;
 }
 
-SurfacePolygon wall_polygon(const EyeView& view, const worlds::Wall& wall, const worlds::Light& light) {
+SurfacePolygon wall_polygon(const CameraView& view, const worlds::Wall& wall, const worlds::Light& light) {
   const Eigen::Vector2d run = wall.to_m - wall.from_m;
   const double length_m = run.norm();
   const auto corner = [&](const Eigen::Vector2d& foot, double along_m, double up_m) {
@@ -65,10 +65,10 @@ SurfacePolygon wall_polygon(const EyeView& view, const worlds::Wall& wall, const
   return seen;
 }
 
-SurfacePolygon floor_polygon(const EyeView& view, const worlds::World& world) {
-  const Eigen::Vector2d eye = view.centre_in_world().head<2>();
+SurfacePolygon floor_polygon(const CameraView& view, const worlds::World& world) {
+  const Eigen::Vector2d camera_m = view.centre_in_world().head<2>();
   const auto corner = [&](double east, double north) {
-    const Eigen::Vector2d place = eye + kFloorReach_m * Eigen::Vector2d(east, north);
+    const Eigen::Vector2d place = camera_m + kFloorReach_m * Eigen::Vector2d(east, north);
     return Corner{view.camera_from_world * Eigen::Vector3d(place.x(), place.y(), 0.0), place};
   };
   return polygon(view, {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, world.floor,
@@ -81,7 +81,7 @@ double lit(const worlds::Light& light, const Eigen::Vector3d& normal) {
   return light.ambient + light.diffuse * std::max(0.0, normal.dot(light.towards_light.normalized()));
 }
 
-std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::World& world) {
+std::vector<SurfacePolygon> visible_polygons(const CameraView& view, const worlds::World& world) {
   std::vector<SurfacePolygon> polygons;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     SurfacePolygon seen = wall_polygon(view, world.walls[i], world.light);

@@ -1,4 +1,4 @@
-/// The flat parts of a world as an eye sees them: walls and the floor, cut to the picture.
+/// The flat parts of a world as a camera sees them: walls and the floor, cut to the picture.
 ///
 /// The cutting is done here in double precision, because GL would interpolate the corners it cuts in single
 /// precision, which a floor that reaches the horizon would show in its depth.
@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "renderer/surfaces/facets.h"
 #include "worlds/types.h"
 
@@ -22,7 +22,8 @@ struct SurfaceVertex {
 };
 inline constexpr int kSurfaceVertexFloats = 10;
 
-/// How far the floor goes on around the eye: seen from its height, nearer to the horizon than half a pixel.
+/// How far the floor goes on around the camera: seen from its height, nearer to the horizon than half a
+/// pixel.
 inline constexpr double kFloorReach_m = 10000.0;
 
 /// A convex polygon in the picture.
@@ -30,16 +31,16 @@ struct SurfacePolygon {
   worlds::Material material = worlds::Material::kPlain;
   Eigen::Vector3f tint_rgb = Eigen::Vector3f::Ones();  ///< factors on its colours
   int facet = kNoFacet;
-  std::vector<SurfaceVertex> corners;  ///< in order around it; none when the eye does not see it
+  std::vector<SurfaceVertex> corners;  ///< in order around it; none when the camera does not see it
   double nearest_m = 0.0;              ///< smallest Z of the corners
-  bool runs_left = false;              ///< a wall whose first corner is on the right, as the eye sees it
+  bool runs_left = false;              ///< a wall whose first corner is on the right, as the camera sees it
 };
 
 /// How brightly a surface with this outward unit normal (world frame) is lit.
 double lit(const worlds::Light& light, const Eigen::Vector3d& normal);
 
-/// What the eye sees of the walls, near ones first, and of the floor, last: the order in which the least is
-/// painted twice.
-std::vector<SurfacePolygon> visible_polygons(const EyeView& view, const worlds::World& world);
+/// What the camera sees of the walls, near ones first, and of the floor, last: the order in which the least
+/// is painted twice.
+std::vector<SurfacePolygon> visible_polygons(const CameraView& view, const worlds::World& world);
 
 }  // namespace stereobench::renderer

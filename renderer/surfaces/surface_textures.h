@@ -16,7 +16,7 @@ struct PolygonTexture {
 
   /// A corner's place on the texture, whose rows begin at its top.
   /// @param along_m along and up the surface
-  /// @param runs_left as the eye sees it: the picture is the right way round from either side
+  /// @param runs_left as the camera sees it: the picture is the right way round from either side
   std::array<float, 2> texel(const float (&along_m)[2], bool runs_left) const {
     return {(runs_left ? -texels_per_m : texels_per_m) * along_m[0], height_px - texels_per_m * along_m[1]};
   }

@@ -82,15 +82,16 @@ PixelSet pixels_within(const vision::OutlineEllipse& outline) {
   return set;
 }
 
-std::vector<BallTruth> ball_truths(const worlds::World& world, const EyeView& view, const cv::Mat& ball_id) {
+std::vector<BallTruth> ball_truths(const worlds::World& world, const CameraView& view,
+                                   const cv::Mat& ball_id) {
   const std::array<PixelSet, 256> seen = pixels_by_id(ball_id);
   std::vector<BallTruth> truths;
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const worlds::Ball& ball = world.balls[i];
     const Eigen::Vector3d in_camera = view.camera_from_world * ball.centre_m;
     if (!(in_camera.z() - ball.radius_m > kNear_m)) continue;  // not drawn (renderer.h)
-    BallTruth truth = truth_of(ball, in_camera, view.camera);
-    if (!meets_picture(view.camera, truth.outline)) continue;
+    BallTruth truth = truth_of(ball, in_camera, view.intrinsics);
+    if (!meets_picture(view.intrinsics, truth.outline)) continue;
     truth.ball = static_cast<int>(i);
     truth.px_count_visib = seen[i + 1].count;
     truth.bbox_visib = seen[i + 1].box;

@@ -1,10 +1,10 @@
-/// Each ball in an eye's picture, exactly: its outline, and how much of it is seen.
+/// Each ball in a camera's picture, exactly: its outline, and how much of it is seen.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "vision/stereo/sphere.h"
 #include "worlds/types.h"
 
@@ -22,7 +22,7 @@ std::array<PixelSet, 256> pixels_by_id(const cv::Mat& ball_id);
 /// The pixels whose centres lie within an outline, also those outside of the picture.
 PixelSet pixels_within(const vision::OutlineEllipse& outline);
 
-/// A ball as an eye sees it. The names of counts and boxes are those of BOP, the benchmark for 6D object
+/// A ball as a camera sees it. The names of counts and boxes are those of BOP, the benchmark for 6D object
 /// poses.
 struct BallTruth {
   int ball = 0;  ///< index into World::balls
@@ -37,8 +37,9 @@ struct BallTruth {
   bool truncated = false;                               ///< the outline reaches out of the picture
 };
 
-/// The balls whose outlines meet an eye's picture, hidden ones included, in order of the balls.
+/// The balls whose outlines meet a camera's picture, hidden ones included, in order of the balls.
 /// @param ball_id CV_8UC1, as rendered from there
-std::vector<BallTruth> ball_truths(const worlds::World& world, const EyeView& view, const cv::Mat& ball_id);
+std::vector<BallTruth> ball_truths(const worlds::World& world, const CameraView& view,
+                                   const cv::Mat& ball_id);
 
 }  // namespace stereobench::renderer

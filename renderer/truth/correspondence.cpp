@@ -13,7 +13,7 @@ namespace {
 constexpr float kUnknown_px = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 1e-9;  ///< relative; what meets a point may be the point itself
 
-/// A point of a facet, looked for from another eye.
+/// A point of a facet, looked for from another camera.
 struct Point {
   int facet;
   Eigen::Vector3d in_world;
@@ -29,12 +29,12 @@ bool ball_is_before(const SceneGeometry& scene, int facet, const Ray& line, cons
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own facet, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const IdBuffer& eye, const Point& point) {
-  const Eigen::Vector3d eye_m = eye.view.centre_in_world();
-  const Ray line{eye_m, point.in_world - eye_m};
-  const Eigen::Vector3d in_camera = eye.view.camera_from_world * point.in_world;
+bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const Point& point) {
+  const Eigen::Vector3d camera_m = ids.view.centre_in_world();
+  const Ray line{camera_m, point.in_world - camera_m};
+  const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;
   if (!(in_camera.z() > kNear_m)) return false;
-  const std::array<int, 4> around = facets_around(eye.facet, shown_at(eye.view, in_camera));
+  const std::array<int, 4> around = facets_around(ids.facet, shown_at(ids.view, in_camera));
   if (ball_is_before(scene, point.facet, line, point)) return true;
   if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == point.facet; }))
     return false;
@@ -49,7 +49,7 @@ class Follower {
   Follower(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to)
       : scene_(scene), from_(from), to_(to), lines_(from.view) {
     if (!(to.view.lens == vision::Distortion{}))
-      field_ = vision::directions_seen(to.view.lens, to.view.camera);
+      field_ = vision::directions_seen(to.view.lens, to.view.intrinsics);
   }
 
   /// @param facet that the pixel sees
@@ -63,7 +63,7 @@ class Follower {
     const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_sight);
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
-    if (!vision::is_inside(to_.view.camera, there)) return Occlusion::kOutside;
+    if (!vision::is_inside(to_.view.intrinsics, there)) return Occlusion::kOutside;
     return is_hidden(scene_, to_, {facet, seen.on_facet}) ? Occlusion::kHidden : Occlusion::kSeen;
   }
 
@@ -77,7 +77,7 @@ class Follower {
   const IdBuffer& from_;
   const IdBuffer& to_;
   PixelRays lines_;
-  std::optional<Eigen::AlignedBox2d> field_;  // of the other eye, where it has a lens
+  std::optional<Eigen::AlignedBox2d> field_;  // of the other camera, where it has a lens
 };
 
 }  // namespace
@@ -96,10 +96,10 @@ Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, cons
   return result;
 }
 
-cv::Mat disparity_px(const Correspondence& to_other_eye, vision::Eye eye) {
+cv::Mat disparity_px(const Correspondence& to_other_camera, vision::Side side) {
   cv::Mat columns;
-  cv::extractChannel(to_other_eye.shift_px, columns, 0);
-  cv::Mat disparity = eye == vision::Eye::kLeft ? cv::Mat(-columns) : columns;
+  cv::extractChannel(to_other_camera.shift_px, columns, 0);
+  cv::Mat disparity = side == vision::Side::kLeft ? cv::Mat(-columns) : columns;
   disparity.setTo(kUnknown_px, columns == kUnknown_px);
   return disparity;
 }

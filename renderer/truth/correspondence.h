@@ -9,7 +9,7 @@ namespace stereobench::renderer {
 /// What becomes of a pixel's point in the other picture.
 enum class Occlusion : std::uint8_t {
   kNothing = 0,   ///< the pixel sees no point
-  kOutside = 85,  ///< out of the other picture, or behind its eye
+  kOutside = 85,  ///< out of the other picture, or behind its camera
   kHidden = 170,  ///< within the other picture, behind something
   kSeen = 255
 };
@@ -24,14 +24,14 @@ struct Correspondence {
 /// Follows every pixel's point to another look at the same world, by geometry alone.
 ///
 /// Shifts are those of the place on the pixel's own ray that its range says. A point is hidden when the line
-/// from the other eye meets something before it, which is decided exactly, with the facets' own bounds.
-/// Nothing is looked for where the other eye's four pixels around the place all see the point's own facet:
+/// from the other camera meets something before it, which is decided exactly, with the facets' own bounds.
+/// Nothing is looked for where the other camera's four pixels around the place all see the point's own facet:
 /// what is thinner than a pixel and alone before a facet is missed, as it is missed by the picture.
 Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to);
 
 /// Disparity, u in the left picture minus u in the right one.
-/// @param eye whose picture `to_other_eye` is for
+/// @param side whose picture `to_other_camera` is for
 /// @return CV_32FC1, +inf where there is none; positive for points ahead of a rectified rig
-cv::Mat disparity_px(const Correspondence& to_other_eye, vision::Eye eye);
+cv::Mat disparity_px(const Correspondence& to_other_camera, vision::Side side);
 
 }  // namespace stereobench::renderer

@@ -51,15 +51,15 @@ int nearest_of(const cv::Mat& facets, const Eigen::Vector2d& place_px) {
 
 IdBuffer distorted_ids(const SceneGeometry& scene, const IdBuffer& undistorted,
                        const vision::StereoRig& rig) {
-  IdBuffer bent{undistorted.view, cv::Mat(rig.camera.height_px, rig.camera.width_px, CV_32SC1)};
-  bent.view.camera = rig.camera;
+  IdBuffer bent{undistorted.view, cv::Mat(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_32SC1)};
+  bent.view.intrinsics = rig.intrinsics;
   bent.view.lens = rig.distortion;
   const PixelRays lines(bent.view);
   const Eigen::Matrix3d turn = bent.view.camera_from_world.linear();
   for (int v = 0; v < bent.facet.rows; ++v) {
     for (int u = 0; u < bent.facet.cols; ++u) {
       const Ray line = lines(u, v);
-      const Eigen::Vector2d place = vision::project(undistorted.view.camera, turn * line.direction);
+      const Eigen::Vector2d place = vision::project(undistorted.view.intrinsics, turn * line.direction);
       bent.facet.at<int>(v, u) = first_met(scene, facets_around(undistorted.facet, place),
                                            nearest_of(undistorted.facet, place), line);
     }

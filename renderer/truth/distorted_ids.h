@@ -1,4 +1,4 @@
-/// What eyes behind lenses that distort look at.
+/// What cameras behind lenses that distort look at.
 #pragma once
 
 #include "renderer/truth/id_buffer.h"
@@ -8,7 +8,7 @@ namespace stereobench::renderer {
 
 /// Finds the facet that each bent ray meets: rasterisers draw undistorted lines, so what can be met is looked
 /// for among the facets of four pixels of a undistorted picture, and then decided exactly.
-/// @param undistorted what an eye of the rig's pinhole (pinhole_rig_of in lens.h) sees
+/// @param undistorted what a camera of the rig's pinhole (pinhole_rig_of in lens.h) sees
 /// @param rig as it is, with its lens
 /// @throws std::invalid_argument when the lens folds its picture
 IdBuffer distorted_ids(const SceneGeometry& scene, const IdBuffer& undistorted, const vision::StereoRig& rig);

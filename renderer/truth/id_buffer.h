@@ -1,17 +1,17 @@
-/// What eyes look at, exactly: from where, and which facet of the world each pixel's centre sees.
+/// What cameras look at, exactly: from where, and which facet of the world each pixel's centre sees.
 #pragma once
 
 #include <array>
 
 #include <opencv2/core.hpp>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 
 namespace stereobench::renderer {
 
-/// One eye's look. With the world's geometry (scene_geometry.h) all else follows in double precision.
+/// One camera's look. With the world's geometry (scene_geometry.h) all else follows in double precision.
 struct IdBuffer {
-  EyeView view;
+  CameraView view;
   cv::Mat facet;  ///< CV_32SC1, numbers of facets.h
 };
 

@@ -1,29 +1,29 @@
 /// Lines of sight in the world frame.
 #pragma once
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "worlds/visibility/bvh.h"
 
 namespace stereobench::renderer {
 
 using worlds::Ray;
 
-/// The rays of an eye's pixels; t is planar depth.
+/// The rays of a camera's pixels; t is planar depth.
 class PixelRays {
  public:
-  explicit PixelRays(const EyeView& view)
+  explicit PixelRays(const CameraView& view)
       : view_(view),
-        eye_m_(view.centre_in_world()),
+        camera_m_(view.centre_in_world()),
         world_from_camera_(view.camera_from_world.linear().transpose()) {}
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
   Ray operator()(double u, double v) const {
-    return {eye_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
+    return {camera_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
   }
 
  private:
-  EyeView view_;
-  Eigen::Vector3d eye_m_;
+  CameraView view_;
+  Eigen::Vector3d camera_m_;
   Eigen::Matrix3d world_from_camera_;
 };
 

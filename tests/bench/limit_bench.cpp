@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// One eye of the scene, in the caster's terms.
+/// One camera of the scene, in the caster's terms.
 struct LimitScene {
   std::vector<LimitSurface> surfaces;
   std::vector<LimitBall> balls;
@@ -63,7 +63,7 @@ void set_bounds(const vision::Intrinsics& camera, const Vector2d& low, const Vec
   rows[0] = static_cast<int>(first.y()), rows[1] = static_cast<int>(end.y());
 }
 
-LimitSurface surface_of(const renderer::EyeView& view, const worlds::World& world,
+LimitSurface surface_of(const renderer::CameraView& view, const worlds::World& world,
                         const renderer::SurfacePolygon& polygon) {
   const bool is_floor = polygon.facet == renderer::kFloorFacet;
   if (polygon.material != (is_floor ? worlds::Material::kTiles : worlds::Material::kBricks))
@@ -74,9 +74,9 @@ LimitSurface surface_of(const renderer::EyeView& view, const worlds::World& worl
   const Vector3d normal = plane.along.cross(plane.up);
   const Vector3d n = normal / normal.dot(to_corner);
   LimitSurface surface;
-  surface.inverse_depth = along_rays(view.camera, turn * n);
-  surface.along = along_rays(view.camera, turn * (plane.along - plane.along.dot(to_corner) * n));
-  surface.up = along_rays(view.camera, turn * (plane.up - plane.up.dot(to_corner) * n));
+  surface.inverse_depth = along_rays(view.intrinsics, turn * n);
+  surface.along = along_rays(view.intrinsics, turn * (plane.along - plane.along.dot(to_corner) * n));
+  surface.up = along_rays(view.intrinsics, turn * (plane.up - plane.up.dot(to_corner) * n));
   const auto narrow = [](double value) { return static_cast<float>(value); };
   for (int end = 0; end < 2; ++end) {
     const Vector2d reach = end == 0 ? plane.reach_m.min() : plane.reach_m.max();
@@ -88,11 +88,11 @@ LimitSurface surface_of(const renderer::EyeView& view, const worlds::World& worl
   Eigen::AlignedBox2d box;
   for (const renderer::SurfaceVertex& corner : polygon.corners)
     box.extend(Vector2d(double{corner.position[0]}, double{corner.position[1]}) / double{corner.position[3]});
-  set_bounds(view.camera, box.min(), box.max(), surface.columns_px, surface.rows_px);
+  set_bounds(view.intrinsics, box.min(), box.max(), surface.columns_px, surface.rows_px);
   return surface;
 }
 
-LimitBall ball_of(const renderer::EyeView& view, const renderer::BallOutline& outline) {
+LimitBall ball_of(const renderer::CameraView& view, const renderer::BallOutline& outline) {
   LimitBall ball;
   ball.centre_px[0] = outline.centre[0] - 0.5F + outline.centre[2] - static_cast<float>(view.first_column_px);
   ball.centre_px[1] = outline.centre[1] - 0.5F + outline.centre[3];
@@ -102,20 +102,20 @@ LimitBall ball_of(const renderer::EyeView& view, const renderer::BallOutline& ou
   std::copy_n(outline.colour.begin(), 3, ball.rgb);
   ball.id = std::round(255.0F * outline.colour[3]);
   const auto& bounds = outline.bounds;
-  set_bounds(view.camera, {double{bounds[0]}, double{bounds[1]}}, {double{bounds[2]}, double{bounds[3]}},
+  set_bounds(view.intrinsics, {double{bounds[0]}, double{bounds[1]}}, {double{bounds[2]}, double{bounds[3]}},
              ball.columns_px, ball.rows_px);
   return ball;
 }
 
-LimitScene limit_scene(const renderer::EyeView& view, const worlds::World& world) {
+LimitScene limit_scene(const renderer::CameraView& view, const worlds::World& world) {
   LimitScene scene;
   for (const renderer::SurfacePolygon& polygon : renderer::visible_polygons(view, world))
     scene.surfaces.push_back(surface_of(view, world, polygon));
-  const Vector3d eye = view.centre_in_world();
+  const Vector3d camera_m = view.centre_in_world();
   std::vector<std::pair<double, renderer::BallOutline>> outlines;
   for (std::size_t i = 0; i < world.balls.size(); ++i)
     if (const auto outline = renderer::ball_outline(view, world.balls[i], static_cast<int>(i) + 1))
-      outlines.emplace_back((world.balls[i].centre_m - eye).norm(), *outline);
+      outlines.emplace_back((world.balls[i].centre_m - camera_m).norm(), *outline);
   std::sort(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [distance_m, outline] : outlines) scene.balls.push_back(ball_of(view, outline));
   const Eigen::Vector3f towards =
@@ -138,20 +138,20 @@ class Limit {
         right_(empty_frame(scene.rig)) {}
 
   void cast() {
-    cast(vision::Eye::kLeft, left_);
-    cast(vision::Eye::kRight, right_);
+    cast(vision::Side::kLeft, left_);
+    cast(vision::Side::kRight, right_);
   }
 
-  const renderer::EyeFrame& left() const { return left_; }
+  const renderer::RenderedImage& left() const { return left_; }
 
  private:
-  static renderer::EyeFrame empty_frame(const vision::StereoRig& rig) {
-    const cv::Size size(rig.camera.width_px, rig.camera.height_px);
+  static renderer::RenderedImage empty_frame(const vision::StereoRig& rig) {
+    const cv::Size size(rig.intrinsics.width_px, rig.intrinsics.height_px);
     return {cv::Mat(size, CV_8UC3), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_32FC1)};
   }
 
-  void cast(vision::Eye which, renderer::EyeFrame& frame) {
-    renderer::EyeView view = renderer::eye_view(scene_.rig, which, scene_.pose);
+  void cast(vision::Side which, renderer::RenderedImage& frame) {
+    renderer::CameraView view = renderer::camera_view(scene_.rig, which, scene_.pose);
     const LimitScene scene = limit_scene(view, scene_.world);
     cast_rays(scene.surfaces, scene.balls, scene.light,
               {frame.colour.cols, frame.colour.rows, frame.colour.data, frame.ball_id.data,
@@ -161,11 +161,11 @@ class Limit {
 
   Scene scene_;
   renderer::EdgeSmoother smoother_;
-  renderer::EyeFrame left_, right_;
+  renderer::RenderedImage left_, right_;
 };
 
 /// The share of pixels that two pictures do not agree on, within a level.
-double disagreement(const renderer::EyeFrame& a, const renderer::EyeFrame& b) {
+double disagreement(const renderer::RenderedImage& a, const renderer::RenderedImage& b) {
   cv::Mat apart;
   cv::absdiff(a.colour, b.colour, apart);
   cv::Mat channels[3];

@@ -13,7 +13,7 @@ struct Linear {
   float at_zero, per_column, per_row;
 };
 
-/// A wall of bricks or a floor of tiles as an eye sees it.
+/// A wall of bricks or a floor of tiles as a camera sees it.
 struct LimitSurface {
   Linear inverse_depth;       ///< 1/m, as the next two over metres: of planes, all of it is linear
   Linear along, up;           ///< places on the surface over the depth
@@ -23,7 +23,7 @@ struct LimitSurface {
   int columns_px[2], rows_px[2];  ///< outside of them it is not seen
 };
 
-/// renderer::BallOutline, with places in the picture of the eye.
+/// renderer::BallOutline, with places in the picture of the camera.
 struct LimitBall {
   float centre_px[2], shape[4], ray[4], ball[4], rgb[3], id;
   int columns_px[2], rows_px[2];

@@ -23,7 +23,7 @@ worlds::Scenario office() {
   const worlds::Layout layout =
       worlds::make_office_grid({.seed = 1, .columns = 6, .rows = 5, .pitch_m = 6.0, .turns = 8});
   worlds::Scenario scenario;
-  scenario.rig = {.camera = {1024, 768, 887.0, 511.5, 383.5}, .baseline_m = 0.12, .height_m = 0.4};
+  scenario.rig = {.intrinsics = {1024, 768, 887.0, 511.5, 383.5}, .baseline_m = 0.12, .height_m = 0.4};
   scenario.world.walls = layout.walls;
   scenario.path = worlds::drive_polyline({.points_m = layout.tour_m,
                                           .closed = layout.closed,

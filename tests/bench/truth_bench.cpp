@@ -1,14 +1,14 @@
-/// What truth costs beyond a frame's own, and what smoothing edges does, for both eyes.
+/// What truth costs beyond a frame's own, and what smoothing edges does, for both cameras.
 #include "renderer/surfaces/edge_smoother.h"
 #include "renderer/truth/ball_truth.h"
 #include "renderer/truth/correspondence.h"
-#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/pixel_truth.h"
 #include "tests/bench/bench_scene.h"
 
 namespace stereobench {
 namespace {
 
-/// A bench that knows what its eyes see.
+/// A bench that knows what its cameras see.
 struct TruthBench : Bench {
   explicit TruthBench(const std::string& scenario)
       : Bench(scenario_scene(scenario)),
@@ -28,8 +28,8 @@ void truth_pair_sight(benchmark::State& state, const std::string& scenario) {
 void truth_pair_range_normal_surface(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   bench.run(state, [&] {
-    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.ids.left));
-    benchmark::DoNotOptimize(renderer::eye_truth(bench.geometry, bench.ids.right));
+    benchmark::DoNotOptimize(renderer::pixel_truth(bench.geometry, bench.ids.left));
+    benchmark::DoNotOptimize(renderer::pixel_truth(bench.geometry, bench.ids.right));
   });
 }
 
@@ -56,7 +56,7 @@ void smooth_pair(benchmark::State& state, const std::string& scenario) {
   TruthBench bench(scenario);
   const renderer::EdgeSmoother smoother(bench.scene.world, renderer::place_meshes(bench.scene.world));
   bench.run(state, [&] {
-    const auto smooth = [&](const renderer::EyeView& view, renderer::EyeFrame& frame) {
+    const auto smooth = [&](const renderer::CameraView& view, renderer::RenderedImage& frame) {
       renderer::mix_edges(smoother.mixes(view, frame), {}, frame);
     };
     smooth(bench.ids.left.view, bench.frame.left);

@@ -22,7 +22,7 @@ namespace {
 
 vision::StereoRig small_rig() {
   vision::StereoRig rig;
-  rig.camera = {96, 64, 80.0, 47.5, 31.5};
+  rig.intrinsics = {96, 64, 80.0, 47.5, 31.5};
   return rig;
 }
 
@@ -97,8 +97,8 @@ std::vector<std::string> calibration_seeds() {
   vision::StereoRig rig = small_rig();
   rig.distortion.k1 = -0.1;
   rig.right_turn_rad = {0.01, 0.02, -0.01};
-  vision::EyePair eyes = vision::eyes_of(rig);
-  return {harness::calibration_yaml(rig), harness::calibration_yaml(small_rig(), eyes)};
+  vision::CameraPair cameras = vision::cameras_of(rig);
+  return {harness::calibration_yaml(rig), harness::calibration_yaml(small_rig(), cameras)};
 }
 
 std::vector<std::string> detection_seeds() {
@@ -133,7 +133,7 @@ void check_scene(Bytes bytes) {
   std::vector<vision::LearnedColour> colours(1);
   colours[0] = {"any", {0.6, 0.3}, 4e-3 * Eigen::Matrix2d::Identity(), 40.0, {20, 90, 200}};
   static const vision::ColourTable table = vision::table_of(colours);
-  for (const auto& outline : vision::find_outlines(pair.left, rig.camera, {.learned = &table}))
+  for (const auto& outline : vision::find_outlines(pair.left, rig.intrinsics, {.learned = &table}))
     expect_sound(outline);
 }
 
@@ -155,12 +155,13 @@ void check_calibration(Bytes bytes) {
   read_or_complain([&] {
     const harness::RigCalibration read = harness::parse_calibration(text_of(bytes), "rig.yaml");
     expect(vision::is_usable(read.rig), "a rig can be computed with");
-    const auto again = harness::parse_calibration(harness::calibration_yaml(read.rig, read.eyes), "again");
-    expect(again.rig.baseline_m == read.rig.baseline_m && again.eyes.has_value() == read.eyes.has_value(),
-           "a calibration is read as it is written");
-    const vision::Intrinsics& camera = read.rig.camera;
+    const auto again = harness::parse_calibration(harness::calibration_yaml(read.rig, read.cameras), "again");
+    expect(
+        again.rig.baseline_m == read.rig.baseline_m && again.cameras.has_value() == read.cameras.has_value(),
+        "a calibration is read as it is written");
+    const vision::Intrinsics& camera = read.rig.intrinsics;
     if (camera.width_px <= 256 && camera.height_px <= 256)
-      vision::Rectification(read.rig, read.eyes ? *read.eyes : vision::eyes_of(read.rig));
+      vision::Rectification(read.rig, read.cameras ? *read.cameras : vision::cameras_of(read.rig));
   });
 }
 

@@ -19,7 +19,7 @@ struct Entry {
   std::vector<std::string> (*seeds)();  ///< good inputs to begin with
 };
 
-/// A pair of pictures that bytes tell how to draw, observed by both eyes.
+/// A pair of pictures that bytes tell how to draw, observed by both cameras.
 void check_scene(Bytes bytes);
 /// The bytes of a picture's file, read and looked at.
 void check_picture(Bytes bytes);

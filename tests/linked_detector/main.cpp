@@ -7,14 +7,15 @@
 int main(int argc, char** argv) {
   using namespace stereobench;
   // Ours, but for the right third of the left picture.
-  const auto one_eyed = [](const harness::DetectorSetup& setup) -> harness::Detector {
+  const auto monocular = [](const harness::DetectorSetup& setup) -> harness::Detector {
     return [ours = harness::our_detector(setup)](const harness::DetectorInput& input) {
       std::vector<vision::BallObservation> balls = ours(input);
-      std::erase_if(
-          balls, [&](const auto& ball) { return 3.0 * ball.left_px.x() > 2.0 * input.rig.camera.width_px; });
+      std::erase_if(balls, [&](const auto& ball) {
+        return 3.0 * ball.left_px.x() > 2.0 * input.rig.intrinsics.width_px;
+      });
       return balls;
     };
   };
-  harness::register_detector({"one_eyed", one_eyed});
+  harness::register_detector({"monocular", monocular});
   return harness::run_program(argc, argv);
 }

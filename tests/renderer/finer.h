@@ -13,7 +13,7 @@ inline constexpr int kFiner = 5;
 
 /// The same rig with five times as many pixels each way.
 inline vision::StereoRig finer(vision::StereoRig rig) {
-  vision::Intrinsics& camera = rig.camera;
+  vision::Intrinsics& camera = rig.intrinsics;
   camera.width_px *= kFiner;
   camera.height_px *= kFiner;
   camera.focal_px *= kFiner;
@@ -22,8 +22,8 @@ inline vision::StereoRig finer(vision::StereoRig rig) {
   return rig;
 }
 
-/// What an eye sees in finer pixels.
-struct FinerEye {
+/// What a camera sees in finer pixels.
+struct FinerImage {
   cv::Mat colour, facet;
 
   /// The mean of the finer pixels that make up a pixel, in levels.
@@ -57,12 +57,12 @@ struct FinerEye {
   }
 };
 
-inline std::array<FinerEye, 2> finer_pair(const worlds::World& world, const vision::StereoRig& rig,
-                                          const slam::Pose& pose) {
+inline std::array<FinerImage, 2> finer_pair(const worlds::World& world, const vision::StereoRig& rig,
+                                            const slam::Pose& pose) {
   Renderer renderer(world, finer(rig));
   const StereoFrame frame = renderer.render(pose);
   const StereoIdBuffers sight = renderer.id_buffers(pose, pose);
-  return {FinerEye{frame.left.colour, sight.left.facet}, FinerEye{frame.right.colour, sight.right.facet}};
+  return {FinerImage{frame.left.colour, sight.left.facet}, FinerImage{frame.right.colour, sight.right.facet}};
 }
 
 }  // namespace stereobench::renderer::test

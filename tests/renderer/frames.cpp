@@ -32,7 +32,7 @@ bool is_other_depth(float a, float b) {
   return a != b && !(std::abs(double{a} - double{b}) <= 1e-5 * std::min(double{a}, double{b}));
 }
 
-Difference difference(const EyeFrame& a, const EyeFrame& b) {
+Difference difference(const RenderedImage& a, const RenderedImage& b) {
   Difference result{.ids = cv::countNonZero(a.ball_id != b.ball_id)};
   for (int row = 0; row < a.colour.rows; ++row) {
     for (int column = 0; column < a.colour.cols; ++column) {
@@ -68,10 +68,10 @@ class PictureOnAWall {
 };
 
 StereoFrame blank_frame() {
-  const vision::Intrinsics camera = small_rig().camera;
+  const vision::Intrinsics camera = small_rig().intrinsics;
   const cv::Size size(camera.width_px, camera.height_px);
-  const auto eye = [&] { return EyeFrame{{size, CV_8UC3}, {size, CV_8UC1}, {size, CV_32FC1}}; };
-  return {eye(), eye()};
+  const auto image = [&] { return RenderedImage{{size, CV_8UC3}, {size, CV_8UC1}, {size, CV_32FC1}}; };
+  return {image(), image()};
 }
 
 bool read(StereoFrame& frame, std::FILE* file) {
@@ -105,8 +105,8 @@ Difference difference(const StereoFrame& a, const StereoFrame& b) {
 
 std::uint64_t hash_of(const StereoFrame& frame) {
   std::uint64_t hash = 14695981039346656037U;
-  for (const EyeFrame* eye : {&frame.left, &frame.right})
-    for (const cv::Mat& picture : {eye->colour, eye->ball_id, eye->depth_m})
+  for (const RenderedImage* image : {&frame.left, &frame.right})
+    for (const cv::Mat& picture : {image->colour, image->ball_id, image->depth_m})
       for (int row = 0; row < picture.rows; ++row)
         for (std::size_t i = 0; i < picture.elemSize() * static_cast<std::size_t>(picture.cols); ++i)
           hash = (hash ^ picture.ptr(row)[i]) * 1099511628211U;

@@ -10,7 +10,7 @@ double between(slam::RandomStream& random, double low, double high) {
 
 vision::StereoRig small_rig() {
   vision::StereoRig rig;
-  rig.camera = {.width_px = 400, .height_px = 300, .focal_px = 347.3, .cx_px = 190.7, .cy_px = 161.2};
+  rig.intrinsics = {.width_px = 400, .height_px = 300, .focal_px = 347.3, .cx_px = 190.7, .cy_px = 161.2};
   rig.pitch_down_rad = 0.07;
   return rig;
 }

@@ -49,18 +49,18 @@ double meet_triangle(const Triangle& triangle, const Eigen::Vector3d& origin, co
 
 RayCaster::RayCaster(worlds::World world, vision::StereoRig rig, std::vector<Triangle> triangles)
     : world_(std::move(world)), rig_(rig), triangles_(std::move(triangles)) {
-  stand_at({}, vision::Eye::kLeft);
+  stand_at({}, vision::Side::kLeft);
 }
 
-void RayCaster::stand_at(const slam::Pose& pose, vision::Eye eye) {
+void RayCaster::stand_at(const slam::Pose& pose, vision::Side side) {
   const double heading = pose.heading_rad;
   const double pitch = rig_.pitch_down_rad;
   forward_ = {std::cos(heading) * std::cos(pitch), std::sin(heading) * std::cos(pitch), -std::sin(pitch)};
   right_ = {std::sin(heading), -std::cos(heading), 0.0};
   down_ = forward_.cross(right_);
-  const double side_m = (eye == vision::Eye::kLeft ? -0.5 : 0.5) * rig_.baseline_m;
+  const double side_m = (side == vision::Side::kLeft ? -0.5 : 0.5) * rig_.baseline_m;
   origin_ = Eigen::Vector3d(pose.x_m, pose.y_m, rig_.height_m) + side_m * right_;
-  if (eye == vision::Eye::kLeft) return;
+  if (side == vision::Side::kLeft) return;
   Eigen::Matrix3d axes;
   axes << right_, down_, forward_;
   for (int axis = 0; axis < 3; ++axis) {  // about its x as it is, then about the new y, then the new z
@@ -72,7 +72,7 @@ void RayCaster::stand_at(const slam::Pose& pose, vision::Eye eye) {
 }
 
 Sight RayCaster::look(double u, double v) const {
-  const vision::Intrinsics& camera = rig_.camera;
+  const vision::Intrinsics& camera = rig_.intrinsics;
   const Eigen::Vector3d ray = forward_ + right_ * ((u - camera.cx_px) / camera.focal_px) +
                               down_ * ((v - camera.cy_px) / camera.focal_px);
   Sight sight;

@@ -18,7 +18,7 @@ struct Sight {
   double depth_m = 0.0;  ///< planar Z, +inf for nothing
   double edge_px = 1e9;  ///< how far the ray passes from the outline of the nearest outline, about
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< that is met, world frame
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< there, towards the eye, in its camera frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< there, towards the camera, in its frame
 };
 
 class RayCaster {
@@ -26,12 +26,12 @@ class RayCaster {
   /// @param triangles of all meshes, already in the world frame
   RayCaster(worlds::World world, vision::StereoRig rig, std::vector<Triangle> triangles = {});
 
-  void stand_at(const slam::Pose& world_from_robot, vision::Eye eye);
+  void stand_at(const slam::Pose& world_from_robot, vision::Side side);
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
   Sight look(double u, double v) const;
 
-  /// A point of the world in the eye's camera frame.
+  /// A point of the world in the camera's frame.
   Eigen::Vector3d in_camera(const Eigen::Vector3d& point_m) const;
 
   /// What number facets.h has for a surface of this caster's.

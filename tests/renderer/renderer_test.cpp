@@ -16,7 +16,7 @@ namespace {
 using test::same;
 
 /// Mean place of a ball's pixels.
-cv::Point2d place(const EyeFrame& frame, int id) {
+cv::Point2d place(const RenderedImage& frame, int id) {
   cv::Point2d sum;
   int count = 0;
   for (int v = 0; v < frame.ball_id.rows; ++v) {
@@ -27,12 +27,12 @@ cv::Point2d place(const EyeFrame& frame, int id) {
   return sum / count;
 }
 
-// Catches: swapped eyes, flipped rows, a mirrored camera.
-TEST(Renderer, LeftIsLeftUpIsUpAndTheLeftEyeSeesNearThingsFartherRight) {
+// Catches: swapped cameras, flipped rows, a mirrored camera.
+TEST(Renderer, LeftIsLeftUpIsUpAndTheLeftCameraSeesNearThingsFartherRight) {
   worlds::World world;
-  const double eye_m = test::small_rig().height_m;
+  const double camera_m = test::small_rig().height_m;
   world.balls = {
-      {{2.0, 0.4, eye_m}, 0.1, 0}, {{2.0, -0.4, eye_m}, 0.1, 1}, {{2.0, 0.0, eye_m + 0.3}, 0.1, 2}};
+      {{2.0, 0.4, camera_m}, 0.1, 0}, {{2.0, -0.4, camera_m}, 0.1, 1}, {{2.0, 0.0, camera_m + 0.3}, 0.1, 2}};
   const StereoFrame frame = Renderer(world, test::small_rig()).render({});
   EXPECT_LT(place(frame.left, 1).x, place(frame.left, 2).x - 50.0);
   EXPECT_LT(place(frame.left, 3).y, place(frame.left, 1).y - 20.0);
@@ -108,7 +108,7 @@ TEST(Renderer, AnEmptyWorldIsFloorAndSky) {
   EXPECT_EQ(frame.left.colour.at<cv::Vec3b>(0, 200), cv::Vec3b(204, 199, 191));  // sky_rgb in levels
 }
 
-TEST(Renderer, ABallThatReachesTheEyeIsLeftOut) {
+TEST(Renderer, ABallThatReachesTheCameraIsLeftOut) {
   worlds::World world;
   world.balls = {{{0.0, 0.0, 0.3}, 0.5, 0}, {{0.1, 0.0, 0.3}, 0.2, 1}};
   const StereoFrame frame = Renderer(world, test::small_rig()).render({});
@@ -134,7 +134,7 @@ TEST(Renderer, RefusesWorldsRigsAndPosesThatMeanNothing) {
   world.balls = {{{1.0, 0.0, 0.0}, 0.1, 18}};
   EXPECT_THROW(Renderer(world, test::small_rig()), std::invalid_argument);
   vision::StereoRig rig = test::small_rig();
-  rig.camera.focal_px = 0.0;
+  rig.intrinsics.focal_px = 0.0;
   EXPECT_THROW(Renderer({}, rig), std::invalid_argument);
   EXPECT_THROW(Renderer({}, test::small_rig()).render({NAN, 0.0, 0.0}), std::invalid_argument);
 }

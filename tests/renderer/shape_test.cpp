@@ -44,15 +44,15 @@ struct Sizes {
   double centre_rms_px, radius_bias_px;
 };
 
-/// A ball of such a size somewhere in both eyes' view, in the left camera's frame.
+/// A ball of such a size somewhere in both cameras' view, in the left camera's frame.
 worlds::Ball ball_in_view(const vision::StereoRig& rig, const Sizes& sizes, slam::RandomStream& random,
                           Eigen::Vector3d& in_camera) {
   const double depth_m = test::between(random, 0.6, 3.0);
   const double radius_m =
-      test::between(random, sizes.least_px, sizes.most_px) * depth_m / rig.camera.focal_px;
+      test::between(random, sizes.least_px, sizes.most_px) * depth_m / rig.intrinsics.focal_px;
   const Eigen::Vector2d pixel(test::between(random, 140.0, 320.0), test::between(random, 75.0, 225.0));
-  in_camera = depth_m * vision::pixel_ray(rig.camera, pixel);
-  return {vision::robot_from_camera(rig, vision::Eye::kLeft) * in_camera, radius_m, 0};
+  in_camera = depth_m * vision::pixel_ray(rig.intrinsics, pixel);
+  return {vision::robot_from_camera(rig, vision::Side::kLeft) * in_camera, radius_m, 0};
 }
 
 struct Seen {
@@ -73,10 +73,10 @@ Seen see_a_ball(std::uint64_t seed, const Sizes& sizes) {
   Eigen::Vector3d in_camera;
   const worlds::Ball ball = ball_in_view(rig, sizes, random, in_camera);
   Seen seen;
-  seen.left_truth = *vision::sphere_outline(rig.camera, in_camera, ball.radius_m);
+  seen.left_truth = *vision::sphere_outline(rig.intrinsics, in_camera, ball.radius_m);
   seen.right_truth = *vision::sphere_outline(
-      rig.camera, vision::point_in_eye(rig, in_camera, vision::Eye::kRight), ball.radius_m);
-  seen.whole = inside(seen.left_truth, rig.camera) && inside(seen.right_truth, rig.camera);
+      rig.intrinsics, vision::camera_point(rig, in_camera, vision::Side::kRight), ball.radius_m);
+  seen.whole = inside(seen.left_truth, rig.intrinsics) && inside(seen.right_truth, rig.intrinsics);
   if (!seen.whole) return seen;
   const StereoFrame frame = Renderer(test::flat_sky({ball}), rig).render({});
   seen.left = weigh(frame.left.colour);
@@ -96,11 +96,11 @@ class BallShape : public testing::TestWithParam<Sizes> {};
 
 TEST_P(BallShape, CentresRadiiAndDisparitiesAreThoseOfTheClosedForm) {
   double centre2 = 0.0, radius = 0.0, disparity2 = 0.0;
-  int eyes = 0;
+  int images = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Seen seen = see_a_ball(seed, GetParam());
     if (!seen.whole) continue;
-    eyes += 2;
+    images += 2;
     centre2 += (seen.left.centre_px - seen.left_truth.centre_px).squaredNorm();
     centre2 += (seen.right.centre_px - seen.right_truth.centre_px).squaredNorm();
     radius += std::sqrt(seen.left.area_px2 / M_PI) - radius_px(seen.left_truth);
@@ -108,12 +108,12 @@ TEST_P(BallShape, CentresRadiiAndDisparitiesAreThoseOfTheClosedForm) {
     const double truth_px = seen.left_truth.centre_px.x() - seen.right_truth.centre_px.x();
     disparity2 += std::pow(seen.left.centre_px.x() - seen.right.centre_px.x() - truth_px, 2);
   }
-  ASSERT_GE(eyes, 100);
-  RecordProperty("centre_rms_px", std::to_string(std::sqrt(centre2 / (2 * eyes))));
-  RecordProperty("radius_bias_px", std::to_string(radius / eyes));
-  EXPECT_LE(std::sqrt(centre2 / (2 * eyes)), GetParam().centre_rms_px);
-  EXPECT_LE(std::abs(radius / eyes), GetParam().radius_bias_px);
-  EXPECT_LE(std::sqrt(disparity2 / eyes), 2.0 * GetParam().centre_rms_px);
+  ASSERT_GE(images, 100);
+  RecordProperty("centre_rms_px", std::to_string(std::sqrt(centre2 / (2 * images))));
+  RecordProperty("radius_bias_px", std::to_string(radius / images));
+  EXPECT_LE(std::sqrt(centre2 / (2 * images)), GetParam().centre_rms_px);
+  EXPECT_LE(std::abs(radius / images), GetParam().radius_bias_px);
+  EXPECT_LE(std::sqrt(disparity2 / images), 2.0 * GetParam().centre_rms_px);
 }
 
 // Seen: 0.00037 and 0.00001 px; 0.0018 and 0.0001 px. Pixels that are in or out give 0.05, edges without
@@ -125,10 +125,10 @@ TEST(Shape, DisparityIsFocalLengthTimesBaselineOverDepth) {
   vision::StereoRig rig = test::rig_looking_up();
   const double depth_m = 2.0, radius_m = 0.02;
   const Eigen::Vector3d in_camera(0.1, 0.05, depth_m);
-  const worlds::Ball ball{vision::robot_from_camera(rig, vision::Eye::kLeft) * in_camera, radius_m, 0};
+  const worlds::Ball ball{vision::robot_from_camera(rig, vision::Side::kLeft) * in_camera, radius_m, 0};
   const StereoFrame frame = Renderer(test::flat_sky({ball}), rig).render({});
   const Blob left = weigh(frame.left.colour), right = weigh(frame.right.colour);
-  const double fb = rig.camera.focal_px * rig.baseline_m;
+  const double fb = rig.intrinsics.focal_px * rig.baseline_m;
   EXPECT_NEAR(left.centre_px.x() - right.centre_px.x(), fb / (depth_m - radius_m * radius_m / depth_m), 0.02);
   EXPECT_NEAR(left.centre_px.y(), right.centre_px.y(), 0.01);
 }
@@ -139,7 +139,7 @@ TEST(Shape, DisparityIsFocalLengthTimesBaselineOverDepth) {
 TEST(Shape, EdgesOfBallsBeforeBallsAreBlendedByTheirShare) {
   const vision::StereoRig rig = test::rig_looking_up();
   const auto at = [&](double x, double y, double z) {
-    return Eigen::Vector3d(vision::robot_from_camera(rig, vision::Eye::kLeft) * Eigen::Vector3d(x, y, z));
+    return Eigen::Vector3d(vision::robot_from_camera(rig, vision::Side::kLeft) * Eigen::Vector3d(x, y, z));
   };
   const worlds::World world = test::flat_sky({{at(0.0, 0.0, 1.0), 0.1, 0},
                                               {at(0.12, 0.03, 1.3), 0.12, 1},
@@ -150,8 +150,8 @@ TEST(Shape, EdgesOfBallsBeforeBallsAreBlendedByTheirShare) {
   constexpr int kRays = 16;
   double squared = 0.0;
   int edges = 0, far_off = 0;
-  for (int v = 0; v < rig.camera.height_px; ++v) {
-    for (int u = 0; u < rig.camera.width_px; ++u) {
+  for (int v = 0; v < rig.intrinsics.height_px; ++v) {
+    for (int u = 0; u < rig.intrinsics.width_px; ++u) {
       if (caster.look(u, v).edge_px > 1.0) continue;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (int i = 0; i < kRays * kRays; ++i) {

@@ -92,7 +92,7 @@ const Quantity kQuantities[] = {
 };
 
 /// @param radius_sd_m tolerance of the balls
-worlds::Scenario eyes(double radius_sd_m) {
+worlds::Scenario cameras(double radius_sd_m) {
   harness::ScenarioArguments arguments;
   arguments.scenario = STEREOBENCH_SOURCE_DIR "/assets/scenarios/ball_circle.yaml";
   arguments.overrides = {
@@ -105,8 +105,8 @@ worlds::Scenario eyes(double radius_sd_m) {
 std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<std::uint64_t>& seeds,
                                           int jobs) {
   std::vector<harness::CalibrationSample> samples;
-  for (const harness::CalibrationTake& take :
-       harness::take_galleries(eyes(radius_sd_m), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
+  for (const harness::CalibrationTake& take : harness::take_galleries(
+           cameras(radius_sd_m), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
     samples.insert(samples.end(), take.samples.begin(), take.samples.end());
   const harness::FittedNoise as_stated;
   return harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins);

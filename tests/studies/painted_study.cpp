@@ -122,7 +122,7 @@ Section study_hidden_balls(int jobs) {
     all.unreported += score.unreported;
   }
   const auto share = [&](long part) { return static_cast<double>(part) / static_cast<double>(all.balls); };
-  return {"10 to 70 % hidden, 120 degrees of arc in each eye",
+  return {"10 to 70 % hidden, 120 degrees of arc in each camera",
           {{"balls", static_cast<double>(all.balls)},
            {"share within 5 mm at 3 m", share(all.right), 0.0, {.at_least = 0.91}},
            {"share flagged", share(all.flagged), 0.0, {.at_most = 0.09}},

@@ -33,10 +33,11 @@ Scene pair_of_balls(std::uint64_t seed) {
 }
 
 double disparity_error_px(const BallObservation& seen, const PaintedBall& ball, const StereoRig& rig) {
-  const auto column = [&](Eye eye) {
-    return sphere_outline(rig.camera, point_in_eye(rig, ball.in_camera, eye), ball.radius_m)->centre_px.x();
+  const auto column = [&](Side side) {
+    return sphere_outline(rig.intrinsics, camera_point(rig, ball.in_camera, side), ball.radius_m)
+        ->centre_px.x();
   };
-  return seen.left_px.x() - seen.right_px.x() - (column(Eye::kLeft) - column(Eye::kRight));
+  return seen.left_px.x() - seen.right_px.x() - (column(Side::kLeft) - column(Side::kRight));
 }
 
 // Without noise but as if there were some: what is left is what the colours behind the rim are taken for.

@@ -23,8 +23,8 @@ class HiddenBalls : public testing::TestWithParam<Hider> {};
 
 // NIS / 2 of n balls scatters by 1 / sqrt(n), when those that filters refuse are left out: at most one in
 // thirty. Errors below a millimetre are below any rig's calibration, whatever is claimed. Mutations: no
-// second try from the patch's boundary; the right eye on the wrong side; arcs that contradict each other by a
-// fifth of a pixel all believed.
+// second try from the patch's boundary; the right camera on the wrong side; arcs that contradict each other
+// by a fifth of a pixel all believed.
 TEST_P(HiddenBalls, AreMeasuredByWhatIsLeftOfThem) {
   const StereoRig rig = painter::rig_of_hidden_balls();
   ObserverSettings settings;

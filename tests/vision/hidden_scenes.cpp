@@ -8,7 +8,7 @@
 namespace stereobench::vision::painter {
 namespace {
 
-// Where the line of sight of the middle of the eyes to a point passes a depth.
+// Where the line of sight of the middle of the cameras to a point passes a depth.
 Eigen::Vector3d on_the_way(const StereoRig& rig, const Eigen::Vector3d& to, double depth_m) {
   const Eigen::Vector3d from(0.5 * rig.baseline_m, 0.0, 0.0);
   return from + (to - from) * (depth_m / to.z());
@@ -41,9 +41,9 @@ PaintedBall ball_before(const PaintedBall& ball, const StereoRig& rig, Dice& dic
   return {middle, other};
 }
 
-// Across one of the borders of the eye that is nearer to it.
+// Across one of the borders of the camera that is nearer to it.
 PaintedBall at_border(const StereoRig& rig, double depth_m, Dice& dice) {
-  const Intrinsics& camera = rig.camera;
+  const Intrinsics& camera = rig.intrinsics;
   const double radius = camera.focal_px * kHiddenRadius_m / depth_m;
   const double inwards = dice.uniform(-0.9, 0.9) * radius;
   const double disparity = camera.focal_px * rig.baseline_m / depth_m;

@@ -36,7 +36,7 @@ double centre_bound_px(const PaintedBall& ball, const Eigen::Vector3d& backdrop_
 
 void add(const StereoRig& rig, const PaintedBall& ball, const BallObservation& seen,
          const painter::Scene& scene, Pulls& pulls) {
-  const auto outline = sphere_outline(rig.camera, ball.in_camera, ball.radius_m);
+  const auto outline = sphere_outline(rig.intrinsics, ball.in_camera, ball.radius_m);
   const double bound = centre_bound_px(ball, scene.plain_bgr, scene.noise_sd_levels, outline->radius_px());
   pulls.bound_ratio2 += std::pow((seen.left_px.x() - outline->centre_px.x()) / bound, 2);
   pulls.radius_px += seen.left_radius_px - outline->radius_px();
@@ -57,10 +57,10 @@ constexpr double kTolerance_m = 0.001;  // of balls whose size is not to tell th
 // Scenes of scattered balls, all else as in `scene`.
 Pulls measure(painter::Scene scene, std::uint64_t scenes = 14, double radius_sd_m = 0.0) {
   StereoRig rig;
-  rig.camera.width_px = 640;
-  rig.camera.height_px = 480;
-  rig.camera.cx_px = 319.5;
-  rig.camera.cy_px = 239.5;
+  rig.intrinsics.width_px = 640;
+  rig.intrinsics.height_px = 480;
+  rig.intrinsics.cx_px = 319.5;
+  rig.intrinsics.cy_px = 239.5;
   ObserverSettings settings;
   settings.noise_sd_levels = scene.noise_sd_levels;
   settings.ball_radius_sd_m = radius_sd_m;
@@ -81,9 +81,9 @@ Pulls measure(painter::Scene scene, std::uint64_t scenes = 14, double radius_sd_
 class NoiseLaw : public testing::TestWithParam<double> {};
 
 // NIS of two degrees of freedom has mean 2 and variance 4 a ball; the law's constants may be 15 % off.
-// Catches: half a pixel in one eye, front-surface depth, a dropped eccentricity correction, a baseline of the
-// wrong sign, a covariance of the left camera (the product of pulls would be 0.7). Mutation: the rim's shades
-// from beside it (1.35 times the bound).
+// Catches: half a pixel in one camera, front-surface depth, a dropped eccentricity correction, a baseline of
+// the wrong sign, a covariance of the left camera (the product of pulls would be 0.7). Mutation: the rim's
+// shades from beside it (1.35 times the bound).
 TEST_P(NoiseLaw, ErrorsAreWhatTheCovariancesSayAndNearTheCramerRaoBound) {
   const Pulls pulls = measure({.backdrop = painter::Backdrop::kPlain, .noise_sd_levels = GetParam()});
   ASSERT_GT(pulls.balls, 200);

@@ -35,13 +35,13 @@ std::optional<BallObservation> of_colour(const std::vector<BallObservation>& bal
   return found == balls.end() ? std::nullopt : std::optional(*found);
 }
 
-Eigen::Vector2d outline_centre(const StereoRig& rig, const PaintedBall& ball, Eye eye) {
-  return sphere_outline(rig.camera, point_in_eye(rig, ball.in_camera, eye), ball.radius_m)->centre_px;
+Eigen::Vector2d outline_centre(const StereoRig& rig, const PaintedBall& ball, Side side) {
+  return sphere_outline(rig.intrinsics, camera_point(rig, ball.in_camera, side), ball.radius_m)->centre_px;
 }
 
 double centre_error(const StereoRig& rig, const PaintedBall& ball, const BallObservation& observation) {
-  return std::max((observation.left_px - outline_centre(rig, ball, Eye::kLeft)).norm(),
-                  (observation.right_px - outline_centre(rig, ball, Eye::kRight)).norm());
+  return std::max((observation.left_px - outline_centre(rig, ball, Side::kLeft)).norm(),
+                  (observation.right_px - outline_centre(rig, ball, Side::kRight)).norm());
 }
 
 double rms(const std::vector<double>& errors) {
@@ -54,7 +54,7 @@ double rms(const std::vector<double>& errors) {
 TEST(Observe, BallsOfTheLeastSizeAreFoundAndSmallerOnesAreNot) {
   const StereoRig rig = small_rig();
   const double depth_m =
-      ObserverSettings{}.ball_radius_m * rig.camera.focal_px / ObserverSettings{}.min_radius_px;
+      ObserverSettings{}.ball_radius_m * rig.intrinsics.focal_px / ObserverSettings{}.min_radius_px;
   for (const bool is_smaller : {false, true}) {
     std::size_t found = 0;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
@@ -123,8 +123,8 @@ TEST(Observe, SeesNoBallsWhereThereAreNone) {
   }
 }
 
-// Catches: swapped eyes, a disparity's absolute value.
-TEST(Observe, SeesNothingWithSwappedEyes) {
+// Catches: swapped cameras, a disparity's absolute value.
+TEST(Observe, SeesNothingWithSwappedCameras) {
   const StereoRig rig = small_rig();
   Scene scene;
   scene.balls = painter::scattered_balls(rig, 1.0, 4.0, 5);
@@ -133,7 +133,7 @@ TEST(Observe, SeesNothingWithSwappedEyes) {
   EXPECT_TRUE(observe({pair.right, pair.left}, rig, {}).empty());
 }
 
-// A panel before the ball moves in from its right; what is hidden differs between the eyes, the worse one
+// A panel before the ball moves in from its right; what is hidden differs between the cameras, the worse one
 // counts.
 TEST(Observe, MeasuresBallsBesideAnEdgeThatMovesIn) {
   const StereoRig rig = small_rig();
@@ -249,9 +249,9 @@ TEST(Observe, GivesTheSameForImagesWithRowPadding) {
 
 TEST(Observe, RefusesImagesThatAreNotTheRigs) {
   const StereoRig rig = small_rig();
-  const cv::Mat good(rig.camera.height_px, rig.camera.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
-  const cv::Mat grey(rig.camera.height_px, rig.camera.width_px, CV_8UC1);
-  const cv::Mat deep(rig.camera.height_px, rig.camera.width_px, CV_16UC3);
+  const cv::Mat good(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
+  const cv::Mat grey(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_8UC1);
+  const cv::Mat deep(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_16UC3);
   const cv::Mat small(1, 1, CV_8UC3);
   EXPECT_NO_THROW(observe({good, good}, rig, {}));
   for (const cv::Mat& bad : {cv::Mat(), grey, deep, small}) {
@@ -262,7 +262,7 @@ TEST(Observe, RefusesImagesThatAreNotTheRigs) {
 
 TEST(Observe, RefusesRigsAndSettingsThatAreNoNumbers) {
   StereoRig rig = small_rig();
-  const cv::Mat image(rig.camera.height_px, rig.camera.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
+  const cv::Mat image(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_8UC3, cv::Scalar(9, 9, 9));
   EXPECT_THROW(observe({image, image}, rig, {-0.05}), std::invalid_argument);
   EXPECT_THROW(observe({image, image}, rig, {0.05, std::nan("")}), std::invalid_argument);
   for (const double rows_px : {0.0, -1.0, std::nan("")})

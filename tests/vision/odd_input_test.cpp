@@ -13,7 +13,7 @@ namespace {
 
 StereoRig small_rig() {
   StereoRig rig;
-  rig.camera = {320, 240, 500.0, 159.5, 119.5};
+  rig.intrinsics = {320, 240, 500.0, 159.5, 119.5};
   return rig;
 }
 
@@ -23,7 +23,7 @@ StereoPair painted() {
   return painter::paint(scene, small_rig());
 }
 
-// Mutations: either eye's picture unchecked.
+// Mutations: either camera's picture unchecked.
 TEST(OddInput, PicturesThatAreNoneOfTheRigsAreRefused) {
   const StereoPair good = painted();
   const cv::Mat odd[] = {cv::Mat(),
@@ -35,7 +35,7 @@ TEST(OddInput, PicturesThatAreNoneOfTheRigsAreRefused) {
   for (const cv::Mat& picture : odd) {
     EXPECT_THROW(observe({picture, good.right}, small_rig(), {}), std::invalid_argument);
     EXPECT_THROW(observe({good.left, picture}, small_rig(), {}), std::invalid_argument);
-    EXPECT_THROW(find_outlines(picture, small_rig().camera, {}), std::invalid_argument);
+    EXPECT_THROW(find_outlines(picture, small_rig().intrinsics, {}), std::invalid_argument);
   }
   EXPECT_EQ(observe(good, small_rig(), {}).size(), 2U);
 }
@@ -44,8 +44,8 @@ TEST(OddInput, RigsWithoutNumbersAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 6; ++i) {
     StereoRig rig = small_rig();
-    (i == 0   ? rig.camera.focal_px
-     : i == 1 ? rig.camera.cx_px
+    (i == 0   ? rig.intrinsics.focal_px
+     : i == 1 ? rig.intrinsics.cx_px
      : i == 2 ? rig.baseline_m
      : i == 3 ? rig.right_turn_rad[1]
      : i == 4 ? rig.distortion.pixel_aspect
@@ -59,12 +59,12 @@ TEST(OddInput, RigsWithoutNumbersAreRefused) {
 TEST(OddInput, OnePixelShowsNothing) {
   const cv::Mat pixel(1, 1, CV_8UC3, cv::Scalar(0, 0, 229));
   StereoRig rig = small_rig();
-  rig.camera = {1, 1, 500.0, 0.0, 0.0};
+  rig.intrinsics = {1, 1, 500.0, 0.0, 0.0};
   EXPECT_TRUE(observe({pixel, pixel}, rig, {}).empty());
 }
 
-// Eyes that are swapped see no ball before them. Mutation: outlines matched whichever lies to the left.
-TEST(OddInput, SwappedEyesMeasureNothing) {
+// Cameras that are swapped see no ball before them. Mutation: outlines matched whichever lies to the left.
+TEST(OddInput, SwappedCamerasMeasureNothing) {
   const StereoPair good = painted();
   EXPECT_TRUE(observe({good.right, good.left}, small_rig(), {}).empty());
 }

@@ -31,10 +31,10 @@ double tiles(double x, double y) {
   return 120.0 + tile + 18.0 * std::sin(3.1 * x + 1.7 * y) + 12.0 * std::sin(11.0 * x - 7.0 * y);
 }
 
-class EyePainter {
+class CameraPainter {
  public:
-  EyePainter(const Scene& scene, const StereoRig& rig, double shift_m)
-      : scene_(scene), camera_(rig.camera), shift_m_(shift_m) {}
+  CameraPainter(const Scene& scene, const StereoRig& rig, double shift_m)
+      : scene_(scene), camera_(rig.intrinsics), shift_m_(shift_m) {}
 
   /// The light that each pixel gathers, CV_64FC3.
   cv::Mat light() {
@@ -50,10 +50,10 @@ class EyePainter {
     return light;
   }
 
-  // Share of a ball's whole outline that this eye sees, counted on a grid of 64 x 64 points of the outline's
-  // box.
+  // Share of a ball's whole outline that this camera sees, counted on a grid of 64 x 64 points of the
+  // outline's box.
   double visible(std::size_t ball) const {
-    const Eigen::Vector3d centre = in_eye(ball);
+    const Eigen::Vector3d centre = in_camera(ball);
     const double reach_x = 1.5 * camera_.focal_px * scene_.balls[ball].radius_m / centre.z();
     const Eigen::Vector2d middle(camera_.cx_px + camera_.focal_px * centre.x() / centre.z(),
                                  camera_.cy_px + camera_.focal_px * centre.y() / centre.z());
@@ -72,7 +72,7 @@ class EyePainter {
 
   // Directions around the ball's centre in which its rim is seen, and nothing else just outside of it.
   double arc_deg(std::size_t ball) const {
-    const Eigen::Vector3d centre = in_eye(ball);
+    const Eigen::Vector3d centre = in_camera(ball);
     const Eigen::Vector3d across = centre.cross(Eigen::Vector3d::UnitY()).normalized();
     const Eigen::Vector3d up = across.cross(centre).normalized();
     int seen = 0;
@@ -100,12 +100,12 @@ class EyePainter {
   Eigen::Vector3d ray(const Eigen::Vector2d& p) const {
     return {(p.x() - camera_.cx_px) / camera_.focal_px, (p.y() - camera_.cy_px) / camera_.focal_px, 1.0};
   }
-  Eigen::Vector3d in_eye(std::size_t ball) const {
+  Eigen::Vector3d in_camera(std::size_t ball) const {
     return scene_.balls[ball].in_camera - Eigen::Vector3d(shift_m_, 0.0, 0.0);
   }
 
   double ball_depth(std::size_t ball, const Eigen::Vector3d& direction) const {
-    const Eigen::Vector3d centre = in_eye(ball);
+    const Eigen::Vector3d centre = in_camera(ball);
     const double a = direction.squaredNorm();
     const double b = direction.dot(centre);
     const double c = centre.squaredNorm() - scene_.balls[ball].radius_m * scene_.balls[ball].radius_m;
@@ -117,7 +117,7 @@ class EyePainter {
   void choose_row(int y) {
     near_.clear();
     for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
-      const Eigen::Vector3d centre = in_eye(i);
+      const Eigen::Vector3d centre = in_camera(i);
       const double v = camera_.cy_px + camera_.focal_px * centre.y() / centre.z();
       const double reach = 1.5 * camera_.focal_px * scene_.balls[i].radius_m / centre.z() + 2.0;
       if (std::abs(v - y) > reach) continue;
@@ -162,7 +162,7 @@ class EyePainter {
   Eigen::Vector3d shade(const Eigen::Vector2d& p, const Hit& hit) const {
     if (hit.ball != kNothing) {
       const auto ball = static_cast<std::size_t>(hit.ball);
-      const Eigen::Vector3d normal = (ray(p) * hit.depth_m - in_eye(ball)) / scene_.balls[ball].radius_m;
+      const Eigen::Vector3d normal = (ray(p) * hit.depth_m - in_camera(ball)) / scene_.balls[ball].radius_m;
       const Eigen::Vector3d light = scene_.towards_light_source.normalized();
       const double shading = kAmbient + kDiffuse * std::pow(std::max(0.0, normal.dot(light)), scene_.sheen);
       const PaletteColour& colour = kPalette[static_cast<std::size_t>(scene_.balls[ball].colour)];
@@ -220,21 +220,21 @@ class EyePainter {
 cv::Mat blurred_light(const Scene& scene, const StereoRig& rig, double shift_m) {
   constexpr int kFiner = 3;
   StereoRig fine = rig;
-  fine.camera.width_px *= kFiner;
-  fine.camera.height_px *= kFiner;
-  fine.camera.focal_px *= kFiner;
-  fine.camera.cx_px = kFiner * (rig.camera.cx_px + 0.5) - 0.5;
-  fine.camera.cy_px = kFiner * (rig.camera.cy_px + 0.5) - 0.5;
-  cv::Mat light = EyePainter(scene, fine, shift_m).light();
+  fine.intrinsics.width_px *= kFiner;
+  fine.intrinsics.height_px *= kFiner;
+  fine.intrinsics.focal_px *= kFiner;
+  fine.intrinsics.cx_px = kFiner * (rig.intrinsics.cx_px + 0.5) - 0.5;
+  fine.intrinsics.cy_px = kFiner * (rig.intrinsics.cy_px + 0.5) - 0.5;
+  cv::Mat light = CameraPainter(scene, fine, shift_m).light();
   cv::GaussianBlur(light, light, {}, kFiner * scene.blur_px, 0.0, cv::BORDER_REPLICATE);
   cv::Mat gathered;
-  cv::resize(light, gathered, {rig.camera.width_px, rig.camera.height_px}, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(light, gathered, {rig.intrinsics.width_px, rig.intrinsics.height_px}, 0.0, 0.0, cv::INTER_AREA);
   return gathered;
 }
 
-cv::Mat paint_eye(const Scene& scene, const StereoRig& rig, double shift_m, Dice& dice) {
+cv::Mat paint_image(const Scene& scene, const StereoRig& rig, double shift_m, Dice& dice) {
   const cv::Mat light =
-      scene.blur_px > 0.0 ? blurred_light(scene, rig, shift_m) : EyePainter(scene, rig, shift_m).light();
+      scene.blur_px > 0.0 ? blurred_light(scene, rig, shift_m) : CameraPainter(scene, rig, shift_m).light();
   cv::Mat image(light.size(), CV_8UC3);
   const auto* in = light.ptr<double>();
   auto* out = image.ptr<std::uint8_t>();
@@ -246,18 +246,19 @@ cv::Mat paint_eye(const Scene& scene, const StereoRig& rig, double shift_m, Dice
 }
 
 Eigen::Vector2d pinhole(const StereoRig& rig, const Eigen::Vector3d& point, double shift_m) {
-  return {rig.camera.cx_px + rig.camera.focal_px * (point.x() - shift_m) / point.z(),
-          rig.camera.cy_px + rig.camera.focal_px * point.y() / point.z()};
+  return {rig.intrinsics.cx_px + rig.intrinsics.focal_px * (point.x() - shift_m) / point.z(),
+          rig.intrinsics.cy_px + rig.intrinsics.focal_px * point.y() / point.z()};
 }
 
 bool fits(const StereoRig& rig, const PaintedBall& ball, const std::vector<PaintedBall>& others,
           double shift_m) {
   const Eigen::Vector2d p = pinhole(rig, ball.in_camera, shift_m);
-  const double r = 1.3 * rig.camera.focal_px * ball.radius_m / ball.in_camera.z() + 5.0;
-  if (p.x() < r || p.y() < r || p.x() > rig.camera.width_px - 1 - r || p.y() > rig.camera.height_px - 1 - r)
+  const double r = 1.3 * rig.intrinsics.focal_px * ball.radius_m / ball.in_camera.z() + 5.0;
+  if (p.x() < r || p.y() < r || p.x() > rig.intrinsics.width_px - 1 - r ||
+      p.y() > rig.intrinsics.height_px - 1 - r)
     return false;
   return std::none_of(others.begin(), others.end(), [&](const PaintedBall& other) {
-    const double other_r = 1.3 * rig.camera.focal_px * other.radius_m / other.in_camera.z() + 5.0;
+    const double other_r = 1.3 * rig.intrinsics.focal_px * other.radius_m / other.in_camera.z() + 5.0;
     return (pinhole(rig, other.in_camera, shift_m) - p).norm() < r + other_r;
   });
 }
@@ -281,27 +282,27 @@ double Dice::normal() {
 
 StereoRig rig_with_pictures_of(int width_px, int height_px) {
   StereoRig rig;
-  rig.camera.width_px = width_px;
-  rig.camera.height_px = height_px;
-  rig.camera.cx_px = 0.5 * (width_px - 1);
-  rig.camera.cy_px = 0.5 * (height_px - 1);
+  rig.intrinsics.width_px = width_px;
+  rig.intrinsics.height_px = height_px;
+  rig.intrinsics.cx_px = 0.5 * (width_px - 1);
+  rig.intrinsics.cy_px = 0.5 * (height_px - 1);
   return rig;
 }
 
 StereoPair paint(const Scene& scene, const StereoRig& rig) {
   Dice dice(scene.seed);
-  const cv::Mat left = paint_eye(scene, rig, 0.0, dice);
-  return {left, paint_eye(scene, rig, rig.baseline_m, dice)};
+  const cv::Mat left = paint_image(scene, rig, 0.0, dice);
+  return {left, paint_image(scene, rig, rig.baseline_m, dice)};
 }
 
 double visible_share(const Scene& scene, const StereoRig& rig, std::size_t ball) {
-  return std::min(EyePainter(scene, rig, 0.0).visible(ball),
-                  EyePainter(scene, rig, rig.baseline_m).visible(ball));
+  return std::min(CameraPainter(scene, rig, 0.0).visible(ball),
+                  CameraPainter(scene, rig, rig.baseline_m).visible(ball));
 }
 
 double visible_arc_deg(const Scene& scene, const StereoRig& rig, std::size_t ball) {
-  return std::min(EyePainter(scene, rig, 0.0).arc_deg(ball),
-                  EyePainter(scene, rig, rig.baseline_m).arc_deg(ball));
+  return std::min(CameraPainter(scene, rig, 0.0).arc_deg(ball),
+                  CameraPainter(scene, rig, rig.baseline_m).arc_deg(ball));
 }
 
 std::vector<PaintedBall> scattered_balls(const StereoRig& rig, double min_depth_m, double max_depth_m,
@@ -311,9 +312,9 @@ std::vector<PaintedBall> scattered_balls(const StereoRig& rig, double min_depth_
   for (int colour = 0; colour < static_cast<int>(kPalette.size()); ++colour) {
     for (int attempt = 0; attempt < 300; ++attempt) {
       const double z = dice.uniform(min_depth_m, max_depth_m);
-      const double u = dice.uniform(0.0, rig.camera.width_px) - rig.camera.cx_px;
-      const double v = dice.uniform(0.0, rig.camera.height_px) - rig.camera.cy_px;
-      const PaintedBall ball{{u * z / rig.camera.focal_px, v * z / rig.camera.focal_px, z}, colour};
+      const double u = dice.uniform(0.0, rig.intrinsics.width_px) - rig.intrinsics.cx_px;
+      const double v = dice.uniform(0.0, rig.intrinsics.height_px) - rig.intrinsics.cy_px;
+      const PaintedBall ball{{u * z / rig.intrinsics.focal_px, v * z / rig.intrinsics.focal_px, z}, colour};
       if (apart && !(fits(rig, ball, balls, 0.0) && fits(rig, ball, balls, rig.baseline_m))) continue;
       balls.push_back(ball);
       break;

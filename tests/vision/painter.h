@@ -46,16 +46,16 @@ StereoRig rig_with_pictures_of(int width_px, int height_px);
 
 StereoPair paint(const Scene& scene, const StereoRig& rig);
 
-/// How much of a ball's outline an eye sees, in [0, 1], the smaller of both eyes; what is beyond the border
-/// is not seen.
+/// How much of a ball's outline a camera sees, in [0, 1], the smaller of both cameras; what is beyond the
+/// border is not seen.
 double visible_share(const Scene& scene, const StereoRig& rig, std::size_t ball);
 
-/// How much of a ball's outline, in degrees around its centre, stands before the backdrop in an eye, the
-/// smaller of both eyes.
+/// How much of a ball's outline, in degrees around its centre, stands before the backdrop in a camera, the
+/// smaller of both cameras.
 double visible_arc_deg(const Scene& scene, const StereoRig& rig, std::size_t ball);
 
 /// Balls of 18 colours at random places within view, at random depths; outlines neither touch each other nor
-/// the border in either eye when `apart`.
+/// the border in either camera when `apart`.
 std::vector<PaintedBall> scattered_balls(const StereoRig& rig, double min_depth_m, double max_depth_m,
                                          std::uint64_t seed, bool apart = true);
 

@@ -14,7 +14,7 @@
 namespace stereobench::vision {
 namespace {
 
-/// What is believed of a rig without faults: a turn of its right eye, and a baseline that is too long.
+/// What is believed of a rig without faults: a turn of its right camera, and a baseline that is too long.
 struct Fault {
   Eigen::Vector3d turn_deg;
   double baseline = 0.0;  ///< relative
@@ -97,7 +97,7 @@ TEST_P(OfThisRig, BallsAreFoundAndTheFaultIsTold) {
   EXPECT_EQ(outcome.strangers, 0);
   EXPECT_GT(outcome.range_nis, 0.4);
   EXPECT_LT(outcome.range_nis, 2.0);
-  const RigFault told = outcome.watch.belief(outcome.believed.camera).fault;
+  const RigFault told = outcome.watch.belief(outcome.believed.intrinsics).fault;
   for (int axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(told[axis] / slam::kRadPerDegree, -fault.turn_deg[axis], 0.012) << axis;
   EXPECT_NEAR(told[3], 1.0 / (1.0 + fault.baseline) - 1.0, 0.002);
@@ -115,7 +115,7 @@ TEST(RowsWithin, LimitsWhatAnOutlineIsMatchedWith) {
   const Sequence& seen = sequence();
   StereoRig believed = seen.rig;
   believed.right_turn_rad.x() = 0.5 * slam::kRadPerDegree;
-  const double off_px = believed.right_turn_rad.x() * believed.camera.focal_px;
+  const double off_px = believed.right_turn_rad.x() * believed.intrinsics.focal_px;
   const Rectification rectification(believed);
   for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
     const auto balls = [&](double rows_px) {
@@ -142,7 +142,7 @@ TEST(RowsWithin, LimitsNoColumns) {
 TEST(RigWithoutFault, IsBelievedIn) {
   const Outcome outcome = drive_with({Eigen::Vector3d::Zero()});
   EXPECT_EQ(outcome.trusted, outcome.balls);
-  EXPECT_TRUE(outcome.watch.belief(outcome.believed.camera).fault.isZero(0.0));
+  EXPECT_TRUE(outcome.watch.belief(outcome.believed.intrinsics).fault.isZero(0.0));
   const Sequence& seen = sequence();
   const Rectification rectification(seen.rig);
   const auto alone = observe(seen.pairs.back(), seen.rig, {.noise_sd_levels = 2.0});

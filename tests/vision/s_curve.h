@@ -8,7 +8,7 @@ inline constexpr int kSCurveBalls = 18;  ///< one of each colour
 
 /// What vision made of the balls of a phase, measured minus true.
 struct PhaseErrors {
-  double left_px = 0.0;  ///< of all colours' centres in the left eye, mean
+  double left_px = 0.0;  ///< of all colours' centres in the left camera, mean
   double disparity_px = 0.0;
   double radius_px = 0.0;  ///< largest of any
   int found = 0;           ///< of kSCurveBalls

@@ -26,7 +26,7 @@ struct Tally {
 /// Scenes of all colours, each with gains at a corner of what is allowed: all eight in turn.
 Tally look_with_gains_off_by(double share) {
   StereoRig rig;
-  rig.camera = {560, 420, 887.0, 279.5, 209.5};
+  rig.intrinsics = {560, 420, 887.0, 279.5, 209.5};
   Tally tally;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     painter::Scene scene;

@@ -12,12 +12,12 @@ constexpr int kMargin_px = 2;  // for the interpolation at the border
 }  // namespace
 
 std::optional<StereoRig> pinhole_rig(const StereoRig& rig) {
-  const auto seen = directions_seen(rig.distortion, rig.camera);
+  const auto seen = directions_seen(rig.distortion, rig.intrinsics);
   if (!seen) return std::nullopt;
   StereoRig pinhole = rig;
   pinhole.distortion = {};
-  Intrinsics& camera = pinhole.camera;
-  camera.focal_px = kPinholeDensity * rig.camera.focal_px;
+  Intrinsics& camera = pinhole.intrinsics;
+  camera.focal_px = kPinholeDensity * rig.intrinsics.focal_px;
   const Eigen::Vector2d first = (camera.focal_px * seen->min()).array().floor() - kMargin_px;
   const Eigen::Vector2d last = (camera.focal_px * seen->max()).array().ceil() + kMargin_px;
   const Eigen::Vector2d size = last - first;

@@ -14,45 +14,46 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr std::array<Eye, 2> kEyes = {Eye::kLeft, Eye::kRight};
+constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 
-std::size_t index_of(Eye eye) {
-  return static_cast<std::size_t>(eye);
+std::size_t index_of(Side side) {
+  return static_cast<std::size_t>(side);
 }
 
-bool is_straight(const EyeCamera& eye, const Intrinsics& camera) {
-  return eye.lens == Distortion{} && eye.rectified_from_eye.isIdentity(0.0) &&
-         eye.camera.focal_px == camera.focal_px && eye.camera.cx_px == camera.cx_px &&
-         eye.camera.cy_px == camera.cy_px;
+bool is_straight(const CameraModel& camera, const Intrinsics& intrinsics) {
+  return camera.lens == Distortion{} && camera.rectified_from_camera.isIdentity(0.0) &&
+         camera.intrinsics.focal_px == intrinsics.focal_px && camera.intrinsics.cx_px == intrinsics.cx_px &&
+         camera.intrinsics.cy_px == intrinsics.cy_px;
 }
 
-void check(const StereoRig& rig, const EyePair& eyes) {
-  const Intrinsics& camera = rig.camera;
+void check(const StereoRig& rig, const CameraPair& cameras) {
+  const Intrinsics& size = rig.intrinsics;
   if (!is_usable(rig)) throw std::invalid_argument("Rectification: the rig cannot be computed with");
-  for (const EyeCamera& eye : eyes) {
-    if (!is_usable(eye)) throw std::invalid_argument("Rectification: the lens folds its picture, or no eye");
-    if (eye.camera.width_px != camera.width_px || eye.camera.height_px != camera.height_px)
-      throw std::invalid_argument("Rectification: the eyes' pictures must have the rig's size");
+  for (const CameraModel& camera : cameras) {
+    if (!is_usable(camera))
+      throw std::invalid_argument("Rectification: a lens folds its picture, or a camera has no valid model");
+    if (camera.intrinsics.width_px != size.width_px || camera.intrinsics.height_px != size.height_px)
+      throw std::invalid_argument("Rectification: the cameras' pictures must have the rig's size");
   }
 }
 
-/// What either eye sees, as directions of the rectified frame.
-Eigen::AlignedBox2d seen_by_both(const EyePair& eyes, const std::array<Eigen::AlignedBox2d, 2>& seen) {
+/// What either camera sees, as directions of the rectified frame.
+Eigen::AlignedBox2d seen_by_both(const CameraPair& cameras, const std::array<Eigen::AlignedBox2d, 2>& seen) {
   Eigen::AlignedBox2d all;
-  for (const Eye eye : kEyes) {
+  for (const Side side : kSides) {
     for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
                               Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
       const Eigen::Vector3d direction =
-          eyes[index_of(eye)].rectified_from_eye * seen[index_of(eye)].corner(corner).homogeneous();
+          cameras[index_of(side)].rectified_from_camera * seen[index_of(side)].corner(corner).homogeneous();
       if (direction.z() > 0.0) all.extend(direction.hnormalized());
     }
   }
   return all;
 }
 
-/// The same rig with its eyes put straight, lenses that do not distort, and pictures that hold a view.
+/// The same rig with its cameras put straight, lenses that do not distort, and pictures that hold a view.
 StereoRig rectified(StereoRig rig, const Eigen::AlignedBox2d& view) {
-  Intrinsics& camera = rig.camera;
+  Intrinsics& camera = rig.intrinsics;
   const Eigen::Array2d size(camera.width_px, camera.height_px);
   const Eigen::Array2d centre(camera.cx_px, camera.cy_px);
   const Eigen::Array2d first =
@@ -69,70 +70,72 @@ StereoRig rectified(StereoRig rig, const Eigen::AlignedBox2d& view) {
 
 }  // namespace
 
-Rectification::Rectification(const StereoRig& rig) : Rectification(rig, eyes_of(rig)) {}
+Rectification::Rectification(const StereoRig& rig) : Rectification(rig, cameras_of(rig)) {}
 
-Rectification::Rectification(const StereoRig& rig, const EyePair& eyes) : eyes_(eyes), rectified_(rig) {
-  check(rig, eyes);
-  for (const Eye eye : kEyes)
-    seen_[index_of(eye)] = *directions_seen(eyes[index_of(eye)].lens, eyes[index_of(eye)].camera);
-  if (is_straight(eyes[0], rig.camera) && is_straight(eyes[1], rig.camera)) return;
-  rectified_ = rectified(rig, seen_by_both(eyes, seen_));
-  for (const Eye eye : kEyes) {
-    cv::Mat places(rectified_.camera.height_px, rectified_.camera.width_px, CV_32FC2);
+Rectification::Rectification(const StereoRig& rig, const CameraPair& cameras)
+    : cameras_(cameras), rectified_(rig) {
+  check(rig, cameras);
+  for (const Side side : kSides)
+    seen_[index_of(side)] =
+        *directions_seen(cameras[index_of(side)].lens, cameras[index_of(side)].intrinsics);
+  if (is_straight(cameras[0], rig.intrinsics) && is_straight(cameras[1], rig.intrinsics)) return;
+  rectified_ = rectified(rig, seen_by_both(cameras, seen_));
+  for (const Side side : kSides) {
+    cv::Mat places(rectified_.intrinsics.height_px, rectified_.intrinsics.width_px, CV_32FC2);
     for (int row = 0; row < places.rows; ++row) {
       for (int column = 0; column < places.cols; ++column) {
-        const Eigen::Vector2f at = pixel_for(Eigen::Vector2d(column, row), eye).cast<float>();
+        const Eigen::Vector2f at = pixel_for(Eigen::Vector2d(column, row), side).cast<float>();
         places.at<cv::Vec2f>(row, column) = {at.x(), at.y()};
       }
     }
-    Maps& maps = maps_[index_of(eye)];
+    Maps& maps = maps_[index_of(side)];
     cv::convertMaps(places, cv::noArray(), maps.places, maps.fractions, CV_16SC2);
   }
 }
 
 StereoPair Rectification::apply(const StereoPair& pair) const {
-  return {rectified_picture(pair.left, Eye::kLeft), rectified_picture(pair.right, Eye::kRight)};
+  return {rectified_picture(pair.left, Side::kLeft), rectified_picture(pair.right, Side::kRight)};
 }
 
-Eigen::Vector2d Rectification::direction_of(const Eigen::Vector2d& rectified_px, Eye eye) const {
-  constexpr double kLeastAhead = 1e-6;  // what is behind the eye is as far aside as can be
-  const Eigen::Vector3d ray = pixel_ray(rectified_.camera, rectified_px);
-  const Eigen::Vector3d direction = eyes_[index_of(eye)].rectified_from_eye.transpose() * ray;
+Eigen::Vector2d Rectification::direction_of(const Eigen::Vector2d& rectified_px, Side side) const {
+  constexpr double kLeastAhead = 1e-6;  // what is behind the camera is as far aside as can be
+  const Eigen::Vector3d ray = pixel_ray(rectified_.intrinsics, rectified_px);
+  const Eigen::Vector3d direction = cameras_[index_of(side)].rectified_from_camera.transpose() * ray;
   return direction.head<2>() / std::max(direction.z(), kLeastAhead);
 }
 
-Eigen::Vector2d Rectification::taken_px(const Eigen::Vector2d& rectified_px, Eye eye) const {
-  const EyeCamera& taken_by = eyes_[index_of(eye)];
-  const Eigen::AlignedBox2d& seen = seen_[index_of(eye)];
-  const Eigen::Vector2d direction = direction_of(rectified_px, eye);
+Eigen::Vector2d Rectification::taken_px(const Eigen::Vector2d& rectified_px, Side side) const {
+  const CameraModel& taken_by = cameras_[index_of(side)];
+  const Eigen::AlignedBox2d& seen = seen_[index_of(side)];
+  const Eigen::Vector2d direction = direction_of(rectified_px, side);
   const Eigen::Vector2d nearest = direction.cwiseMax(seen.min()).cwiseMin(seen.max());
   const Eigen::Vector2d beyond = direction - nearest;  // where lenses may fold
-  return project(taken_by.camera, distort(taken_by.lens, nearest).homogeneous()) +
-         taken_by.camera.focal_px * Eigen::Vector2d(beyond.x(), taken_by.lens.pixel_aspect * beyond.y());
+  return project(taken_by.intrinsics, distort(taken_by.lens, nearest).homogeneous()) +
+         taken_by.intrinsics.focal_px * Eigen::Vector2d(beyond.x(), taken_by.lens.pixel_aspect * beyond.y());
 }
 
-Eigen::Vector2d Rectification::pixel_for(const Eigen::Vector2d& rectified_px, Eye eye) const {
+Eigen::Vector2d Rectification::pixel_for(const Eigen::Vector2d& rectified_px, Side side) const {
   constexpr double kNowhere_px = -1e4;
-  const bool seen = seen_[index_of(eye)].contains(direction_of(rectified_px, eye));
-  return seen ? taken_px(rectified_px, eye) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
+  const bool seen = seen_[index_of(side)].contains(direction_of(rectified_px, side));
+  return seen ? taken_px(rectified_px, side) : Eigen::Vector2d(kNowhere_px, kNowhere_px);
 }
 
-bool Rectification::shows(const Eigen::Vector2d& centre_px, double radius_px, Eye eye) const {
+bool Rectification::shows(const Eigen::Vector2d& centre_px, double radius_px, Side side) const {
   constexpr int kPoints = 32;
   for (int i = 0; i < kPoints; ++i) {
     const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * i / kPoints);
-    if (!is_inside(eyes_[index_of(eye)].camera,
-                   pixel_for(centre_px + radius_px * Eigen::Vector2d(c, s), eye)))
+    if (!is_inside(cameras_[index_of(side)].intrinsics,
+                   pixel_for(centre_px + radius_px * Eigen::Vector2d(c, s), side)))
       return false;
   }
   return true;
 }
 
-cv::Mat Rectification::rectified_picture(const cv::Mat& taken, Eye eye) const {
-  const Intrinsics& camera = eyes_[index_of(eye)].camera;
+cv::Mat Rectification::rectified_picture(const cv::Mat& taken, Side side) const {
+  const Intrinsics& camera = cameras_[index_of(side)].intrinsics;
   if (taken.type() != CV_8UC3 || taken.cols != camera.width_px || taken.rows != camera.height_px)
     throw std::invalid_argument("Rectification: pictures must be 8-bit BGR of the rig's size");
-  const Maps& maps = maps_[index_of(eye)];
+  const Maps& maps = maps_[index_of(side)];
   if (maps.places.empty()) return taken;
   cv::Mat picture;
   cv::remap(taken, picture, maps.places, maps.fractions, cv::INTER_CUBIC, cv::BORDER_CONSTANT);

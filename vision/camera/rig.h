@@ -1,4 +1,4 @@
-/// Where a stereo rig's eyes are on the robot, and how points become pixels and pixels rays.
+/// Where a stereo rig's cameras are on the robot, and how points become pixels and pixels rays.
 #pragma once
 
 #include <optional>
@@ -10,39 +10,40 @@
 
 namespace stereobench::vision {
 
-/// Where an eye is on the robot: the optical centre at height_m, half a baseline to its side, tilted by the
+/// Where a camera is on the robot: the optical centre at height_m, half a baseline to its side, tilted by the
 /// pitch.
-/// @param eye the right eye is the left one moved by the baseline along its own x axis, and turned
-/// @return the transform that takes points of the eye's camera frame to the robot frame, metres
-Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Eye eye = Eye::kLeft);
+/// @param side the right camera is the left one moved by the baseline along its own x axis, and turned
+/// @return the transform that takes points of the camera's frame to the robot frame, metres
+Eigen::Isometry3d robot_from_camera(const StereoRig& rig, Side side = Side::kLeft);
 
-/// The same point as another eye of the rig sees it.
+/// The same point as another camera of the rig sees it.
 /// @param point_in_left_camera metres
-/// @return the point in the frame of the eye's camera, metres
-Eigen::Vector3d point_in_eye(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Eye eye);
+/// @return the point in that camera's frame, metres
+Eigen::Vector3d camera_point(const StereoRig& rig, const Eigen::Vector3d& point_in_left_camera, Side side);
 
-/// The same direction as another eye of the rig sees it.
-Eigen::Vector3d direction_in_eye(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
-                                 Eye eye);
+/// The same direction as another camera of the rig sees it.
+Eigen::Vector3d camera_direction(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
+                                 Side side);
 
-/// Where an eye's picture shows a point: the pinhole projection after the lens has bent the light.
-/// @param point_in_eye metres, in the frame of the eye's camera, Z > 0
+/// Where a camera's picture shows a point: the pinhole projection after the lens has bent the light.
+/// @param point_in_camera metres, Z > 0
 /// @return pixels; may lie outside the image
-Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_eye);
+Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_camera);
 
 /// The pinhole projection u = f X/Z + cx, v = f Y/Z + cy.
 /// @param point_in_camera metres, Z > 0 (for Z <= 0 the result has no meaning)
 /// @return pixels, (0, 0) is the centre of the top-left pixel; may lie outside the image
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera);
 
-/// Where a camera without distortion would show what a pixel of an eye's picture shows.
+/// Where a camera without distortion would show what a pixel of a camera's picture shows.
 /// @return empty where the lens folds its picture
 std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px);
 
-/// Where a rig without faults, its right eye straight and its lenses without distortion, would show what a
-/// pixel of an eye's picture shows.
+/// Where a rig without faults, its right camera straight and its lenses without distortion, would show what a
+/// pixel of a camera's picture shows.
 /// @return empty where the lens folds its picture, or for what that rig has behind it
-std::optional<Eigen::Vector2d> straight_point(const StereoRig& rig, const Eigen::Vector2d& taken_px, Eye eye);
+std::optional<Eigen::Vector2d> rectified_point(const StereoRig& rig, const Eigen::Vector2d& taken_px,
+                                               Side side);
 
 /// Whether a place lies within the area of a picture's pixels.
 bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel);

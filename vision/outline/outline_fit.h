@@ -16,7 +16,7 @@ namespace stereobench::vision {
 /// Of an outline's area, what may be hidden, or outside of the picture, of a ball that passes for whole.
 inline constexpr double kMostHidden = 0.06;
 
-/// A ball's outline as one eye measures it.
+/// A ball's outline as one camera measures it.
 struct MeasuredOutline {
   int colour = 0;                                            ///< index into kPalette
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();       ///< of the ellipse

@@ -61,7 +61,7 @@ class BallSurface {
   Eigen::Vector2d principal_px_;
   double per_focal_px_;
   Eigen::Vector2d centre_;
-  double tangent2_;    ///< squared length of a tangent from the eye
+  double tangent2_;    ///< squared length of a tangent from the camera
   double per_radius_;  ///< of the ball
 };
 

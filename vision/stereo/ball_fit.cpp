@@ -18,9 +18,9 @@ constexpr int kSteps = 4;           // from where the centres triangulate to
 constexpr int kFurtherSteps = 2;    // from the loose fit
 constexpr double kBelieved = 25.0;  // squared contradiction of size and disparity, in variances
 
-// What a fault of the right eye adds to its outline's covariance. A turn about y that moves an outline also
-// stretches it, by the cube of the root of its ray's length: else a stretch of a tenth of a pixel would pass
-// for a disparity that is off by dozens.
+// What a fault of the right camera adds to its outline's covariance. A turn about y that moves an outline
+// also stretches it, by the cube of the root of its ray's length: else a stretch of a tenth of a pixel would
+// pass for a disparity that is off by dozens.
 Eigen::Matrix3d noise_by_fault_px2(const Intrinsics& camera, const MeasuredOutline& outline,
                                    double disparity_variance_px2) {
   const Eigen::Vector3d ray = pixel_ray(camera, outline.centre_px);
@@ -28,17 +28,18 @@ Eigen::Matrix3d noise_by_fault_px2(const Intrinsics& camera, const MeasuredOutli
   return disparity_variance_px2 * Eigen::Vector3d(1.0, 0.0, stretch * stretch).asDiagonal().toDenseMatrix();
 }
 
-// Two outlines of one ball, as the eyes measured them.
+// Two outlines of one ball, as the cameras measured them.
 class Sight {
  public:
   Sight(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
         double disparity_variance_px2)
-      : camera_(rig.camera),
+      : camera_(rig.intrinsics),
         to_right_(-rig.baseline_m, 0.0, 0.0, 0.0),
         left_(as_vector(left)),
         right_(as_vector(right)),
         left_noise_(left.covariance_px2),
-        right_noise_(right.covariance_px2 + noise_by_fault_px2(rig.camera, right, disparity_variance_px2)) {}
+        right_noise_(right.covariance_px2 +
+                     noise_by_fault_px2(rig.intrinsics, right, disparity_variance_px2)) {}
 
   // One step towards the ball that explains both.
   // @param size of a ball before it is looked at
@@ -115,8 +116,8 @@ double contradiction_m2(const BallSize& size, const BallFit& loose) {
 
 double disparity_by_size_px(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
                             double ball_radius_m) {
-  const double b = 0.5 * (minor_axis(rig.camera, left) + minor_axis(rig.camera, right));
-  return rig.camera.focal_px * rig.baseline_m * b * std::sqrt(1.0 + b * b) / ball_radius_m;
+  const double b = 0.5 * (minor_axis(rig.intrinsics, left) + minor_axis(rig.intrinsics, right));
+  return rig.intrinsics.focal_px * rig.baseline_m * b * std::sqrt(1.0 + b * b) / ball_radius_m;
 }
 
 std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& left,

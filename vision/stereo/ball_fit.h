@@ -1,4 +1,4 @@
-/// One ball through both eyes: where it is, from all that its two outlines say.
+/// One ball through both cameras: where it is, from all that its two outlines say.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ struct BallFit {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();   ///< of it
   double radius_m = 0.0;                                     ///< as the outlines tell it
   double radius_variance_m2 = 0.0;                           ///< of that
-  double row_misfit_px = 0.0;                                ///< between the eyes, absolute
-  double radius_misfit_px = 0.0;  ///< to balls of the known size, of the worse eye, absolute
+  double row_misfit_px = 0.0;                                ///< between the cameras, absolute
+  double radius_misfit_px = 0.0;  ///< to balls of the known size, of the worse camera, absolute
 };
 
-/// The ball of about known size whose outlines suit what both eyes measured best: the one by which outlines
-/// are matched.
+/// The ball of about known size whose outlines suit what both cameras measured best: the one by which
+/// outlines are matched.
 ///
-/// Generalised least squares over (X, Y, Z, R): three numbers an eye, each eye's with their covariance. The
-/// size is held to ten percent only, so that disparity and size can be seen to contradict each other. A
-/// whole outline's centre says nothing of its radius, and its ball is where the centres triangulate to. Of
-/// an outline that is seen in part, centre and radius are uncertain together, and what the other eye says
-/// of the radius helps to fix the centre.
+/// Generalised least squares over (X, Y, Z, R): three numbers a camera, each camera's with their covariance.
+/// The size is held to ten percent only, so that disparity and size can be seen to contradict each other. A
+/// whole outline's centre says nothing of its radius, and its ball is where the centres triangulate to. Of an
+/// outline that is seen in part, centre and radius are uncertain together, and what the other camera says of
+/// the radius helps to fix the centre.
 /// @param ball_radius_m > 0
 /// @param disparity_variance_px2 of what the disparity may be off beyond the outlines' errors, which is the
-///   right eye's fault; 0 for a rig that is as believed
+///   right camera's fault; 0 for a rig that is as believed
 /// @return empty when the outlines' centres have no positive disparity, though they should
 std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& left,
                                 const MeasuredOutline& right, double ball_radius_m,

@@ -13,19 +13,19 @@ namespace {
 Eigen::Matrix<double, 3, 4> ball_by_pixels(const StereoRig& rig, const OutlineCentres& centres,
                                            double radius_m) {
   const double disparity = centres.left_px.x() - centres.right_px.x();
-  const double zn = rig.camera.focal_px * rig.baseline_m / disparity;
+  const double zn = rig.intrinsics.focal_px * rig.baseline_m / disparity;
   const double zn_by_disparity = -zn / disparity;
   const double z_by_zn = 0.5 * (1.0 + zn / std::sqrt(zn * zn + 4.0 * radius_m * radius_m));
   const Eigen::Vector2d pixel(centres.left_px.x(), 0.5 * (centres.left_px.y() + centres.right_px.y()));
-  const Eigen::Vector3d ray = pixel_ray(rig.camera, pixel);
+  const Eigen::Vector3d ray = pixel_ray(rig.intrinsics, pixel);
 
   const Eigen::Vector3d by_disparity(ray.x() * zn_by_disparity, ray.y() * zn_by_disparity,
                                      z_by_zn * zn_by_disparity);
   Eigen::Matrix<double, 3, 4> jacobian = Eigen::Matrix<double, 3, 4>::Zero();
   jacobian.col(0) = by_disparity;
   jacobian.col(2) = -by_disparity;
-  jacobian(0, 0) += zn / rig.camera.focal_px;
-  jacobian(1, 1) = 0.5 * zn / rig.camera.focal_px;
+  jacobian(0, 0) += zn / rig.intrinsics.focal_px;
+  jacobian(1, 1) = 0.5 * zn / rig.intrinsics.focal_px;
   jacobian(1, 3) = jacobian(1, 1);
   return jacobian;
 }

@@ -8,7 +8,7 @@
 
 namespace stereobench::vision {
 
-/// Where both eyes measured a ball's outline; their errors are independent of each other.
+/// Where both cameras measured a ball's outline; their errors are independent of each other.
 struct OutlineCentres {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  ///< centres of the outlines' ellipses
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();

@@ -9,7 +9,7 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kLeastArcShare = 1.0 / 3.0;   // of an outline in each eye, to be trusted
+constexpr double kLeastArcShare = 1.0 / 3.0;   // of an outline in each camera, to be trusted
 constexpr double kMostReducedChiSquare = 6.0;  // beyond it arcs are of two things
 constexpr double kVague_px = 0.05;             // sd of a disparity that contradicting arcs may have
 constexpr double kRowsApart_px = 0.5;          // more than two outlines of one ball are in a straight rig
@@ -17,7 +17,7 @@ constexpr double kSeenTimes = 6.0;             // a ball, with the same error of
 constexpr int kMostMatches = 3;                // by a belief that changes
 constexpr double kSameFault = 2e-5;            // rad, and relative: rows move by 0.02 px at f = 1000 px
 
-// Whether each eye sees enough of the outline.
+// Whether each camera sees enough of the outline.
 bool shows_enough(const OutlinePair& pair) {
   return std::min(pair.left.inlier_ratio, pair.right.inlier_ratio) > kLeastArcShare;
 }
@@ -26,7 +26,7 @@ double disparity_sd_px(const OutlinePair& pair, const StereoRig& rig) {
   if (pair.disparity_variance_px2 > 0.0)  // then depth tells of the rig
     return std::sqrt(pair.left.covariance_px2(0, 0) + pair.right.covariance_px2(0, 0));
   const double depth_m = pair.ball.ball_in_camera.z();
-  return std::sqrt(pair.ball.covariance_m2(2, 2)) * rig.camera.focal_px * rig.baseline_m /
+  return std::sqrt(pair.ball.covariance_m2(2, 2)) * rig.intrinsics.focal_px * rig.baseline_m /
          (depth_m * depth_m);
 }
 
@@ -51,7 +51,7 @@ void tell(const OutlinePair& pair, const StereoRig& rig, const BallSize& size, c
   const BallApart apart{
       left.centre_px, right.centre_px, errors(1, 1), by_size_px,
       errors(0, 0) + per_radius * per_radius * errors(2, 2) + kSeenTimes * by_tolerance_px * by_tolerance_px};
-  watch.add(rig.camera, apart, belief);
+  watch.add(rig.intrinsics, apart, belief);
 }
 
 // One pair of pictures, and what was known before.
@@ -65,7 +65,7 @@ Matched match_by(const Task& task, const RigBelief& belief, const RigWatch& befo
   const StereoRig rig = with_baseline(task.rig, belief);
   Matched matched{match_outlines(task.left, task.right, rig, task.settings, belief), rig, before};
   const BallSize size = {task.settings.ball_radius_m, task.settings.ball_radius_sd_m};
-  matched.eye_variance_m2 = 0.25 * rig.baseline_m * rig.baseline_m * belief.covariance(3, 3);
+  matched.camera_variance_m2 = 0.25 * rig.baseline_m * rig.baseline_m * belief.covariance(3, 3);
   for (const OutlinePair& pair : matched.pairs) tell(pair, task.rig, size, belief, matched.watch);
   return matched;
 }
@@ -93,7 +93,7 @@ bool speaks(const OutlinePair& pair, const StereoRig& rig) {
 Matched match_by_watch(std::span<const MeasuredOutline> left, std::span<const MeasuredOutline> right,
                        const StereoRig& rig, const ObserverSettings& settings, const RigWatch& watch) {
   const Task task{left, right, rig, settings};
-  RigBelief belief = watch.belief(rig.camera);
+  RigBelief belief = watch.belief(rig.intrinsics);
   RigWatch before = watch;
   Matched matched = match_by(task, belief, before);
   if (2 * matched.pairs.size() < std::min(left.size(), right.size())) {
@@ -107,7 +107,7 @@ Matched match_by_watch(std::span<const MeasuredOutline> left, std::span<const Me
     }
   }
   for (int i = 0; i < kMostMatches; ++i) {
-    const RigBelief by_now = matched.watch.belief(rig.camera);
+    const RigBelief by_now = matched.watch.belief(rig.intrinsics);
     if (!differ(by_now, belief)) break;
     belief = by_now;
     Matched again = match_by(task, belief, before);

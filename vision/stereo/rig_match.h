@@ -15,7 +15,8 @@ struct Matched {
   ScratchVector<OutlinePair> pairs;
   StereoRig rig;  ///< with the baseline that is believed to be right
   RigWatch watch;
-  double eye_variance_m2 = 0.0;  ///< of where the left eye is beside the robot's middle, half a baseline away
+  double camera_variance_m2 =
+      0.0;  ///< of where the left camera is beside the robot's middle, half a baseline away
 };
 
 /// Whether both outlines of a pair tell where the ball is: enough of them is seen, and their arcs are of

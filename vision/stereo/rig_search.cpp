@@ -38,11 +38,11 @@ ScratchVector<Candidate> candidates_of(std::span<const MeasuredOutline> left,
       if (std::abs(a.radius_px - b.radius_px) > kSameSize_px + kSameSize * std::max(a.radius_px, b.radius_px))
         continue;
       const double by_size_px = disparity_by_size_px(rig, a, b, settings.ball_radius_m);
-      const double columns_within_px = kTurnAboutY_rad * rig.camera.focal_px + kDisparity * by_size_px;
+      const double columns_within_px = kTurnAboutY_rad * rig.intrinsics.focal_px + kDisparity * by_size_px;
       if (std::abs(apart.x() - by_size_px) > columns_within_px) continue;
-      const Eigen::Vector2d ray = pixel_ray(rig.camera, b.centre_px).head<2>();
+      const Eigen::Vector2d ray = pixel_ray(rig.intrinsics, b.centre_px).head<2>();
       candidates.push_back(
-          {l, r, apart.y(), rig.camera.focal_px * Eigen::Vector2d(-(1.0 + ray.y() * ray.y()), ray.x())});
+          {l, r, apart.y(), rig.intrinsics.focal_px * Eigen::Vector2d(-(1.0 + ray.y() * ray.y()), ray.x())});
       if (candidates.size() == kMostCandidates) return candidates;
     }
   }
@@ -102,7 +102,7 @@ std::optional<RigBelief> search_rig(std::span<const MeasuredOutline> left,
   RigBelief belief = usual_fault();
   belief.fault[0] = best.x();
   belief.fault[2] = best.y();
-  const double rows_sd = 0.5 * kCommonTrend_px / rig.camera.focal_px;
+  const double rows_sd = 0.5 * kCommonTrend_px / rig.intrinsics.focal_px;
   belief.covariance(0, 0) = belief.covariance(2, 2) = rows_sd * rows_sd;
   return belief;
 }

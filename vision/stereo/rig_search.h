@@ -11,7 +11,7 @@
 namespace stereobench::vision {
 
 /// The turn about x and z under which most outlines have a partner of their colour and size in the other
-/// eye, each one of its own, with one common trend of the rows: tried are all that two such pairs, or a
+/// camera, each one of its own, with one common trend of the rows: tried are all that two such pairs, or a
 /// lone one, suggest. Of disparities it says nothing but that they may be wrong.
 /// @return a belief coarse enough for outlines to be matched by; empty where nothing could be a pair
 std::optional<RigBelief> search_rig(std::span<const MeasuredOutline> left,

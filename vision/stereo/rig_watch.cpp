@@ -19,7 +19,7 @@ constexpr double kMatters_px = 0.05;       // beside what outlines are off by, a
 constexpr double kUsualDisparity_px = 40.0;
 constexpr long kFewestSizes = 2;  // balls whose sizes say that it is the rig, not they
 
-// How a turn moves what the right eye sees: derivatives of (column, row), to first order.
+// How a turn moves what the right camera sees: derivatives of (column, row), to first order.
 Eigen::Matrix<double, 2, 3> moved_by_turn_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) {
   const double x = (right_px.x() - camera.cx_px) / camera.focal_px;
   const double y = (right_px.y() - camera.cy_px) / camera.focal_px;
@@ -82,8 +82,8 @@ RigBelief usual_fault() {
 
 Eigen::Vector2d RigBelief::straight_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const {
   if (fault.head<3>().isZero(0.0)) return right_px;
-  const StereoRig turned{.camera = camera, .right_turn_rad = fault.head<3>()};
-  return straight_point(turned, right_px, Eye::kRight).value_or(right_px);
+  const StereoRig turned{.intrinsics = camera, .right_turn_rad = fault.head<3>()};
+  return rectified_point(turned, right_px, Side::kRight).value_or(right_px);
 }
 
 double RigBelief::rows_apart_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const {

@@ -7,7 +7,7 @@
 
 namespace stereobench::vision {
 
-/// A fault of a rig: how the right eye is turned beyond what is believed (about x, y and z, rad, small),
+/// A fault of a rig: how the right camera is turned beyond what is believed (about x, y and z, rad, small),
 /// and by what share the baseline is longer.
 using RigFault = Eigen::Vector4d;
 
@@ -25,10 +25,10 @@ struct RigBelief {
   RigFault fault = RigFault::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 
-  /// Where the right eye would see something if it were not turned.
+  /// Where the right camera would see something if it were not turned.
   Eigen::Vector2d straight_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const;
 
-  /// By how many rows the left eye sees something further down than the right one does.
+  /// By how many rows the left camera sees something further down than the right one does.
   double rows_apart_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const;
 
   /// By how much a disparity is larger than it would be without the fault.
@@ -43,7 +43,7 @@ struct RigBelief {
 /// The rig with the baseline that is believed to be right.
 StereoRig with_baseline(StereoRig rig, const RigBelief& belief);
 
-/// What eyes are turned by, and baselines off, before anything is known of a rig: 0.6 degrees and 4
+/// What cameras are turned by, and baselines off, before anything is known of a rig: 0.6 degrees and 4
 /// percent.
 RigBelief usual_fault();
 

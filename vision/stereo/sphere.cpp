@@ -71,9 +71,9 @@ std::optional<Eigen::Vector3d> triangulate_ball(const StereoRig& rig, const Eige
                                                 const Eigen::Vector2d& right_px, double radius_m) {
   const double disparity_px = left_px.x() - right_px.x();
   if (!(disparity_px > 0.0)) return std::nullopt;
-  const double zn = rig.camera.focal_px * rig.baseline_m / disparity_px;
+  const double zn = rig.intrinsics.focal_px * rig.baseline_m / disparity_px;
   const Eigen::Vector2d pixel(left_px.x(), 0.5 * (left_px.y() + right_px.y()));
-  Eigen::Vector3d ball_in_camera = zn * pixel_ray(rig.camera, pixel);
+  Eigen::Vector3d ball_in_camera = zn * pixel_ray(rig.intrinsics, pixel);
   ball_in_camera.z() = ball_depth(zn, radius_m);
   return ball_in_camera;
 }

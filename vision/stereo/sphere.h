@@ -1,4 +1,5 @@
-/// What a ball's outline is in an image, and where the ball is given its outlines in both eyes: closed forms.
+/// What a ball's outline is in an image, and where the ball is given its outlines in both cameras: closed
+/// forms.
 ///
 /// A sphere's outline is the cone of rays that touch it, cut by the image plane: an ellipse whose centre is
 /// not the projected centre of the sphere. Holds exactly, without approximation.
@@ -29,16 +30,16 @@ struct OutlineEllipse {
 /// The outline of a ball: with b^2 = R^2 / (Z^2 - R^2), the centre is (1 + b^2) times the projected ball
 /// centre (normalised coordinates), the semi-axes are b and b sqrt((D^2 - R^2) / (Z^2 - R^2)), D the ball's
 /// distance.
-/// @param ball_in_camera centre, in the frame of the eye that looks, metres
+/// @param ball_in_camera centre, in the frame of the camera that looks, metres
 /// @param radius_m > 0
 /// @return the ellipse, which may lie outside the image; empty when the ball is not wholly ahead (Z <= R)
 std::optional<OutlineEllipse> sphere_outline(const Intrinsics& camera, const Eigen::Vector3d& ball_in_camera,
                                              double radius_m);
 
-/// A ball and its size: X, Y, Z of its centre in the eye that looks, and its radius, metres.
+/// A ball and its size: X, Y, Z of its centre in the camera that looks, and its radius, metres.
 using SizedBall = Eigen::Vector4d;
 
-/// What an eye sees of a ball, and how that changes with the ball.
+/// What a camera sees of a ball, and how that changes with the ball.
 struct SeenOutline {
   Eigen::Vector3d outline_px = Eigen::Vector3d::Zero();  ///< centre, and radius of the circle of equal area
   Eigen::Matrix<double, 3, 4> by_ball = Eigen::Matrix<double, 3, 4>::Zero();  ///< its derivative

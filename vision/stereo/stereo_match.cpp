@@ -29,7 +29,7 @@ struct Misfit {
   double total() const { return std::max(size, row); }
 };
 
-// The outline that an eye would see of the same ball if it were turned a little: what is farther from the
+// The outline that a camera would see of the same ball if it were turned a little: what is farther from the
 // principal point is larger, by the square root of the cube of the length of its ray, squared.
 MeasuredOutline moved(MeasuredOutline outline, const Eigen::Vector2d& to_px, const Intrinsics& camera) {
   const double stretch2 =
@@ -43,9 +43,9 @@ std::optional<Misfit> misfit(const MeasuredOutline& left, MeasuredOutline right,
                              const ObserverSettings& settings, const RigBelief& belief) {
   if (left.colour != right.colour) return std::nullopt;
   Misfit result;
-  right = moved(right, belief.straight_px(rig.camera, right.centre_px), rig.camera);
+  right = moved(right, belief.straight_px(rig.intrinsics, right.centre_px), rig.intrinsics);
   const double by_size_px = disparity_by_size_px(rig, left, right, settings.ball_radius_m);
-  const Eigen::Vector2d variances = belief.variances_px2(rig.camera, right.centre_px, by_size_px);
+  const Eigen::Vector2d variances = belief.variances_px2(rig.intrinsics, right.centre_px, by_size_px);
   result.disparity_variance_px2 = variances.y();
   const Eigen::Vector2d apart = left.centre_px - right.centre_px;
   if (std::abs(apart.y()) > settings.rows_within_px) return std::nullopt;

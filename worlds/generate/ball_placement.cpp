@@ -77,11 +77,11 @@ class Placement {
   /// How far, and how much to each side, balls are worth a try.
   double reach_m() const {
     if (scenario_.sensor == SensorKind::kOracle) return scenario_.oracle.max_range_m;
-    return scenario_.rig.camera.focal_px * rules_.radius_m / kLeastRadius_px;
+    return scenario_.rig.intrinsics.focal_px * rules_.radius_m / kLeastRadius_px;
   }
   double half_angle_rad() const {
     if (scenario_.sensor == SensorKind::kOracle) return scenario_.oracle.field_of_view_rad / 2.0;
-    return slam::arc_tangent(0.5 * scenario_.rig.camera.width_px, scenario_.rig.camera.focal_px);
+    return slam::arc_tangent(0.5 * scenario_.rig.intrinsics.width_px, scenario_.rig.intrinsics.focal_px);
   }
 
   void add_for(std::size_t step) {
@@ -130,8 +130,8 @@ class Placement {
   bool is_outside_of_occluders(const Eigen::Vector2d& at) const {
     const Sphere ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m};
     return std::ranges::any_of(scenario_.path, [&](const PathStep& step) {
-      const Eigen::Vector3d eye_m(step.pose.x_m, step.pose.y_m, scenario_.rig.height_m);
-      return !occluders_.meet(sight_volume(eye_m, ball, slack_m_));
+      const Eigen::Vector3d camera_m(step.pose.x_m, step.pose.y_m, scenario_.rig.height_m);
+      return !occluders_.meet(sight_volume(camera_m, ball, slack_m_));
     });
   }
 

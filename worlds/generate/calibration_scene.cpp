@@ -40,20 +40,20 @@ int looks_around(const vision::Intrinsics& camera) {
   return std::max(1, static_cast<int>(slam::kPi / half_view));
 }
 
-/// A place whose centre both eyes have in their pictures.
+/// A place whose centre both cameras have in their pictures.
 /// @return in the robot's frame; empty where the draw gave none
 std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const GalleryDepths& depths,
                                              double radius_m, KeyedSampler& draws) {
   const double share = draws.between(0.0, 1.0);
   const double depth =
       depths.nearest_m * slam::exponential(share * slam::logarithm(depths.farthest_m / depths.nearest_m));
-  const double u = draws.between(-0.5, rig.camera.width_px - 0.5);
-  const double v = draws.between(-0.5, rig.camera.height_px - 0.5);
-  Eigen::Vector3d in_camera = depth * vision::pixel_ray(rig.camera, {u, v});
-  const Eigen::Vector3d in_right = vision::point_in_eye(rig, in_camera, vision::Eye::kRight);
+  const double u = draws.between(-0.5, rig.intrinsics.width_px - 0.5);
+  const double v = draws.between(-0.5, rig.intrinsics.height_px - 0.5);
+  Eigen::Vector3d in_camera = depth * vision::pixel_ray(rig.intrinsics, {u, v});
+  const Eigen::Vector3d in_right = vision::camera_point(rig, in_camera, vision::Side::kRight);
   in_camera.y() /= rig.distortion.pixel_aspect;
   const Eigen::Vector3d in_robot = vision::robot_from_camera(rig) * in_camera;
-  if (!vision::project_if_visible(rig.camera, in_right) || in_robot.z() < radius_m) return std::nullopt;
+  if (!vision::project_if_visible(rig.intrinsics, in_right) || in_robot.z() < radius_m) return std::nullopt;
   return in_robot;
 }
 
@@ -116,7 +116,7 @@ std::vector<Wall> walls_around(double distance_m, bool plain, KeyedSampler& draw
 
 GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
                                 double smallest_radius_px) {
-  const vision::Intrinsics& camera = rig.camera;
+  const vision::Intrinsics& camera = rig.intrinsics;
   const double nearest =
       camera.focal_px * (2.0 * ball_radius_m + rig.baseline_m) / (kFullRow * camera.width_px);
   return {std::max(nearest, 2.0 * ball_radius_m), camera.focal_px * ball_radius_m / smallest_radius_px};
@@ -139,7 +139,7 @@ Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std:
   made.world.walls = walls_around(kWallDistance * settings.depths.farthest_m, settings.plain, draws);
   made.path.clear();
   const double radius_m = scenario.world.ball_radius_m();
-  const int looks = looks_around(scenario.rig.camera);
+  const int looks = looks_around(scenario.rig.intrinsics);
   for (int look = 0; look < looks; ++look) {
     const double heading = slam::wrap_angle(2.0 * slam::kPi * look / looks);
     made.path.push_back({.stamp_ns = look * std::int64_t{1'000'000'000}, .pose = {0.0, 0.0, heading}});

@@ -1,4 +1,5 @@
-/// A world to calibrate eyes in: balls of all colours at all distances around a robot that turns on the spot.
+/// A world to calibrate cameras in: balls of all colours at all distances around a robot that turns on the
+/// spot.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@ namespace stereobench::worlds {
 
 /// Depths that the balls of a gallery are drawn from.
 struct GalleryDepths {
-  double nearest_m = 0.0;  ///< where one outline and its shift between the eyes fill six tenths of a row
+  double nearest_m = 0.0;  ///< where one outline and its shift between the cameras fill six tenths of a row
   double farthest_m = 0.0;
 };
 
@@ -24,7 +25,7 @@ struct GallerySettings {
   bool plain = false;  ///< walls and floor without texture: what is measured then is the noise alone
 };
 
-/// A scenario with the eyes of another: its rig, what is believed of it, its camera, its detector, and its
+/// A scenario with the cameras of another: its rig, what is believed of it, its camera, its detector, and its
 /// size of balls with their tolerance, which world_for_seed draws. All else is drawn: where balls are (evenly
 /// over the logarithm of their depth and over the pictures), their colours, the sun and the ambient light,
 /// the materials of the floor and of walls behind them. Balls may hide parts of each other. The robot stands

@@ -131,10 +131,10 @@ class Scattering {
   /// Mesh files that reach no higher than the gap are what things stand on.
   bool is_clear_of_occluders(const MeshInstance& thing, const Eigen::Vector2d& from) const {
     const Sphere middle{thing.position_m + Eigen::Vector3d(0.0, 0.0, 0.5 * thing.scale.z()), kGap_m};
-    const Eigen::Vector3d eye(from.x(), from.y(), scenario_.rig.height_m);
+    const Eigen::Vector3d camera_m(from.x(), from.y(), scenario_.rig.height_m);
     return !occluders_.meet(upright_cylinder(thing.position_m.head<2>(), floor_radius_m(thing) + kGap_m,
                                              kGap_m, thing.scale.z())) &&
-           !occluders_.meet(sight_volume(eye, middle, 0.0));
+           !occluders_.meet(sight_volume(camera_m, middle, 0.0));
   }
 
   bool is_clear_of_drive(const Eigen::Vector2d& at, double least_m) const {

@@ -70,13 +70,14 @@ const KeyGroup& shutter_keys() {
                 "Renderings that it is the average of, at most: as many as keep points from moving by more "
                 "than a pixel from one to the next.")
               .otherwise("128"),
-          number("right_delay_s", {-10.0, 10.0}, "How much later the right eye looks, in seconds.")
+          number("right_delay_s", {-10.0, 10.0}, "How much later the right camera looks, in seconds.")
               .otherwise("0"),
           number("readout_s", {-1.0, 1.0},
                  "Time from the first row's look to the last one's, in seconds: a rolling shutter.")
               .otherwise("0"),
           number("drop_probability", {0.0, 1.0}, "Probability that a frame is lost.").otherwise("0"),
-          number("late_probability", {0.0, 1.0}, "Probability that both eyes look later than the frame says.")
+          number("late_probability", {0.0, 1.0},
+                 "Probability that both cameras look later than the frame says.")
               .otherwise("0"),
           number("late_s", {-10.0, 10.0}, "How late they look then, in seconds.").otherwise("0"),
       }};

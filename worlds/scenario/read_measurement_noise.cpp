@@ -20,7 +20,7 @@ MeasurementNoise read_constant_noise(const YamlMap& map) {
 }
 
 MeasurementNoise read_stereo_noise(const YamlMap& map, const vision::StereoRig& rig) {
-  const double focal_px = rig.camera.focal_px;
+  const double focal_px = rig.intrinsics.focal_px;
   return {.law =
               slam::NoiseLaw{.range_sd_m = map.number("range_sd_m", 0.0),
                              .range_sd_per_m2 = map.number("disparity_sd_px") / (focal_px * rig.baseline_m),

@@ -27,7 +27,7 @@ constexpr Interval kRows_px = {kLeastRows_px, 2048.0};
 
 /// Refuses a camera without a lens that looks further aside than any may, by what is written of its shape.
 void check_field(const YamlMap& map, const vision::StereoRig& rig) {
-  const vision::Intrinsics& camera = rig.camera;
+  const vision::Intrinsics& camera = rig.intrinsics;
   if (!(rig.distortion == vision::Distortion{}) || vision::directions_seen({}, camera)) return;
   const double furthest_px = std::max({camera.cx_px + 0.5, camera.width_px - 0.5 - camera.cx_px,
                                        camera.cy_px + 0.5, camera.height_px - 0.5 - camera.cy_px});
@@ -51,7 +51,7 @@ void read_distortion(const YamlMap& map, vision::StereoRig& rig) {
                     .p2 = k[3],
                     .k3 = k[4],
                     .pixel_aspect = map.number("pixel_aspect", rig.distortion.pixel_aspect)};
-  if ((value || aspect) && !vision::directions_seen(rig.distortion, rig.camera))
+  if ((value || aspect) && !vision::directions_seen(rig.distortion, rig.intrinsics))
     (value ? value : aspect)
         ->refuse("expected a lens that does not fold its picture, nor looks more than 80 degrees aside");
 }
@@ -64,7 +64,7 @@ double read_centre_px(const YamlMap& map, std::string_view key, double last_px, 
 
 /// What the true rig and the believed one have in common. @param rig defaults
 void read_rig_parts(const YamlMap& map, vision::StereoRig& rig) {
-  vision::Intrinsics& camera = rig.camera;
+  vision::Intrinsics& camera = rig.intrinsics;
   camera.cx_px = read_centre_px(map, "cx_px", camera.width_px - 1.0, camera.cx_px);
   camera.cy_px = read_centre_px(map, "cy_px", camera.height_px - 1.0, camera.cy_px);
   rig.pitch_down_rad =
@@ -87,11 +87,11 @@ const KeyGroup& rig_keys() {
               .otherwise_says("(width_px - 1) / 2"),
           number("cy_px", kCentre_px, "Row of the principal point, in pixels.")
               .otherwise_says("(height_px - 1) / 2"),
-          number("baseline_m", kBaseline_m, "Distance between the two eyes, in metres.").needed(),
-          number("height_m", kHeight_m, "Height of the eyes above the floor, in metres.").needed(),
-          number("pitch_down_deg", kPitch_deg, "How far the eyes look down, in degrees.").otherwise("0"),
+          number("baseline_m", kBaseline_m, "Distance between the two cameras, in metres.").needed(),
+          number("height_m", kHeight_m, "Height of the cameras above the floor, in metres.").needed(),
+          number("pitch_down_deg", kPitch_deg, "How far the cameras look down, in degrees.").otherwise("0"),
           number("right_turn_deg", kTurn_deg,
-                 "Turn of the right eye out of its place, about the camera's x, y and z, in degrees.")
+                 "Turn of the right camera out of its place, about the camera's x, y and z, in degrees.")
               .vector(3)
               .otherwise("[0, 0, 0]"),
           number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
@@ -106,11 +106,11 @@ const KeyGroup& rig_keys() {
 vision::StereoRig read_rig(const YamlValue& value) {
   const YamlMap map(value, rig_keys());
   vision::StereoRig rig;
-  rig.camera.width_px = map.whole("width_px");
-  rig.camera.height_px = map.whole("height_px");
-  rig.camera.focal_px = map.number("focal_px");
-  rig.camera.cx_px = (rig.camera.width_px - 1) / 2.0;
-  rig.camera.cy_px = (rig.camera.height_px - 1) / 2.0;
+  rig.intrinsics.width_px = map.whole("width_px");
+  rig.intrinsics.height_px = map.whole("height_px");
+  rig.intrinsics.focal_px = map.number("focal_px");
+  rig.intrinsics.cx_px = (rig.intrinsics.width_px - 1) / 2.0;
+  rig.intrinsics.cy_px = (rig.intrinsics.height_px - 1) / 2.0;
   rig.baseline_m = map.number("baseline_m");
   rig.height_m = map.number("height_m");
   rig.pitch_down_rad = 0.0;
@@ -120,7 +120,7 @@ vision::StereoRig read_rig(const YamlValue& value) {
 
 void check_lens(const YamlValue& value, const vision::StereoRig& rig) {
   if (rig.distortion == vision::Distortion{}) return;
-  const vision::Intrinsics pinhole = vision::pinhole_rig(rig).value().camera;
+  const vision::Intrinsics pinhole = vision::pinhole_rig(rig).value().intrinsics;
   if (vision::can_be_drawn(pinhole)) return;
   vision::Distortion bent = rig.distortion;
   bent.pixel_aspect = 1.0;
@@ -138,14 +138,14 @@ const KeyGroup& believed_rig_keys() {
           number("focal_px", kFocal_px, "Focal length, in pixels.").otherwise_as("rig.focal_px"),
           number("cx_px", kCentre_px, "Column of the principal point, in pixels.").otherwise_as("rig.cx_px"),
           number("cy_px", kCentre_px, "Row of the principal point, in pixels.").otherwise_as("rig.cy_px"),
-          number("baseline_m", kBaseline_m, "Distance between the two eyes, in metres.")
+          number("baseline_m", kBaseline_m, "Distance between the two cameras, in metres.")
               .otherwise_as("rig.baseline_m"),
-          number("height_m", kHeight_m, "Height of the eyes above the floor, in metres.")
+          number("height_m", kHeight_m, "Height of the cameras above the floor, in metres.")
               .otherwise_as("rig.height_m"),
-          number("pitch_down_deg", kPitch_deg, "How far the eyes look down, in degrees.")
+          number("pitch_down_deg", kPitch_deg, "How far the cameras look down, in degrees.")
               .otherwise_as("rig.pitch_down_deg"),
           number("right_turn_deg", kTurn_deg,
-                 "Turn of the right eye out of its place, about the camera's x, y and z, in degrees.")
+                 "Turn of the right camera out of its place, about the camera's x, y and z, in degrees.")
               .vector(3)
               .otherwise_as("rig.right_turn_deg"),
           number("distortion", kLens, "Lens coefficients in OpenCV's order: k1, k2, p1, p2, k3.")
@@ -163,7 +163,7 @@ const KeyGroup& believed_rig_keys() {
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth) {
   const YamlMap map(value, believed_rig_keys());
   vision::StereoRig rig = truth;
-  rig.camera.focal_px = map.number("focal_px", rig.camera.focal_px);
+  rig.intrinsics.focal_px = map.number("focal_px", rig.intrinsics.focal_px);
   rig.baseline_m = map.number("baseline_m", rig.baseline_m);
   rig.height_m = map.number("height_m", rig.height_m);
   read_rig_parts(map, rig);

@@ -60,7 +60,7 @@ void read_run(const YamlMap& map, Scenario& scenario) {
   for (const YamlValue& gate : map.list("gates")) scenario.gates.push_back(read_gate(gate));
 }
 
-void read_eyes(const YamlMap& map, Scenario& scenario) {
+void read_cameras(const YamlMap& map, Scenario& scenario) {
   const bool stereo = scenario.sensor == SensorKind::kStereo;
   if (const auto rig = stereo ? map.at("rig") : map.find("rig")) {
     scenario.rig = read_rig(*rig);
@@ -69,7 +69,8 @@ void read_eyes(const YamlMap& map, Scenario& scenario) {
   const auto believed = map.find("believed_rig");
   scenario.believed_rig = believed ? read_believed_rig(*believed, scenario.rig) : scenario.rig;
   if (believed)
-    scenario.rows_within_px = read_rows_within_px(*believed, scenario.rig.camera, scenario.rows_within_px);
+    scenario.rows_within_px =
+        read_rows_within_px(*believed, scenario.rig.intrinsics, scenario.rows_within_px);
   if (const auto camera = map.find("camera")) scenario.camera = read_camera(*camera);
   if (const auto shutter = map.find("shutter")) scenario.shutter = read_shutter(*shutter);
   if (const auto detector = map.find("detector")) {
@@ -94,7 +95,7 @@ void read_sensing(const YamlMap& map, const std::filesystem::path& folder, Scena
   scenario.identity = static_cast<Identity>(map.choice("identity"));
   scenario.colour_spacing_m = map.number("colour_spacing_m", scenario.colour_spacing_m);
   scenario.association = read_choice(map, "association", scenario.association);
-  read_eyes(map, scenario);
+  read_cameras(map, scenario);
   read_oracles(map, scenario);
   if (const auto noise = map.find("believed_measurement_noise")) {
     const auto rig = map.find("rig") ? std::optional(scenario.believed_rig) : std::nullopt;

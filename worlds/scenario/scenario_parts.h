@@ -53,7 +53,7 @@ void check_lens(const YamlValue& value, const vision::StereoRig& rig);
 /// `believed_rig:` what vision takes the rig for, where it is wrong.
 vision::StereoRig read_believed_rig(const YamlValue& value, const vision::StereoRig& truth);
 
-/// `believed_rig.rows_within_px:` by how many rows the eyes may be apart; at most half a picture.
+/// `believed_rig.rows_within_px:` by how many rows the cameras may be apart; at most half a picture.
 /// @param value of `believed_rig`
 double read_rows_within_px(const YamlValue& value, const vision::Intrinsics& camera, double otherwise_px);
 

@@ -8,7 +8,7 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr double kNear_m = 0.01;  // what is nearer to an eye is not in its picture
+constexpr double kNear_m = 0.01;  // what is nearer to a camera is not in its picture
 
 /// A triangle, as planes cut it.
 class Polygon {
@@ -92,19 +92,19 @@ bool meets(const ClearanceVolume& volume, const TriangleCorners& corners) {
 
 }  // namespace
 
-ClearanceVolume sight_volume(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m) {
+ClearanceVolume sight_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m) {
   const double core_m = (1.0 - kRim) * ball.radius_m;
   const double radius_m = core_m + slack_m;
-  const double distance_m = (ball.centre_m - eye_m).norm();
+  const double distance_m = (ball.centre_m - camera_m).norm();
   const double squared_tangent = distance_m * distance_m - radius_m * radius_m;
   Eigen::Isometry3d world = Eigen::Isometry3d::Identity();
-  world.linear().col(2) = (ball.centre_m - eye_m) / distance_m;
+  world.linear().col(2) = (ball.centre_m - camera_m) / distance_m;
   world.linear().col(0) = world.linear().col(2).unitOrthogonal();
   world.linear().col(1) = world.linear().col(2).cross(world.linear().col(0));
-  world.translation() = eye_m;
+  world.translation() = camera_m;
   const Eigen::Isometry3d from_world = world.inverse();
   // No line of sight is lower than both its ends, and none goes on behind where the cone touches the ball.
-  const double low_m = std::min(eye_m.z(), ball.centre_m.z() - core_m);
+  const double low_m = std::min(camera_m.z(), ball.centre_m.z() - core_m);
   return {.from_world = from_world,
           .narrows = true,
           .radius = radius_m / std::sqrt(squared_tangent),

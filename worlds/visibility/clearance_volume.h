@@ -1,4 +1,4 @@
-/// Rooms that must be empty: what an eye looks through, and where something is to stand.
+/// Rooms that must be empty: what a camera looks through, and where something is to stand.
 #pragma once
 
 #include <vector>
@@ -23,12 +23,12 @@ struct ClearanceVolume {
   Sphere excused;               ///< a triangle whose part between the cuts lies all in here is not met
 };
 
-/// What must be empty for an eye to see all of a ball but its rim: all between the eye and what it sees of
-/// the ball. A triangle whose part before the ball's rim lies within the ball hides nothing, nor does what is
-/// nearer to the eye than its picture begins.
+/// What must be empty for a camera to see all of a ball but its rim: all between the camera and what it sees
+/// of the ball. A triangle whose part before the ball's rim lies within the ball hides nothing, nor does what
+/// is nearer to the camera than its picture begins.
 /// @param slack_m the ball may lie that far aside, at the same height
-/// @param ball the eye is not in it, slack included
-ClearanceVolume sight_volume(const Eigen::Vector3d& eye_m, const Sphere& ball, double slack_m);
+/// @param ball the camera is not in it, slack included
+ClearanceVolume sight_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m);
 
 /// An upright cylinder.
 ClearanceVolume upright_cylinder(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m);

@@ -20,10 +20,10 @@ class DriveVisibility {
   void put(const Sphere& thing);
 
  private:
-  using Eyes = std::array<EyeAt, 2>;
-  using Cones = std::array<Cone, 2>;  // of a ball, by eye
+  using Cameras = std::array<CameraPose, 2>;
+  using Cones = std::array<Cone, 2>;  // of a ball, by camera
   struct Step {
-    Eyes eyes;
+    Cameras cameras;
     std::vector<Cones> balls;
   };
   std::vector<Step> steps_;

@@ -6,13 +6,13 @@
 
 namespace stereobench::worlds {
 
-EyeAt eye_at(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& world_from_robot) {
+CameraPose camera_pose(const vision::StereoRig& rig, vision::Side side, const slam::Pose& world_from_robot) {
   const auto [s, c] = slam::sine_cosine(world_from_robot.heading_rad);
   Eigen::Isometry3d robot = Eigen::Isometry3d::Identity();
   robot.linear() << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
   robot.translation() << world_from_robot.x_m, world_from_robot.y_m, 0.0;
-  const Eigen::Isometry3d placed = robot * vision::robot_from_camera(rig, eye);
-  return {rig.camera, rig.distortion.pixel_aspect, placed.inverse(), placed.translation()};
+  const Eigen::Isometry3d placed = robot * vision::robot_from_camera(rig, side);
+  return {rig.intrinsics, rig.distortion.pixel_aspect, placed.inverse(), placed.translation()};
 }
 
 std::vector<Sphere> spheres_around_shapes(const World& world) {
@@ -31,8 +31,8 @@ std::vector<Sphere> spheres_around_shapes(const World& world) {
   return spheres;
 }
 
-std::optional<Cone> cone_around(const EyeAt& eye, const Sphere& sphere) {
-  const Eigen::Vector3d in_camera = eye.camera_from_world * sphere.centre_m;
+std::optional<Cone> cone_around(const CameraPose& camera, const Sphere& sphere) {
+  const Eigen::Vector3d in_camera = camera.camera_from_world * sphere.centre_m;
   const double distance_m = in_camera.norm();
   if (distance_m <= sphere.radius_m) return std::nullopt;
   const double tangent_m = std::sqrt(distance_m * distance_m - sphere.radius_m * sphere.radius_m);

@@ -1,4 +1,4 @@
-/// Spheres as an eye has them: the cones that they fill.
+/// Spheres as a camera has them: the cones that they fill.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace stereobench::worlds {
 
-/// An eye in the world.
-struct EyeAt {
-  vision::Intrinsics camera;
+/// A camera and its pose in the world.
+struct CameraPose {
+  vision::Intrinsics intrinsics;
   double pixel_aspect = 1.0;
   Eigen::Isometry3d camera_from_world;
   Eigen::Vector3d centre_m;  ///< world frame
 };
 
-EyeAt eye_at(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& world_from_robot);
+CameraPose camera_pose(const vision::StereoRig& rig, vision::Side side, const slam::Pose& world_from_robot);
 
 struct Sphere {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< world frame
@@ -37,7 +37,7 @@ struct Cone {
 };
 
 /// @return none from inside
-std::optional<Cone> cone_around(const EyeAt& eye, const Sphere& sphere);
+std::optional<Cone> cone_around(const CameraPose& camera, const Sphere& sphere);
 
 bool overlap(const Cone& a, const Cone& b);
 

@@ -11,7 +11,7 @@ namespace stereobench::worlds {
 inline constexpr double kLeastRadius_px = 5.0;  ///< smaller ones vision does not measure
 inline constexpr double kBorder_px = 2.0;       ///< between its outline and the picture's border
 
-/// The balls in view: by stereo, those that both eyes see whole, large enough, with no wall, no mesh of a
+/// The balls in view: by stereo, those that both cameras see whole, large enough, with no wall, no mesh of a
 /// file and no other ball in front of any of it, nor a sphere around a box or another shape; by the oracle,
 /// those in its sector, whatever stands between.
 ///

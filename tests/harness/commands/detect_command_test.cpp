@@ -243,7 +243,7 @@ TEST_F(Dataset, OddInputsAreOneLine) {
       {"TruncatedJpeg", {place + "truncated.jpg"}, "is no whole picture"},
       {"Grey", {place + "grey.png"}, "has no colour"},
       {"TinyForTheRig", {place + "tiny.png", "--rig", rig}, "1 x 1 pixels, the rig's have 1024 x 768"},
-      {"PairWithoutRig", {first_left(), first_left()}, "--rig: two eyes need"},
+      {"PairWithoutRig", {first_left(), first_left()}, "--rig: two cameras need"},
       {"PairOfTwoSizes", {first_left(), place + "tiny.png", "--rig", rig}, "tiny.png: 1 x 1 pixels"},
       {"ThreePictures", {first_left(), first_left(), first_left()}, "pictures"},
       {"EmptyFolder", {place + "nothing"}, "holds no picture"},

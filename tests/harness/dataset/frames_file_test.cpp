@@ -14,7 +14,7 @@ namespace {
 
 worlds::Scenario odd_shutter() {
   worlds::Scenario scenario;
-  scenario.rig.camera = {160, 120, 140.0, 79.5, 59.5};
+  scenario.rig.intrinsics = {160, 120, 140.0, 79.5, 59.5};
   scenario.believed_rig = scenario.rig;
   scenario.shutter.late_s = 0.03;
   scenario.shutter.late_probability = 0.5;

@@ -28,11 +28,11 @@ Eigen::Vector2d projected(const cv::Mat& projection, const Eigen::Vector3d& poin
   return Eigen::Vector2d(pixel.at<double>(0), pixel.at<double>(1)) / pixel.at<double>(2);
 }
 
-// Property: P1 and P2 take points of the left camera's frame to the pixels at which the rig's eyes have them.
-// Mutations: P2[3] = +f B, a P2 that knows of no turn.
+// Property: P1 and P2 take points of the left camera's frame to the pixels at which the rig's cameras have
+// them. Mutations: P2[3] = +f B, a P2 that knows of no turn.
 class Calibration : public testing::TestWithParam<double> {};
 
-TEST_P(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
+TEST_P(Calibration, ProjectsWhereTheCamerasOfTheRigDo) {
   vision::StereoRig rig = kRig;
   rig.right_turn_rad = GetParam() * Eigen::Vector3d(0.01, -0.02, 0.03);
   const cv::Mat p1 = matrix_of(rig, "P1");
@@ -40,9 +40,9 @@ TEST_P(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
   slam::RandomStream random(4, slam::Stream::kWorld);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d point(random.normal(), random.normal(), 1.0 + 4.0 * random.uniform());
-    const Eigen::Vector2d left = vision::project(rig.camera, point);
+    const Eigen::Vector2d left = vision::project(rig.intrinsics, point);
     const Eigen::Vector2d right =
-        vision::project(rig.camera, vision::point_in_eye(rig, point, vision::Eye::kRight));
+        vision::project(rig.intrinsics, vision::camera_point(rig, point, vision::Side::kRight));
     EXPECT_LT((projected(p1, point) - left).norm(), 1e-9);
     EXPECT_LT((projected(p2, point) - right).norm(), 1e-9);
   }
@@ -50,8 +50,8 @@ TEST_P(Calibration, ProjectsWhereTheEyesOfTheRigDo) {
 }
 INSTANTIATE_TEST_SUITE_P(Turns, Calibration, testing::Values(0.0, 1.0));
 
-// Mutation: the left eye twice.
-TEST(CalibrationFile, HasTheEyesABaselineApart) {
+// Mutation: the left camera twice.
+TEST(CalibrationFile, HasTheCamerasABaselineApart) {
   const cv::Mat left = matrix_of(kRig, "robot_from_left_camera");
   const cv::Mat right = matrix_of(kRig, "robot_from_right_camera");
   EXPECT_NEAR(left.at<double>(1, 3) - right.at<double>(1, 3), kRig.baseline_m, 1e-12);  // y is left
@@ -75,10 +75,14 @@ const MeasurementLog kOneStep{.start = {}, .steps = {{.truth = slam::Pose{}}}, .
 
 /// A look at a picture of one grey level.
 void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
-  const renderer::EyeFrame eye{cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(level)), cv::Mat(4, 6, CV_8UC1, level),
-                               cv::Mat(4, 6, CV_32FC1, cv::Scalar(level))};
-  dataset.write(
-      {.step = step, .frame = {eye, eye}, .pair = {eye.colour, eye.colour}, .observations = {}, .match = {}});
+  const renderer::RenderedImage image{cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(level)),
+                                      cv::Mat(4, 6, CV_8UC1, level),
+                                      cv::Mat(4, 6, CV_32FC1, cv::Scalar(level))};
+  dataset.write({.step = step,
+                 .frame = {image, image},
+                 .pair = {image.colour, image.colour},
+                 .observations = {},
+                 .match = {}});
 }
 
 // Mutation: writing frames over again.

@@ -15,13 +15,13 @@ namespace stereobench::harness {
 namespace {
 
 using testing::HasSubstr;
-using vision::Eye;
+using vision::Side;
 
 /// Three steps in a room with two balls, one behind the other.
 struct Drive {
   worlds::Scenario scenario;
   Drive() {
-    scenario.rig.camera = {160, 120, 140.0, 79.5, 59.5};
+    scenario.rig.intrinsics = {160, 120, 140.0, 79.5, 59.5};
     scenario.shutter.right_delay_s = 0.02;
     scenario.world.balls = {{{2.0, 0.1, 0.3}, 0.1, 3}, {{2.6, 0.1, 0.3}, 0.1, 5}};
     scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 2.5, worlds::Material::kPlaster}};
@@ -55,8 +55,8 @@ cv::Mat picture(const TestFolder& folder, const std::string& name) {
   return cv::imread((folder.path() / name).string(), cv::IMREAD_UNCHANGED);
 }
 
-// Mutations: both eyes at the left one's time; flow to the step itself, or from the step before.
-TEST(RenderedTruth, FollowsTheEyesAtTheTimesTheyLook) {
+// Mutations: both cameras at the left one's time; flow to the step itself, or from the step before.
+TEST(RenderedTruth, FollowsTheCamerasAtTheTimesOfTheirExposures) {
   const Drive drive;
   const TestFolder folder;
   RenderedTruth truth = drive.truth(folder, "all");
@@ -69,7 +69,7 @@ TEST(RenderedTruth, FollowsTheEyesAtTheTimesTheyLook) {
   const renderer::StereoIdBuffers sight = renderer.id_buffers(left, right);
   const renderer::SceneGeometry scene(drive.scenario.world);
   const auto disparity =
-      renderer::disparity_px(renderer::correspond(scene, sight.left, sight.right), Eye::kLeft);
+      renderer::disparity_px(renderer::correspond(scene, sight.left, sight.right), Side::kLeft);
   EXPECT_EQ(cv::norm(picture(folder, "left_disparity/000001.pfm"), disparity, cv::NORM_INF), 0.0);
   const auto flow = renderer::correspond(scene, sight.left, renderer.id_buffers(next, next).left);
   cv::Mat u;
@@ -89,7 +89,7 @@ TEST(RenderedTruth, OfTheLastStepHasNoFlow) {
   EXPECT_EQ(picture(folder, "right_match/000002.png").type(), CV_16UC3);
 }
 
-// Mutation: left identities for both eyes.
+// Mutation: left identities for both cameras.
 TEST(RenderedTruth, HasALineForEachBallInView) {
   const Drive drive;
   const TestFolder folder;
@@ -97,14 +97,14 @@ TEST(RenderedTruth, HasALineForEachBallInView) {
   drive.write(truth, 0);
   truth.finish();
   const renderer::StereoFrame frame = drive.frame(0);
-  for (const auto& [eye, seen] : {std::pair("left", &frame.left), std::pair("right", &frame.right)}) {
-    std::istringstream lines(folder.read(std::string(eye) + "_balls/000000.jsonl"));
+  for (const auto& [side, seen] : {std::pair("left", &frame.left), std::pair("right", &frame.right)}) {
+    std::istringstream lines(folder.read(std::string(side) + "_balls/000000.jsonl"));
     int id = 0;
     for (std::string line; std::getline(lines, line); ++id) {
       const auto ball = nlohmann::json::parse(line);
       EXPECT_EQ(ball["ball_id"], id);
       EXPECT_EQ(ball["px_count_visib"], cv::countNonZero(seen->ball_id == id + 1));
-      EXPECT_EQ(cv::countNonZero(picture(folder, std::string(eye) + "_surface/000000.png") == id + 1),
+      EXPECT_EQ(cv::countNonZero(picture(folder, std::string(side) + "_surface/000000.png") == id + 1),
                 cv::countNonZero(seen->ball_id == id + 1));
     }
     EXPECT_EQ(id, 2);

@@ -20,7 +20,7 @@ using testing::ThrowsMessage;
 /// A robot that turns, in a room with two balls.
 worlds::Scenario turning() {
   worlds::Scenario scenario;
-  scenario.rig.camera = {160, 120, 140.0, 79.5, 59.5};
+  scenario.rig.intrinsics = {160, 120, 140.0, 79.5, 59.5};
   scenario.world.balls = {{{2.0, 0.1, 0.3}, 0.2, 3}, {{2.6, -0.4, 0.3}, 0.2, 5}};
   scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 2.5, worlds::Material::kPlaster}};
   for (int i = 0; i < 2; ++i) {
@@ -31,7 +31,7 @@ worlds::Scenario turning() {
   return scenario;
 }
 
-/// The surfaces of the second step in the left eye, as they are written.
+/// The surfaces of the second step in the left camera, as they are written.
 cv::Mat written_surface(const worlds::Scenario& scenario, const renderer::StereoFrame& frame, double late_s) {
   const TestFolder folder;
   RenderedTruth truth(folder.path(), {parse_truth("surface,range,normal")}, scenario, scenario.world,
@@ -55,7 +55,7 @@ int other_balls(const cv::Mat& surface, const cv::Mat& ball_id) {
   return cv::countNonZero(balls != ids);
 }
 
-// Mutations: all rows at the middle one's time; the right eye's for the left one's; not late.
+// Mutations: all rows at the middle one's time; the right camera's for the left one's; not late.
 TEST(RollingTruth, IsThatOfEachRowsInstant) {
   worlds::Scenario scenario = turning();
   const renderer::StereoFrame still =
@@ -71,14 +71,14 @@ TEST(RollingTruth, IsThatOfEachRowsInstant) {
 }
 
 // Mutation: not late.
-TEST(LateTruth, IsThatOfWhenTheEyesLooked) {
+TEST(LateTruth, IsThatOfWhenTheCamerasExposed) {
   const worlds::Scenario scenario = turning();
   renderer::Renderer renderer(scenario.world, scenario.rig);
   const renderer::StereoFrame frame = open_shutter(renderer, scenario.path, 1, scenario.shutter, -0.03).frame;
   EXPECT_EQ(other_balls(written_surface(scenario, frame, -0.03), frame.left.ball_id), 0);
 }
 
-// Mutation: the eyes exchanged.
+// Mutation: the cameras exchanged.
 TEST(TruthBehindALens, IsThatOfBentRays) {
   worlds::Scenario scenario = turning();
   scenario.rig.distortion = {.k1 = -0.25, .k2 = 0.08};

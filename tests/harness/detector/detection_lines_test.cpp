@@ -28,10 +28,11 @@ BallObservation random_ball(slam::RandomStream& random) {
   const vision::StereoRig& rig = kGeometry.rig;
   BallObservation ball;
   ball.colour = static_cast<int>(18.0 * random.uniform());
-  ball.left_px = vision::sphere_outline(rig.camera, place, kGeometry.radius_m)->centre_px;
-  ball.right_px = vision::sphere_outline(rig.camera, vision::point_in_eye(rig, place, vision::Eye::kRight),
-                                         kGeometry.radius_m)
-                      ->centre_px;
+  ball.left_px = vision::sphere_outline(rig.intrinsics, place, kGeometry.radius_m)->centre_px;
+  ball.right_px =
+      vision::sphere_outline(rig.intrinsics, vision::camera_point(rig, place, vision::Side::kRight),
+                             kGeometry.radius_m)
+          ->centre_px;
   ball.left_radius_px = 10.0 + random.uniform();
   ball.right_radius_px = 10.0 + random.uniform();
   Eigen::Matrix3d root;
@@ -59,8 +60,8 @@ void expect_same(const BallObservation& a, const BallObservation& b) {
   EXPECT_EQ(a.occluded, b.occluded);
 }
 
-// Law: what is written is read back to the last bit, in order. Mutations: numbers of six digits; eyes swapped
-// in the reader; flags left out.
+// Law: what is written is read back to the last bit, in order. Mutations: numbers of six digits; cameras
+// swapped in the reader; flags left out.
 TEST(DetectionLines, AreReadBackExactly) {
   slam::RandomStream random(7, slam::Stream::kWorld);
   for (std::size_t frame = 0; frame < 30; ++frame) {
@@ -107,7 +108,7 @@ TEST(DetectionLines, PixelsAloneAreTriangulatedAsOurOwnAre) {
 }
 
 // Law: where a ball is does not depend on the faults that are known of a rig. Mutations: pixels as they are
-// taken, the right eye's turn left out.
+// taken, the right camera's turn left out.
 TEST(DetectionLines, PixelsOfARigWithFaultsArePutStraight) {
   BallGeometry faulty = kGeometry;
   faulty.rig.right_turn_rad = {0.01, -0.03, 0.02};
@@ -115,12 +116,12 @@ TEST(DetectionLines, PixelsOfARigWithFaultsArePutStraight) {
   slam::RandomStream random(9, slam::Stream::kWorld);
   for (int i = 0; i < 50; ++i) {
     const BallObservation ball = random_ball(random);
-    const auto taken = [&](const Eigen::Vector2d& straight_px, vision::Eye eye) {
-      const Eigen::Vector3d ray = vision::pixel_ray(faulty.rig.camera, straight_px);
-      return vision::image_point(faulty.rig, vision::direction_in_eye(faulty.rig, ray, eye));
+    const auto taken = [&](const Eigen::Vector2d& straight_px, vision::Side side) {
+      const Eigen::Vector3d ray = vision::pixel_ray(faulty.rig.intrinsics, straight_px);
+      return vision::image_point(faulty.rig, vision::camera_direction(faulty.rig, ray, side));
     };
-    const Eigen::Vector2d left = taken(ball.left_px, vision::Eye::kLeft);
-    const Eigen::Vector2d right = taken(ball.right_px, vision::Eye::kRight);
+    const Eigen::Vector2d left = taken(ball.left_px, vision::Side::kLeft);
+    const Eigen::Vector2d right = taken(ball.right_px, vision::Side::kRight);
     const std::string line = fmt::format(
         R"({{"frame": 0, "balls": [{{"colour": 1, "left_px": [{}, {}], "right_px": [{}, {}]}}]}})", left.x(),
         left.y(), right.x(), right.y());
@@ -155,7 +156,7 @@ TEST(DetectionLines, WhatIsBehindNeedsACovariance) {
   EXPECT_EQ(read(R"({"colour": 1, "range_m": 2, "bearing_rad": 3, "covariance": [[1, 0], [0, 1]]})").size(),
             1U);
   EXPECT_THAT([] { read(R"({"colour": 1, "range_m": 2, "bearing_rad": 3})"); },
-              ThrowsMessage<BadLine>(HasSubstr("not ahead of both eyes")));
+              ThrowsMessage<BadLine>(HasSubstr("not ahead of both cameras")));
 }
 
 struct Bad {
@@ -215,13 +216,13 @@ INSTANTIATE_TEST_SUITE_P(
             "balls[0].colour: expected a whole number from 0 to 17 (got 18)"},
         Bad{"ColourOfText", R"({"frame": 3, "balls": [{"colour": "red"}]})", "balls[0].colour: expected"},
         Bad{"Nowhere", of_ball(R"("truncated": true)"), R"(expected "range_m" and "bearing_rad", or)"},
-        Bad{"OneEye", of_ball(R"("left_px": [1, 2])"), R"(expected "right_px")"},
+        Bad{"OneCamera", of_ball(R"("left_px": [1, 2])"), R"(expected "right_px")"},
         Bad{"NegativeRange", of_ball(R"("range_m": -1, "bearing_rad": 0)"), "range_m: expected a number"},
         Bad{"NullRange", of_ball(R"("range_m": null, "bearing_rad": 0)"), "range_m: expected a number"},
         Bad{"Degrees", of_ball(R"("range_m": 1, "bearing_rad": 12)"), "bearing_rad: expected a number"},
         Bad{"ThreeCoordinates", of_ball(R"("left_px": [1, 2, 3], "right_px": [0, 2])"),
             "left_px: expected a list of 2 entries (got 3)"},
-        Bad{"EyesSwapped", of_ball(R"("left_px": [100, 2], "right_px": [200, 2])"),
+        Bad{"CamerasSwapped", of_ball(R"("left_px": [100, 2], "right_px": [200, 2])"),
             "left_px: expected a column to the right of right_px's"},
         Bad{"NegativeRadius", of_ball(R"("left_px": [200, 2], "right_px": [100, 2], "left_radius_px": -3)"),
             "left_radius_px: expected a number"},

@@ -42,7 +42,7 @@ nlohmann::json run_json_of(const ScratchFolder& scratch) {
 // The strongest law of the protocol: our own detector, asked through it, gives what it gives in the process,
 // byte for byte, but for its name; with any jobs, a camera that encodes, and a rig that is not as it is
 // believed to be. Mutations, some tried together: a range of six digits; the setup's encoding not read, or
-// its noise; eyes swapped in the reader.
+// its noise; cameras swapped in the reader.
 TEST(DetectorProgram, OursThroughTheProtocolGivesTheSameBytes) {
   const ScratchFolder scratch;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {

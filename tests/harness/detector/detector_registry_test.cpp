@@ -42,7 +42,7 @@ TEST(DetectorRegistry, IsChosenByTheCommandLine) {
     EXPECT_EQ(run["detector"], detector);
     return run["vision"];
   };
-  const nlohmann::json all = vision_of("stereobench"), some = vision_of("one_eyed");
+  const nlohmann::json all = vision_of("stereobench"), some = vision_of("monocular");
   EXPECT_EQ(all["recall"], 1.0);
   EXPECT_LT(some["recall"].get<double>(), 0.95);
   EXPECT_GT(some["recall"].get<double>(), 0.3);

@@ -32,7 +32,7 @@ TEST(Protocol, SetupIsReadBackExactly) {
   const DetectorSetup setup = odd_setup();
   const DetectorSetup read = read_setup(setup_line(setup));
   EXPECT_EQ(setup_line(read), setup_line(setup));
-  EXPECT_EQ(read.rig.camera.cx_px, setup.rig.camera.cx_px);
+  EXPECT_EQ(read.rig.intrinsics.cx_px, setup.rig.intrinsics.cx_px);
   EXPECT_EQ(read.rig.pitch_down_rad, setup.rig.pitch_down_rad);
   EXPECT_EQ(read.rig.right_turn_rad, setup.rig.right_turn_rad);
   EXPECT_EQ(read.rig.distortion, setup.rig.distortion);

@@ -13,15 +13,15 @@ constexpr double kOfColumn = 1e4;  // information, 1 / px^2: twice that is the r
 
 BallBounds bounds_of(double depth_m, double radius_m, double radius_sd_m) {
   const vision::SizedBall ball(0.5 * kRig.baseline_m, 0.0, depth_m, radius_m);
-  const Eigen::Matrix3d eye = Eigen::Vector3d(kOfColumn, kOfColumn, 2.0 * kOfColumn).asDiagonal();
-  return ball_bounds(kRig, ball, radius_sd_m, {eye, eye});
+  const Eigen::Matrix3d camera = Eigen::Vector3d(kOfColumn, kOfColumn, 2.0 * kOfColumn).asDiagonal();
+  return ball_bounds(kRig, ball, radius_sd_m, {camera, camera});
 }
 
 double sd(const Eigen::Matrix2d& bound) {
   return std::sqrt(bound(0, 0));
 }
 
-// Mutations: one eye's radius left out (1.41 and 1.80); the radius' information not twice the column's.
+// Mutations: one camera's radius left out (1.41 and 1.80); the radius' information not twice the column's.
 TEST(BallBound, OfAKnownSizeIsLowerByWhatTheSizeTells) {
   for (const double radius_m : {0.06, 0.09}) {
     const double closed = std::sqrt(1.0 + 8.0 * std::pow(radius_m / kRig.baseline_m, 2));
@@ -35,7 +35,7 @@ TEST(BallBound, OfAKnownSizeIsLowerByWhatTheSizeTells) {
 // sigma_Z = Z^2 sqrt(2) sigma_u / (f B), and beside it the tolerance's share, Z sd / R.
 TEST(BallBound, GoesFromOneToTheOtherWithTheTolerance) {
   constexpr double kDepth_m = 4.0, kRadius_m = 0.06;
-  const double f = kRig.camera.focal_px;
+  const double f = kRig.intrinsics.focal_px;
   const double by_disparity = kDepth_m * kDepth_m * std::sqrt(2.0 / kOfColumn) / (f * kRig.baseline_m);
   EXPECT_NEAR(sd(bounds_of(kDepth_m, kRadius_m, 0.0).unknown_size) / by_disparity, 1.0, 0.01);
   for (const double tolerance_m : {0.0, 1e-5, 1e-4, 1e-3, 1e-2}) {
@@ -46,7 +46,7 @@ TEST(BallBound, GoesFromOneToTheOtherWithTheTolerance) {
   }
 }
 
-TEST(BallBound, IsNothingWhereAnEyeTellsNothing) {
+TEST(BallBound, IsNothingWhereACameraTellsNothing) {
   const vision::SizedBall ball(0.0, 0.0, 2.0, 0.06);
   const BallBounds bounds =
       ball_bounds(kRig, ball, 0.0, {Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()});

@@ -1,7 +1,7 @@
 /// A camera that moves while it looks, that is late, that loses frames, and that is not the one believed in.
 ///
-/// Mutations seen red here: the delay given to the left eye, half the shutter time, the first instant for the
-/// average, vision told of the true rig, every frame kept.
+/// Mutations seen red here: the delay given to the left camera, half the shutter time, the first instant for
+/// the average, vision told of the true rig, every frame kept.
 
 #include "harness/drive/shutter.h"
 
@@ -23,7 +23,7 @@ namespace {
 worlds::Scenario bend() {
   worlds::Scenario scenario{.name = "bend"};
   scenario.world.balls = {{{2.0, 0.2, 0.3}, 0.1, 0}, {{2.5, -0.4, 0.3}, 0.1, 6}};
-  scenario.rig.camera = {320, 240, 280.0, 159.5, 119.5};
+  scenario.rig.intrinsics = {320, 240, 280.0, 159.5, 119.5};
   scenario.believed_rig = scenario.rig;
   scenario.path = worlds::drive_circle({{}, 2.0, 0.5, 0.05, 0.1});
   return scenario;
@@ -43,7 +43,7 @@ TEST(Shutter, WithoutTimeOrDelayIsARendering) {
   EXPECT_TRUE(same(seen.right.ball_id, rendered.right.ball_id));
 }
 
-TEST(Shutter, ADelayMovesTheRightEyeAlone) {
+TEST(Shutter, ADelayMovesTheRightCameraAlone) {
   const worlds::Scenario scenario = bend();
   renderer::Renderer renderer(scenario.world, scenario.rig);
   const renderer::StereoFrame seen = open_shutter(renderer, scenario.path, 2, {.right_delay_s = 0.05}).frame;
@@ -106,7 +106,7 @@ worlds::Scenario turning_before_an_end(double turn_radps) {
   scenario.world.walls = {{{3.0, 0.0}, {3.0, -20.0}, 9.0, worlds::Material::kPaint}};
   scenario.world.has_floor = false;
   scenario.world.sky_rgb = {0.0, 0.0, 0.0};
-  scenario.rig.camera = {320, 240, 280.0, 159.5, 119.5};
+  scenario.rig.intrinsics = {320, 240, 280.0, 159.5, 119.5};
   const std::vector<slam::Control> turn = {{0.0, turn_radps, 0.5}};
   slam::Pose pose{0.0, 0.0, -0.5 * turn_radps};
   for (int i = 0; i < 3; ++i) {
@@ -167,8 +167,8 @@ double longest_shift_px(const worlds::Scenario& scenario, renderer::Renderer& re
 }
 
 // Law: the step that is reported is the longest way between two instants that the truth of flow knows, for
-// turning and driving, far and near. Mutations: the way of the picture's middle; no translation; the eyes'
-// middle in place of the eyes.
+// turning and driving, far and near. Mutations: the way of the picture's middle; no translation; the cameras'
+// middle in place of the cameras.
 TEST(Shutter, KnowsTheLongestWayOfAPoint) {
   constexpr double kOpen_s = 0.2;
   for (const auto& [speed_mps, turn_radps] : {std::pair(0.0, 0.5), {1.0, 0.0}, {0.6, -0.4}, {-0.5, 0.1}}) {
@@ -269,8 +269,8 @@ TEST(Rigs, VisionBelievesInTheBelievedOne) {
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003);
 }
 
-// About the vertical axis a turn of the right eye adds to the disparity: dZ / Z = -Z turn / B.
-TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
+// About the vertical axis a turn of the right camera adds to the disparity: dZ / Z = -Z turn / B.
+TEST(Rigs, ATurnedRightCameraIsMeasuredAsARangeThatIsWrong) {
   worlds::Scenario scenario = bend_of_unknown_sizes();
   scenario.rig.right_turn_rad.y() = 0.0005;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0 - 2.2 * 0.0005 / 0.12, 0.003);
@@ -278,7 +278,7 @@ TEST(Rigs, ATurnedRightEyeIsMeasuredAsARangeThatIsWrong) {
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003) << "who knows of it puts it straight";
 }
 
-// At a direction of 0.1 a lens with k1 = -0.3 is 0.3 % off, and less where the other eye looks: that is a
+// At a direction of 0.1 a lens with k1 = -0.3 is 0.3 % off, and less where the other camera looks: that is a
 // disparity. Further out outlines are bent so much that their arcs contradict each other.
 TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
   worlds::Scenario scenario = bend();
@@ -302,7 +302,7 @@ TEST(Rigs, PixelsThatAreNotSquareAreMeasuredAsSquareOnesByWhoKnowsOfIt) {
 }
 
 // Rectified pictures are larger than what was taken, and black there: a ball that the picture's border cuts
-// looks whole in them, of another shape. Mutation: rectification that does not ask what the eye has seen.
+// looks whole in them, of another shape. Mutation: rectification that does not ask what the camera has seen.
 TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
   for (const double k1 : {-0.3, 0.3}) {
     worlds::Scenario scenario = bend();

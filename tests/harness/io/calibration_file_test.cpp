@@ -13,8 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// Law: a rig is read as it was written. Mutations: the pitch looks up; the right eye's turn about the axes in
-// another order.
+// Law: a rig is read as it was written. Mutations: the pitch looks up; the right camera's turn about the axes
+// in another order.
 TEST(CalibrationFile, IsReadAsItWasWritten) {
   const TestFolder folder;
   slam::RandomStream random(3, slam::Stream::kWorld);
@@ -31,11 +31,11 @@ TEST(CalibrationFile, IsReadAsItWasWritten) {
     if (i % 4 > 1) rig.distortion.pixel_aspect = 0.5 + random.uniform();
     folder.write("rig.yaml", calibration_yaml(rig));
     const vision::StereoRig read = read_calibration(folder.path() / "rig.yaml");
-    EXPECT_EQ(read.camera.width_px, 640);
-    EXPECT_EQ(read.camera.height_px, 480);
-    EXPECT_EQ(read.camera.focal_px, rig.camera.focal_px);
-    EXPECT_EQ(read.camera.cx_px, rig.camera.cx_px);
-    EXPECT_EQ(read.camera.cy_px, rig.camera.cy_px);
+    EXPECT_EQ(read.intrinsics.width_px, 640);
+    EXPECT_EQ(read.intrinsics.height_px, 480);
+    EXPECT_EQ(read.intrinsics.focal_px, rig.intrinsics.focal_px);
+    EXPECT_EQ(read.intrinsics.cx_px, rig.intrinsics.cx_px);
+    EXPECT_EQ(read.intrinsics.cy_px, rig.intrinsics.cy_px);
     EXPECT_EQ(read.baseline_m, rig.baseline_m);
     EXPECT_EQ(read.height_m, rig.height_m);
     EXPECT_NEAR(read.distortion.pixel_aspect, rig.distortion.pixel_aspect, 1e-15);
@@ -47,40 +47,41 @@ TEST(CalibrationFile, IsReadAsItWasWritten) {
   }
 }
 
-vision::EyePair two_eyes() {
-  vision::EyePair eyes;
-  eyes[0] = {{640, 480, 534.0, 342.0, 235.0}, {.k1 = -0.29, .k2 = 0.1}};
-  eyes[1] = {{640, 480, 537.0, 326.0, 250.0}, {.k1 = -0.28, .k2 = 0.09, .p2 = 1e-3}};
-  eyes[0].rectified_from_eye = Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
-  eyes[1].rectified_from_eye = Eigen::AngleAxisd(0.02, Eigen::Vector3d(-3, 1, 1).normalized()).matrix();
-  return eyes;
+vision::CameraPair two_cameras() {
+  vision::CameraPair cameras;
+  cameras[0] = {{640, 480, 534.0, 342.0, 235.0}, {.k1 = -0.29, .k2 = 0.1}};
+  cameras[1] = {{640, 480, 537.0, 326.0, 250.0}, {.k1 = -0.28, .k2 = 0.09, .p2 = 1e-3}};
+  cameras[0].rectified_from_camera = Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  cameras[1].rectified_from_camera = Eigen::AngleAxisd(0.02, Eigen::Vector3d(-3, 1, 1).normalized()).matrix();
+  return cameras;
 }
 
-// Law: two different eyes are read as they were written. Mutation: the eyes exchanged.
-TEST(CalibrationFile, TwoEyesAreReadAsTheyWereWritten) {
+// Law: two different cameras are read as they were written. Mutation: the cameras exchanged.
+TEST(CalibrationFile, TwoCamerasAreReadAsTheyWereWritten) {
   const TestFolder folder;
-  const vision::EyePair eyes = two_eyes();
+  const vision::CameraPair cameras = two_cameras();
   const vision::StereoRig rig{{640, 480, 535.5, 334.0, 242.5}, 0.083, 0.0, 0.0};
-  folder.write("rig.yaml", calibration_yaml(rig, eyes));
+  folder.write("rig.yaml", calibration_yaml(rig, cameras));
   const RigCalibration read = read_rig_calibration(folder.path() / "rig.yaml");
   EXPECT_EQ(read.rig.baseline_m, rig.baseline_m);
-  ASSERT_TRUE(read.eyes);
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    EXPECT_EQ((*read.eyes)[eye].camera.width_px, 640);
-    EXPECT_EQ((*read.eyes)[eye].camera.focal_px, eyes[eye].camera.focal_px);
-    EXPECT_EQ((*read.eyes)[eye].camera.cy_px, eyes[eye].camera.cy_px);
-    EXPECT_EQ((*read.eyes)[eye].lens, eyes[eye].lens);
-    EXPECT_EQ((*read.eyes)[eye].rectified_from_eye, eyes[eye].rectified_from_eye);
+  ASSERT_TRUE(read.cameras);
+  for (std::size_t side = 0; side < 2; ++side) {
+    EXPECT_EQ((*read.cameras)[side].intrinsics.width_px, 640);
+    EXPECT_EQ((*read.cameras)[side].intrinsics.focal_px, cameras[side].intrinsics.focal_px);
+    EXPECT_EQ((*read.cameras)[side].intrinsics.cy_px, cameras[side].intrinsics.cy_px);
+    EXPECT_EQ((*read.cameras)[side].lens, cameras[side].lens);
+    EXPECT_EQ((*read.cameras)[side].rectified_from_camera, cameras[side].rectified_from_camera);
   }
   EXPECT_THAT([&] { read_calibration(folder.path() / "rig.yaml"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("expected one camera twice")));
 }
 
 // Mutation: a turn that is no rotation let through.
-TEST(CalibrationFile, RefusesEyesThatAreNone) {
+TEST(CalibrationFile, RefusesCamerasThatAreNone) {
   const TestFolder folder;
-  const auto complaint_of = [&](const vision::EyePair& eyes, const std::string& from, const std::string& to) {
-    std::string text = calibration_yaml({{640, 480, 535.5, 334.0, 242.5}, 0.083, 0.0, 0.0}, eyes);
+  const auto complaint_of = [&](const vision::CameraPair& cameras, const std::string& from,
+                                const std::string& to) {
+    std::string text = calibration_yaml({{640, 480, 535.5, 334.0, 242.5}, 0.083, 0.0, 0.0}, cameras);
     text.replace(text.rfind(from), from.size(), to);
     folder.write("rig.yaml", text);
     try {
@@ -90,15 +91,15 @@ TEST(CalibrationFile, RefusesEyesThatAreNone) {
     }
     return std::string("no complaint");
   };
-  vision::EyePair stretched = two_eyes();
-  stretched[1].rectified_from_eye *= 1.1;
-  vision::EyePair folded = two_eyes();
+  vision::CameraPair stretched = two_cameras();
+  stretched[1].rectified_from_camera *= 1.1;
+  vision::CameraPair folded = two_cameras();
   folded[0].lens = {.k1 = -2.0};
   EXPECT_THAT(complaint_of(stretched, "K", "K"), HasSubstr("right_eye: expected cameras"));
   EXPECT_THAT(complaint_of(folded, "K", "K"), HasSubstr("expected cameras"));
-  EXPECT_THAT(complaint_of(two_eyes(), "right_eye:", "third_eye:"), HasSubstr("expected both"));
-  EXPECT_THAT(complaint_of(two_eyes(), "K:", "L:"), HasSubstr("K: this key is missing"));
-  EXPECT_EQ(complaint_of(two_eyes(), "K", "K"), "no complaint");
+  EXPECT_THAT(complaint_of(two_cameras(), "right_eye:", "third_eye:"), HasSubstr("expected both"));
+  EXPECT_THAT(complaint_of(two_cameras(), "K:", "L:"), HasSubstr("K: this key is missing"));
+  EXPECT_EQ(complaint_of(two_cameras(), "K", "K"), "no complaint");
 }
 
 TEST(CalibrationFile, RefusesWhatItCannotComputeWith) {

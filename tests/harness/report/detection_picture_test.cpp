@@ -33,7 +33,7 @@ std::vector<Point> white_above(const cv::Mat& image, int row, int first_column, 
   return found;
 }
 
-// Both eyes' rings have the ball's centre and radius. Catches: eyes swapped, half a pixel, radius for
+// Both cameras' rings have the ball's centre and radius. Catches: cameras swapped, half a pixel, radius for
 // diameter.
 TEST(ReportDetections, RingsLieOnTheOutlines) {
   const std::vector<vision::BallObservation> balls = {ball_at(120.0, 80.0, 90.0, 30.0)};
@@ -58,12 +58,12 @@ TEST(ReportDetections, WidePairsAreScaledDownWithTheirRings) {
 
 // IEC 61966-2-1: 100 / 255 of light is level 168. Catches: pictures as dark as their light; light that is
 // encoded twice.
-TEST(ReportDetections, LightIsEncodedForTheEyeOnce) {
+TEST(ReportDetections, LightIsEncodedForDisplayOnce) {
   const vision::StereoPair light = grey_pair(64, 48);
-  EXPECT_EQ(for_the_eye(light, {}).left.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
-  EXPECT_EQ(for_the_eye(light, {}).right.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
+  EXPECT_EQ(for_display(light, {}).left.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
+  EXPECT_EQ(for_display(light, {}).right.at<cv::Vec3b>(5, 5), cv::Vec3b(168, 168, 168));
   const worlds::CameraSensor encoding{.noise_sd_levels = 2.0, .encoding = worlds::Encoding::kSrgb};
-  EXPECT_EQ(for_the_eye(light, encoding).left.at<cv::Vec3b>(5, 5), cv::Vec3b(100, 100, 100));
+  EXPECT_EQ(for_display(light, encoding).left.at<cv::Vec3b>(5, 5), cv::Vec3b(100, 100, 100));
 }
 
 // Catches: flags that are not looked at.

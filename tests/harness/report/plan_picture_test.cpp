@@ -17,7 +17,7 @@ using testing::Not;
 worlds::Scenario scene() {
   worlds::Scenario scenario;
   scenario.name = "scene";
-  scenario.rig.camera = {1024, 768, 887.0, 511.5, 383.5};
+  scenario.rig.intrinsics = {1024, 768, 887.0, 511.5, 383.5};
   scenario.rig.baseline_m = 0.12;
   scenario.rig.height_m = 0.3;
   scenario.world.balls = {{{4.0, 0.0, 0.1}, 0.1, 0}, {{-3.0, 0.0, 0.1}, 0.1, 1}, {{7.0, 0.5, 0.1}, 0.1, 2}};

@@ -11,7 +11,7 @@
 
 namespace stereobench::harness::test {
 
-/// Where a board is held: turned by up to half a radian about each axis, and somewhere in both eyes' view.
+/// Where a board is held: turned by up to half a radian about each axis, and somewhere in both cameras' view.
 inline std::vector<Eigen::Isometry3d> board_places(const Board& board, std::size_t views,
                                                    std::uint64_t seed) {
   slam::RandomStream random(seed, slam::Stream::kWorld);
@@ -32,10 +32,10 @@ inline std::vector<Eigen::Isometry3d> board_places(const Board& board, std::size
   return places;
 }
 
-/// The rig that the tests look through: a lens, and a right eye that is turned.
+/// The rig that the tests look through: a lens, and a right camera that is turned.
 inline vision::StereoRig faulty_rig() {
   vision::StereoRig rig;
-  rig.camera = {1024, 768, 887.0, 505.0, 390.0};
+  rig.intrinsics = {1024, 768, 887.0, 505.0, 390.0};
   rig.right_turn_rad = {0.010, -0.015, 0.005};
   rig.distortion = {.k1 = -0.2, .k2 = 0.05, .p1 = 0.0005, .p2 = -0.0008};
   return rig;
@@ -51,10 +51,10 @@ inline std::vector<BoardView> seen_through(const vision::StereoRig& rig, const B
     BoardView view{.name = std::to_string(views.size())};
     for (int i = 0; i < board.corners(); ++i) {
       const Eigen::Vector3d point = place * board.corner_m(i);
-      for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight}) {
+      for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight}) {
         const Eigen::Vector2d noise(random.normal(), random.normal());
-        view.corners_px[static_cast<std::size_t>(eye)].push_back(
-            vision::image_point(rig, vision::point_in_eye(rig, point, eye)) + noise_px * noise);
+        view.corners_px[static_cast<std::size_t>(side)].push_back(
+            vision::image_point(rig, vision::camera_point(rig, point, side)) + noise_px * noise);
       }
     }
     views.push_back(view);
@@ -62,21 +62,21 @@ inline std::vector<BoardView> seen_through(const vision::StereoRig& rig, const B
   return views;
 }
 
-/// How far a fit is from a rig in standard deviations, for each parameter that was fitted: of both eyes'
-/// cameras, the right eye's place, and its turn.
+/// How far a fit is from a rig in standard deviations, for each parameter that was fitted: of both cameras,
+/// the right camera's place, and its turn.
 inline std::vector<double> deviations(const RigFit& fit, const vision::StereoRig& rig, RigModel model) {
-  EyeParameters truth;
+  CameraParameters truth;
   const vision::Distortion& lens = rig.distortion;
-  truth << rig.camera.focal_px, rig.camera.cx_px, rig.camera.cy_px, lens.k1, lens.k2, lens.p1, lens.p2,
-      lens.k3, lens.pixel_aspect;
+  truth << rig.intrinsics.focal_px, rig.intrinsics.cx_px, rig.intrinsics.cy_px, lens.k1, lens.k2, lens.p1,
+      lens.p2, lens.k3, lens.pixel_aspect;
   std::vector<double> result;
   const auto add = [&](double error, double sd) {
     if (sd > 0.0) result.push_back(error / sd);
   };
-  for (std::size_t eye = 0; eye < (model == RigModel::kOneCamera ? 1U : 2U); ++eye)
-    for (int i = 0; i < kEyeSize; ++i) add(fit.eyes[eye][i] - truth[i], fit.eyes_sd[eye][i]);
+  for (std::size_t side = 0; side < (model == RigModel::kOneCamera ? 1U : 2U); ++side)
+    for (int i = 0; i < kCameraSize; ++i) add(fit.cameras[side][i] - truth[i], fit.cameras_sd[side][i]);
   const Eigen::Matrix3d turn = vision::robot_from_camera(rig).linear().transpose() *
-                               vision::robot_from_camera(rig, vision::Eye::kRight).linear();
+                               vision::robot_from_camera(rig, vision::Side::kRight).linear();
   const Eigen::AngleAxisd true_turn(turn);
   const Eigen::Vector3d turn_error = fit.turn_rad - true_turn.angle() * true_turn.axis();
   for (int i = 0; i < 3; ++i) {

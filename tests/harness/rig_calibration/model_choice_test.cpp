@@ -19,8 +19,10 @@ constexpr Board kBoard{9, 6, 0.03};
 constexpr double kNoise_px = 0.1;
 
 FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
-  return {
-      .board = kBoard, .width_px = rig.camera.width_px, .height_px = rig.camera.height_px, .model = model};
+  return {.board = kBoard,
+          .width_px = rig.intrinsics.width_px,
+          .height_px = rig.intrinsics.height_px,
+          .model = model};
 }
 
 std::string taken(const ModelChoice& choice) {
@@ -73,11 +75,11 @@ TEST(ModelChoice, KeepsToWhatItWasTold) {
   FitSettings settings = settings_for(rig, RigModel::kOneCamera);
   const ModelChoice square = choose_model(views, settings, {.aspect = false, .k3 = false});
   EXPECT_EQ(square.trials.size(), 1U);
-  EXPECT_EQ(square.fit.eyes[0][kAspect], 1.0);
-  EXPECT_EQ(square.fit.eyes[0][kK3], 0.0);
+  EXPECT_EQ(square.fit.cameras[0][kAspect], 1.0);
+  EXPECT_EQ(square.fit.cameras[0][kK3], 0.0);
   settings.square_pixels = false;
   const ModelChoice free = choose_model(views, settings, {.aspect = false, .k3 = false});
-  EXPECT_NEAR(free.fit.eyes[0][kAspect], 0.9, 1e-3);
+  EXPECT_NEAR(free.fit.cameras[0][kAspect], 0.9, 1e-3);
   EXPECT_GT(square.fit.rms_px, 2.0 * free.fit.rms_px);
 }
 
@@ -122,10 +124,10 @@ TEST(CalibrationWarnings, SayThatABoardIsBent) {
       Eigen::Vector3d corner = kBoard.corner_m(i);
       const double across = (i % kBoard.columns) / (kBoard.columns - 1.0) - 0.5;
       corner.z() += 0.01 * across * across;  // 2.5 mm at its sides
-      for (const vision::Eye eye : {vision::Eye::kLeft, vision::Eye::kRight})
-        views[view].corners_px[static_cast<std::size_t>(eye)][static_cast<std::size_t>(i)] +=
-            vision::image_point(rig, vision::point_in_eye(rig, places[view] * corner, eye)) -
-            vision::image_point(rig, vision::point_in_eye(rig, places[view] * kBoard.corner_m(i), eye));
+      for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight})
+        views[view].corners_px[static_cast<std::size_t>(side)][static_cast<std::size_t>(i)] +=
+            vision::image_point(rig, vision::camera_point(rig, places[view] * corner, side)) -
+            vision::image_point(rig, vision::camera_point(rig, places[view] * kBoard.corner_m(i), side));
     }
   const auto warnings = warnings_for(views, settings_for(rig, RigModel::kOneCamera), {.board = kBoard});
   EXPECT_THAT(warnings, testing::Contains(HasSubstr("an error that is smooth over the board")));

@@ -109,7 +109,7 @@ TEST_F(RenderedBoards, GiveBackTheRigThatTookThem) {
     for (const double deviation : test::deviations(found.fit, rig_, model))
       EXPECT_LT(std::abs(deviation), 4.0) << calibration_text(found, {.board = kBoard, .model = model});
     EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
-    EXPECT_EQ(found.rig.eyes.has_value(), model == RigModel::kTwoCameras);
+    EXPECT_EQ(found.rig.cameras.has_value(), model == RigModel::kTwoCameras);
   }
 }
 
@@ -122,7 +122,8 @@ class StretchedBoards : public RenderedBoards {
     for (const ViewFiles& view : files()) {
       for (const fs::path& file : {view.left, view.right}) {
         cv::Mat lower;
-        cv::resize(cv::imread(file.string()), lower, {rig_.camera.width_px, kRows}, 0.0, 0.0, cv::INTER_AREA);
+        cv::resize(cv::imread(file.string()), lower, {rig_.intrinsics.width_px, kRows}, 0.0, 0.0,
+                   cv::INTER_AREA);
         const fs::path folder = stretched_.path() / file.parent_path().filename();
         fs::create_directories(folder);
         cv::imwrite((folder / file.filename()).string(), lower);
@@ -134,13 +135,13 @@ class StretchedBoards : public RenderedBoards {
 };
 
 // Pixels are found to be as wide as they are, and nothing is warned of; as square ones they explain nothing
-// and the turn of the right eye is off. Mutations: the simplest model always; the aspect not written.
+// and the turn of the right camera is off. Mutations: the simplest model always; the aspect not written.
 TEST_F(StretchedBoards, AreMeasuredByPixelsThatAreNotSquare) {
-  const double aspect = static_cast<double>(kRows) / rig_.camera.height_px;
+  const double aspect = static_cast<double>(kRows) / rig_.intrinsics.height_px;
   const auto files = find_view_files(stretched_.path(), {});
   const BoardSettings settings{.board = kBoard, .model = RigModel::kOneCamera};
   const BoardCalibration found = calibrate_rig(files, settings);
-  EXPECT_NEAR(found.rig.rig.distortion.pixel_aspect, aspect, 4.0 * found.fit.eyes_sd[0][kAspect]);
+  EXPECT_NEAR(found.rig.rig.distortion.pixel_aspect, aspect, 4.0 * found.fit.cameras_sd[0][kAspect]);
   EXPECT_LT(found.fit.rms_px, 0.06);
   EXPECT_LT(found.row_rms_px, 0.06);
   EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
@@ -180,7 +181,7 @@ std::string dropped(const BoardCalibration& calibration, const std::string& view
   return "no such view";
 }
 
-// Mutations: an outlier that stays; eyes exchanged in the reason.
+// Mutations: an outlier that stays; cameras exchanged in the reason.
 TEST_F(RenderedBoards, ViewsThatDoNotSuitAreDroppedWithTheReason) {
   const TestFolder odd;
   cv::imwrite((odd.path() / "blank.png").string(), cv::Mat(768, 1024, CV_8UC3, cv::Scalar::all(90)));
@@ -201,7 +202,7 @@ TEST_F(RenderedBoards, ViewsThatDoNotSuitAreDroppedWithTheReason) {
   for (std::size_t i = 3; i < 6; ++i) views[i].left = odd.path() / "blank.png";
   EXPECT_THAT([&] { calibrate_rig(views, {.board = kBoard}); },
               ThrowsMessage<std::runtime_error>(HasSubstr(
-                  "expected at least 3 views in which both eyes see the board (got 0); 0: no board")));
+                  "expected at least 3 views in which both cameras see the board (got 0); 0: no board")));
 }
 
 TEST_F(RenderedBoards, SwappedPicturesAreSaidToBe) {
@@ -211,7 +212,7 @@ TEST_F(RenderedBoards, SwappedPicturesAreSaidToBe) {
               ThrowsMessage<std::runtime_error>(HasSubstr("left and right are swapped")));
 }
 
-// What the command writes is read by `detect`; both eyes see the same (nothing), through their own lenses.
+// What the command writes is read by `detect`; both cameras see the same (nothing), through their own lenses.
 TEST_F(RenderedBoards, TheCommandWritesWhatDetectReads) {
   const std::string folder = folder_->path().string();
   for (const std::string model : {"one", "two"}) {
@@ -285,7 +286,7 @@ TEST(RealBoards, AreExplainedToAFifthOfAPixel) {
   EXPECT_THAT(dropped(found, "left"), HasSubstr("612 x 459 pixels"));  // another pair, of something else
 }
 
-// The same, made lower by a fifth: explained as well, and the right eye is turned as it was.
+// The same, made lower by a fifth: explained as well, and the right camera is turned as it was.
 TEST(RealBoards, AreExplainedAsWellWhenStretched) {
   if (!fs::exists(opencv_pictures() / "left01.jpg")) GTEST_SKIP() << "no opencv-doc";
   const TestFolder folder;
@@ -298,7 +299,7 @@ TEST(RealBoards, AreExplainedAsWellWhenStretched) {
   const BoardSettings settings{.board = {9, 6, 0.025}};
   const BoardCalibration found = calibrate_rig(find_view_files(folder.path(), {}), settings);
   EXPECT_LT(found.fit.rms_px, 0.21);
-  EXPECT_NEAR(found.fit.eyes[0][kAspect], 0.8, 0.002);
+  EXPECT_NEAR(found.fit.cameras[0][kAspect], 0.8, 0.002);
   BoardSettings square = settings;
   square.compared.aspect = false;
   EXPECT_GT(calibrate_rig(find_view_files(folder.path(), {}), square).fit.rms_px, 0.5);

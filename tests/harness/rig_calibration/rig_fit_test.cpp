@@ -1,4 +1,4 @@
-/// The fit of a rig to what two eyes saw of a board.
+/// The fit of a rig to what two cameras saw of a board.
 #include "harness/rig_calibration/rig_fit.h"
 
 #include <cmath>
@@ -19,8 +19,10 @@ using testing::ThrowsMessage;
 constexpr Board kBoard{9, 6, 0.03};
 
 FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
-  return {
-      .board = kBoard, .width_px = rig.camera.width_px, .height_px = rig.camera.height_px, .model = model};
+  return {.board = kBoard,
+          .width_px = rig.intrinsics.width_px,
+          .height_px = rig.intrinsics.height_px,
+          .model = model};
 }
 
 /// The same rig with pixels that are not square.
@@ -41,16 +43,16 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
   settings.square_pixels = false;
   const RigFit fit = fit_rig(views, settings);
   EXPECT_LT(fit.rms_px, 1e-6);
-  for (const EyeParameters& eye : fit.eyes) {
-    EXPECT_NEAR(eye[0], rig.camera.focal_px, 1e-4);
-    EXPECT_NEAR(eye[1], rig.camera.cx_px, 1e-4);
-    EXPECT_NEAR(eye[2], rig.camera.cy_px, 1e-4);
-    EXPECT_NEAR(eye[3], rig.distortion.k1, 1e-6);
-    EXPECT_NEAR(eye[4], rig.distortion.k2, 1e-5);
-    EXPECT_NEAR(eye[5], rig.distortion.p1, 1e-7);
-    EXPECT_NEAR(eye[6], rig.distortion.p2, 1e-7);
-    EXPECT_EQ(eye[kK3], 0.0);
-    EXPECT_NEAR(eye[kAspect], rig.distortion.pixel_aspect, 1e-7);
+  for (const CameraParameters& camera : fit.cameras) {
+    EXPECT_NEAR(camera[0], rig.intrinsics.focal_px, 1e-4);
+    EXPECT_NEAR(camera[1], rig.intrinsics.cx_px, 1e-4);
+    EXPECT_NEAR(camera[2], rig.intrinsics.cy_px, 1e-4);
+    EXPECT_NEAR(camera[3], rig.distortion.k1, 1e-6);
+    EXPECT_NEAR(camera[4], rig.distortion.k2, 1e-5);
+    EXPECT_NEAR(camera[5], rig.distortion.p1, 1e-7);
+    EXPECT_NEAR(camera[6], rig.distortion.p2, 1e-7);
+    EXPECT_EQ(camera[kK3], 0.0);
+    EXPECT_NEAR(camera[kAspect], rig.distortion.pixel_aspect, 1e-7);
   }
   EXPECT_LT((fit.right_in_left_m - Eigen::Vector3d(rig.baseline_m, 0, 0)).norm(), 1e-7);
   const RigCalibration calibration = rectified_rig(fit, GetParam(), 1024, 768);
@@ -129,8 +131,8 @@ TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
   }
 }
 
-// Law: once rectified, both eyes see a point on one row, and its disparity is f B / Z.
-// Mutation: the right eye's turn the other way round in the fit.
+// Law: once rectified, both cameras see a point on one row, and its disparity is f B / Z.
+// Mutation: the right camera's turn the other way round in the fit.
 TEST(RectifiedRig, PutsPointsOnOneRow) {
   const vision::StereoRig rig = stretched_rig();
   const auto places = test::board_places(kBoard, 6, 5);
@@ -141,14 +143,14 @@ TEST(RectifiedRig, PutsPointsOnOneRow) {
     const RigFit fit = fit_rig(views, settings);
     const RigCalibration calibration = rectified_rig(fit, model, 1024, 768);
     for (std::size_t i = 0; i < views.front().corners_px[0].size(); ++i) {
-      const auto left = rectified_px(calibration, views.front().corners_px[0][i], vision::Eye::kLeft);
-      const auto right = rectified_px(calibration, views.front().corners_px[1][i], vision::Eye::kRight);
+      const auto left = rectified_px(calibration, views.front().corners_px[0][i], vision::Side::kLeft);
+      const auto right = rectified_px(calibration, views.front().corners_px[1][i], vision::Side::kRight);
       ASSERT_TRUE(left && right);
       EXPECT_NEAR(left->y(), right->y(), 1e-5);
       const double disparity = left->x() - right->x();
-      const double depth_m = calibration.rig.camera.focal_px * calibration.rig.baseline_m / disparity;
+      const double depth_m = calibration.rig.intrinsics.focal_px * calibration.rig.baseline_m / disparity;
       const Eigen::Vector3d truth = places.front() * kBoard.corner_m(static_cast<int>(i));
-      const double distance_m = (depth_m * vision::pixel_ray(calibration.rig.camera, *left)).norm();
+      const double distance_m = (depth_m * vision::pixel_ray(calibration.rig.intrinsics, *left)).norm();
       EXPECT_NEAR(distance_m, truth.norm(), 1e-5);
     }
   }

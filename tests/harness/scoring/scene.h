@@ -12,25 +12,25 @@ namespace stereobench::harness {
 
 inline vision::StereoRig small_rig() {
   vision::StereoRig rig;
-  rig.camera = {320, 240, 300.0, 159.5, 119.5};
+  rig.intrinsics = {320, 240, 300.0, 159.5, 119.5};
   return rig;
 }
 
 /// Which ball each pixel's centre sees, by rays and spheres: shares nothing with the closed-form outline.
 inline cv::Mat ball_ids(const worlds::World& world, const vision::StereoRig& rig, const slam::Pose& pose,
-                        vision::Eye eye) {
-  const Eigen::Isometry3d robot_from_eye = vision::robot_from_camera(rig, eye);
+                        vision::Side side) {
+  const Eigen::Isometry3d robot_from_camera = vision::robot_from_camera(rig, side);
   const Eigen::AngleAxisd turn(pose.heading_rad, Eigen::Vector3d::UnitZ());
-  const Eigen::Isometry3d world_from_eye =
-      Eigen::Translation3d(pose.x_m, pose.y_m, 0.0) * turn * robot_from_eye;
-  cv::Mat ids(rig.camera.height_px, rig.camera.width_px, CV_8UC1, cv::Scalar(0));
+  const Eigen::Isometry3d world_from_camera =
+      Eigen::Translation3d(pose.x_m, pose.y_m, 0.0) * turn * robot_from_camera;
+  cv::Mat ids(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_8UC1, cv::Scalar(0));
   for (int v = 0; v < ids.rows; ++v) {
     for (int u = 0; u < ids.cols; ++u) {
       const Eigen::Vector3d ray =
-          world_from_eye.linear() * vision::pixel_ray(rig.camera, {u, v}).normalized();
+          world_from_camera.linear() * vision::pixel_ray(rig.intrinsics, {u, v}).normalized();
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < world.balls.size(); ++i) {
-        const Eigen::Vector3d offset = world.balls[i].centre_m - world_from_eye.translation();
+        const Eigen::Vector3d offset = world.balls[i].centre_m - world_from_camera.translation();
         const double along = offset.dot(ray);
         const double miss = std::pow(world.balls[i].radius_m, 2) - (offset - along * ray).squaredNorm();
         if (miss < 0.0 || along < 0.0 || along >= nearest) continue;
@@ -52,8 +52,8 @@ struct Scene {
   explicit Scene(std::vector<worlds::Ball> balls, const slam::Pose& world_from_robot = {})
       : pose(world_from_robot) {
     world.balls = std::move(balls);
-    frame.left.ball_id = ball_ids(world, rig, pose, vision::Eye::kLeft);
-    frame.right.ball_id = ball_ids(world, rig, pose, vision::Eye::kRight);
+    frame.left.ball_id = ball_ids(world, rig, pose, vision::Side::kLeft);
+    frame.right.ball_id = ball_ids(world, rig, pose, vision::Side::kRight);
   }
   VisionTruth truth() const { return {world, rig, pose, frame}; }
 };
@@ -76,13 +76,13 @@ inline const worlds::Ball kAside{{1.5, -0.45, 0.35}, 0.08, 5};
 inline const worlds::Ball kCut{{1.0, 0.55, 0.3}, 0.1, 7};
 inline const worlds::Ball kAtTheBack{{-1.0, 0.0, 0.3}, 0.1, 8};
 
-/// How much of a ball an eye sees past the others, by counting what its rays hit.
-inline double seen_fraction(const worlds::Ball& ball, const worlds::Ball& in_front, vision::Eye eye) {
+/// How much of a ball a camera sees past the others, by counting what its rays hit.
+inline double seen_fraction(const worlds::Ball& ball, const worlds::Ball& in_front, vision::Side side) {
   const worlds::World alone{.balls = {ball}};
   const worlds::World both{.balls = {ball, in_front}};
-  const cv::Mat seen = ball_ids(both, small_rig(), {}, eye) == 1;
+  const cv::Mat seen = ball_ids(both, small_rig(), {}, side) == 1;
   return static_cast<double>(cv::countNonZero(seen)) /
-         static_cast<double>(cv::countNonZero(ball_ids(alone, small_rig(), {}, eye)));
+         static_cast<double>(cv::countNonZero(ball_ids(alone, small_rig(), {}, side)));
 }
 
 inline VisionScore score_observations(const VisionTruth& truth,

@@ -33,13 +33,13 @@ TEST(BallOutlines, HiddenAndCutBallsHaveLess) {
   EXPECT_LT(std::min(outlines[2].left_fraction, outlines[2].right_fraction), 0.95);
 }
 
-// Mutation: left identities for both eyes.
-TEST(BallOutlines, EachEyeHasItsOwnFraction) {
+// Mutation: left identities for both cameras.
+TEST(BallOutlines, EachCameraHasItsOwnFraction) {
   for (const double y_m : {-0.05, 0.17}) {
     const worlds::Ball in_front{{1.0, y_m, 0.3}, 0.08, 3};
     const BallOutline outline = ball_outlines(Scene({kBehindIt, in_front}).truth()).at(0);
-    const double left = seen_fraction(kBehindIt, in_front, vision::Eye::kLeft);
-    const double right = seen_fraction(kBehindIt, in_front, vision::Eye::kRight);
+    const double left = seen_fraction(kBehindIt, in_front, vision::Side::kLeft);
+    const double right = seen_fraction(kBehindIt, in_front, vision::Side::kRight);
     EXPECT_NEAR(outline.left_fraction, left, 0.04);
     EXPECT_NEAR(outline.right_fraction, right, 0.04);
     EXPECT_GT(std::abs(left - right), 0.1);
@@ -47,7 +47,7 @@ TEST(BallOutlines, EachEyeHasItsOwnFraction) {
 }
 
 // Mutation: inside one image is enough.
-TEST(BallOutlines, CutInOneEyeIsNotInsideBoth) {
+TEST(BallOutlines, CutInOneCameraIsNotInsideBoth) {
   for (const double y_m : {-0.43, 0.43})
     EXPECT_FALSE(ball_outlines(Scene({{{1.0, y_m, 0.3}, 0.1, 3}}).truth()).at(0).inside_both) << y_m;
   for (const double y_m : {-0.35, 0.35})

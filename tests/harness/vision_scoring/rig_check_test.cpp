@@ -28,9 +28,9 @@ std::vector<vision::BallObservation> seen_by(const vision::StereoRig& rig) {
     const double depth_m = 1.0 + 4.0 * random.uniform();
     const Eigen::Vector3d ball =
         depth_m * Eigen::Vector3d(random.uniform() - 0.4, 0.6 * random.uniform() - 0.3, 1.0);
-    const auto left = vision::sphere_outline(rig.camera, ball, kRadius_m);
-    const auto right =
-        vision::sphere_outline(rig.camera, vision::point_in_eye(rig, ball, vision::Eye::kRight), kRadius_m);
+    const auto left = vision::sphere_outline(rig.intrinsics, ball, kRadius_m);
+    const auto right = vision::sphere_outline(
+        rig.intrinsics, vision::camera_point(rig, ball, vision::Side::kRight), kRadius_m);
     vision::BallObservation observation;
     observation.left_px = left->centre_px;
     observation.right_px = right->centre_px;
@@ -41,7 +41,7 @@ std::vector<vision::BallObservation> seen_by(const vision::StereoRig& rig) {
   return seen;
 }
 
-// f tan(0.05 deg) are 0.77 px. Mutations: the sign of the rows; the turn of the left eye.
+// f tan(0.05 deg) are 0.77 px. Mutations: the sign of the rows; the turn of the left camera.
 TEST(RigCheck, SaysByWhatTheRowsAreOff) {
   vision::StereoRig rig;
   rig.right_turn_rad = {0.05 * slam::kRadPerDegree, 0.0, 0.0};
@@ -70,8 +70,8 @@ TEST(RigCheck, SaysNothingOfARigAsBelieved) {
   rig.distortion.k1 = -0.1;
   std::vector<vision::BallObservation> taken = seen_by(rig);
   for (vision::BallObservation& ball : taken) {  // as the lens has them
-    ball.left_px = vision::image_point(rig, vision::pixel_ray(rig.camera, ball.left_px));
-    ball.right_px = vision::image_point(rig, vision::pixel_ray(rig.camera, ball.right_px));
+    ball.left_px = vision::image_point(rig, vision::pixel_ray(rig.intrinsics, ball.left_px));
+    ball.right_px = vision::image_point(rig, vision::pixel_ray(rig.intrinsics, ball.right_px));
   }
   EXPECT_THAT(rig_warnings(check_rig(rig, {kRadius_m, 0.001}, taken)), IsEmpty());
   EXPECT_THAT(rig_warnings({}), IsEmpty());

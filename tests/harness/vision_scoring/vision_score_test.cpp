@@ -31,12 +31,12 @@ TEST(VisionScore, EveryKindOfMistakeHasItsCount) {
   const vision::BallObservation right = perfect(outlines[0], 3);
   vision::BallObservation elsewhere = right;
   elsewhere.left_px.x() += 60.0;
-  vision::BallObservation one_eye = right;
-  one_eye.right_px.x() -= 60.0;
+  vision::BallObservation one_camera = right;
+  one_camera.right_px.x() -= 60.0;
   vision::BallObservation flagged = perfect(outlines[1], 5);
   flagged.occluded = true;
   const VisionScore score = score_observations(
-      scene.truth(), std::vector{right, right, perfect(outlines[1], 4), elsewhere, one_eye, flagged});
+      scene.truth(), std::vector{right, right, perfect(outlines[1], 4), elsewhere, one_camera, flagged});
   EXPECT_EQ(score.observations, 5);
   EXPECT_EQ(score.right, 1);
   EXPECT_EQ(score.repeated, 1);
@@ -90,15 +90,15 @@ TEST(VisionScore, AHiddenBallNeedNotBeFoundAndAFarOneIsTooSmall) {
   EXPECT_EQ(score_observations(scene.truth(), {}).recall(), 0.0);
 }
 
-// A ball slides past another one: it must be found where each eye sees 95 % of it, give or take the pixels'
-// own 3 %. Mutations: half of it is enough; one eye is enough.
-TEST(VisionScore, ABallMustBeFoundWhereBothEyesSeeNearlyAllOfIt) {
+// A ball slides past another one: it must be found where each camera sees 95 % of it, give or take the
+// pixels' own 3 %. Mutations: half of it is enough; one camera is enough.
+TEST(VisionScore, ABallMustBeFoundWhereBothCamerasSeeNearlyAllOfIt) {
   int hidden_from_one = 0;
   int half_hidden = 0;
   for (double y_m = -0.2; y_m < 0.38; y_m += 0.05) {
     const worlds::Ball in_front{{1.0, y_m, 0.3}, 0.08, 3};
-    const double left = seen_fraction(kBehindIt, in_front, vision::Eye::kLeft);
-    const double right = seen_fraction(kBehindIt, in_front, vision::Eye::kRight);
+    const double left = seen_fraction(kBehindIt, in_front, vision::Side::kLeft);
+    const double right = seen_fraction(kBehindIt, in_front, vision::Side::kRight);
     const double less = std::min(left, right);
     if (std::abs(less - 0.95) < 0.03) continue;
     hidden_from_one += less < 0.92 && std::max(left, right) == 1.0 ? 1 : 0;
@@ -115,7 +115,7 @@ TEST(VisionScore, ABallMustBeFoundFromFivePixelsOfRadius) {
   int small = 0;
   int large = 0;
   for (double radius_px = 3.1; radius_px < 7.0; radius_px += 0.2) {
-    const Scene scene({{{small_rig().camera.focal_px * 0.1 / radius_px, 0.0, 0.3}, 0.1, 3}});
+    const Scene scene({{{small_rig().intrinsics.focal_px * 0.1 / radius_px, 0.0, 0.3}, 0.1, 3}});
     const BallOutline outline = ball_outlines(scene.truth()).at(0);
     if (std::min(outline.left_fraction, outline.right_fraction) < 0.95) continue;  // so few pixels are coarse
     ++(radius_px > 5.0 ? large : small);

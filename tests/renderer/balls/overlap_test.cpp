@@ -33,8 +33,8 @@ std::vector<worlds::Ball> crowd(const vision::StereoRig& rig, std::uint64_t seed
   for (std::size_t i = 0; i < 9; ++i) {
     const double depth_m = 5.0 - 0.5 * static_cast<double>(i);
     const Eigen::Vector2d pixel(test::between(random, 150.0, 260.0), test::between(random, 110.0, 200.0));
-    const double radius_m = test::between(random, 12.0, 40.0) * depth_m / rig.camera.focal_px;
-    balls.push_back({vision::robot_from_camera(rig) * (depth_m * vision::pixel_ray(rig.camera, pixel)),
+    const double radius_m = test::between(random, 12.0, 40.0) * depth_m / rig.intrinsics.focal_px;
+    balls.push_back({vision::robot_from_camera(rig) * (depth_m * vision::pixel_ray(rig.intrinsics, pixel)),
                      std::min(radius_m, 0.24), 0, paint_of(i).rgb});
   }
   return balls;

@@ -1,7 +1,7 @@
 /// The camera's noise, measured against what was asked for.
 ///
-/// Mutations seen red here: sd 2 % too large, rounding down instead of to nearest, both eyes from one stream,
-/// the frame's index ignored, the high half of each word used twice.
+/// Mutations seen red here: sd 2 % too large, rounding down instead of to nearest, both cameras from one
+/// stream, the frame's index ignored, the high half of each word used twice.
 
 #include "renderer/camera/expose.h"
 
@@ -56,7 +56,7 @@ TEST_P(Noise, HasTheMeanAndVarianceThatWereAskedFor) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Noise, testing::Values(0.7, 1.0, 2.0, 4.0, 8.0));
 
-TEST(Expose, ChannelsNeighboursEyesAndFramesAreUncorrelated) {
+TEST(Expose, ChannelsNeighboursCamerasAndFramesAreUncorrelated) {
   const StereoFrame frame = grey({1024, 768}, 120);
   const vision::StereoPair pair = expose(frame, {4.0}, 1, 17);
   const vision::StereoPair next = expose(frame, {4.0}, 1, 18);

@@ -23,13 +23,13 @@ constexpr double kBallRadius_m = 0.1;
 /// A rig that looks at the sky.
 vision::StereoRig rig_with(const vision::Distortion& lens) {
   vision::StereoRig rig;
-  rig.camera = {640, 480, 400.0, 318.0, 242.0};
+  rig.intrinsics = {640, 480, 400.0, 318.0, 242.0};
   rig.pitch_down_rad = -1.2;
   rig.distortion = lens;
   return rig;
 }
 
-/// One ball without shading before a black sky, at a place of the left eye's frame.
+/// One ball without shading before a black sky, at a place of the left camera's frame.
 worlds::World ball_at(const vision::StereoRig& rig, const Eigen::Vector3d& ball_in_camera) {
   worlds::World world;
   world.sky_rgb.setZero();
@@ -83,7 +83,7 @@ TEST_P(LensTest, ShowsBallsWhereBentRaysArrive) {
 // Mutation: truth of the pixel to the left.
 TEST_P(LensTest, KeepsTruthAndLightTogether) {
   const vision::StereoRig rig = rig_with(GetParam());
-  const EyeFrame frame = Renderer(ball_at(rig, {0.9, -0.6, 2.0}), rig).render({}).left;
+  const RenderedImage frame = Renderer(ball_at(rig, {0.9, -0.6, 2.0}), rig).render({}).left;
   cv::Mat red;
   cv::extractChannel(frame.colour, red, 2);
   int balls = 0;

@@ -94,7 +94,7 @@ TEST(Develop, GivesEachCountOfFewPhotonsItsProbability) {
   }
 }
 
-TEST(Develop, ChannelsNeighboursAndEyesAreUncorrelated) {
+TEST(Develop, ChannelsNeighboursAndCamerasAreUncorrelated) {
   const CameraSensor sensor{.full_well_electrons = 2000.0, .read_noise_electrons = 40.0};
   const cv::Mat light = grey({1024, 768}, 120);
   cv::Mat left, right;

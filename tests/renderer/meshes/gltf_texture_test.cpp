@@ -106,9 +106,9 @@ std::string seen_quarters(const std::string& file) {
   vision::StereoRig rig = test::small_rig();
   rig.pitch_down_rad = 0.0;
   const cv::Mat colour = Renderer(world, rig).render({}).left.colour;
-  const double reach_px = 0.2 * rig.camera.focal_px / 2.0;  // to the middle of a quarter
-  const double x_px = rig.camera.cx_px + 0.5 * rig.baseline_m * rig.camera.focal_px / 2.0;
-  const double y_px = rig.camera.cy_px - (0.45 - rig.height_m) * rig.camera.focal_px / 2.0;
+  const double reach_px = 0.2 * rig.intrinsics.focal_px / 2.0;  // to the middle of a quarter
+  const double x_px = rig.intrinsics.cx_px + 0.5 * rig.baseline_m * rig.intrinsics.focal_px / 2.0;
+  const double y_px = rig.intrinsics.cy_px - (0.45 - rig.height_m) * rig.intrinsics.focal_px / 2.0;
   std::string letters;
   for (const double y : {y_px - reach_px, y_px + reach_px})
     for (const double x : {x_px - reach_px, x_px + reach_px}) {

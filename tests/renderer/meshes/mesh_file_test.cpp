@@ -100,7 +100,7 @@ TEST(MeshFile, GivesEachPartTheColourOfItsMaterial) {
 
 // A wall that a file describes once for each side, red to the south and green to the north. Mutation
 // tried: the other side culled.
-TEST(MeshFile, ShowsOfAWallWithTwoFacesTheOneThatFacesTheEye) {
+TEST(MeshFile, ShowsOfAWallWithTwoFacesTheOneThatFacesTheCamera) {
   written("mesh_sides.mtl", "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n");
   const std::string file = written("mesh_sides.obj",
                                    "mtllib mesh_sides.mtl\nv -5 0 -5\nv 5 0 -5\nv 0 0 9\n"

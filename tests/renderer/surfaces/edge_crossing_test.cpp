@@ -59,7 +59,7 @@ void put(worlds::World& world, Thing thing, const Place& place, slam::RandomStre
 
 vision::StereoRig rig_of_few_pixels() {
   vision::StereoRig rig = test::small_rig();
-  rig.camera = {.width_px = 200, .height_px = 150, .focal_px = 260.3, .cx_px = 97.7, .cy_px = 71.2};
+  rig.intrinsics = {.width_px = 200, .height_px = 150, .focal_px = 260.3, .cx_px = 97.7, .cy_px = 71.2};
   return rig;
 }
 
@@ -71,7 +71,7 @@ struct Worst {
 };
 
 /// Whether all corners of a pixel see what its centre sees, and so do its finer pixels.
-bool is_whole(const test::RayCaster& caster, const test::FinerEye& fine, int u, int v) {
+bool is_whole(const test::RayCaster& caster, const test::FinerImage& fine, int u, int v) {
   if (!fine.is_one_facet(u, v, 0)) return false;
   if (fine.is_one_facet(u, v, 1)) return true;
   const int seen = caster.look(u, v).surface;
@@ -92,13 +92,14 @@ test::RayCaster caster_of(const worlds::World& world, const vision::StereoRig& r
   return {world, rig, triangles};
 }
 
-void add_up(const EyeFrame& eye, const test::FinerEye& fine, const test::RayCaster& caster, Worst& worst) {
-  for (int v = 1; v < eye.colour.rows - 1; ++v) {
-    for (int u = 1; u < eye.colour.cols - 1; ++u) {
-      const cv::Vec3d colour = eye.colour.at<cv::Vec3b>(v, u);
+void add_up(const RenderedImage& image, const test::FinerImage& fine, const test::RayCaster& caster,
+            Worst& worst) {
+  for (int v = 1; v < image.colour.rows - 1; ++v) {
+    for (int u = 1; u < image.colour.cols - 1; ++u) {
+      const cv::Vec3d colour = image.colour.at<cv::Vec3b>(v, u);
       const double off = cv::norm(colour - fine.mean_colour(u, v), cv::NORM_INF);
       if (is_whole(caster, fine, u, v)) {
-        double& whole = eye.ball_id.at<std::uint8_t>(v, u) != 0 ? worst.whole_of_ball : worst.whole;
+        double& whole = image.ball_id.at<std::uint8_t>(v, u) != 0 ? worst.whole_of_ball : worst.whole;
         const double alone = cv::norm(colour - cv::Vec3d(fine.centre_colour(u, v)), cv::NORM_INF);
         whole = std::max(whole, std::min(alone, off));
       } else if (!fine.has_sliver(u, v)) {
@@ -141,7 +142,7 @@ TEST_P(Crossings, AreRightInTheWorstPixel) {
     const auto [left, right] = test::finer_pair(world, rig, {});
     test::RayCaster caster = caster_of(world, rig);
     add_up(frame.left, left, caster, worst);
-    caster.stand_at({}, vision::Eye::kRight);
+    caster.stand_at({}, vision::Side::kRight);
     add_up(frame.right, right, caster, worst);
   }
   const bool is_round = front == Thing::kRoundMesh || behind == Thing::kRoundMesh;

@@ -1,6 +1,6 @@
 /// Pixels along the edges of walls and meshes against pictures of five times the size.
 ///
-/// Mutations seen red here: the right eye as the left one sees, no smoothing of the left one; shares that
+/// Mutations seen red here: the right camera as the left one sees, no smoothing of the left one; shares that
 /// know no slope, half a pixel added, sides exchanged; no depth test; edges that lie on each other mixed
 /// twice; nothing done where an edge may be snapped to the other side; edges followed by columns alone; no
 /// meshes, no horizon; the second pixel of a pair left as it was.
@@ -63,8 +63,8 @@ worlds::World plain_room(std::uint64_t seed) {
   return world;
 }
 
-/// Adds up what one eye's picture is off.
-void add_up(const cv::Mat& colour, const cv::Mat& facet, const test::FinerEye& fine, Errors& errors) {
+/// Adds up what one camera's picture is off.
+void add_up(const cv::Mat& colour, const cv::Mat& facet, const test::FinerImage& fine, Errors& errors) {
   for (int v = 1; v < colour.rows - 1; ++v) {
     for (int u = 1; u < colour.cols - 1; ++u) {
       const cv::Vec3d truth = fine.mean_colour(u, v);
@@ -204,7 +204,7 @@ TEST_P(AlmostThroughCentres, AreMixedWhicheverSideIsSeen) {
   vision::StereoRig rig = test::small_rig();
   rig.pitch_down_rad = 0.0;
   const double row = 100.0 + GetParam();
-  const double height_m = rig.height_m + 3.0 * (rig.camera.cy_px - row) / rig.camera.focal_px;
+  const double height_m = rig.height_m + 3.0 * (rig.intrinsics.cy_px - row) / rig.intrinsics.focal_px;
   const Errors errors = compare(walls({{{3.0, -5.0}, {3.0, 5.0}, height_m}}), {}, rig);
   EXPECT_GT(errors.edges, 700);
   EXPECT_EQ(errors.far_off, 0);
@@ -221,9 +221,9 @@ TEST_P(SmoothEdges, TouchNothingButEdges) {
   const vision::StereoRig rig = test::small_rig();
   Renderer renderer(world, rig);
   const slam::Pose pose{0.0, 0.0, 0.2};
-  const EyeFrame once = renderer.render(pose).left;
+  const RenderedImage once = renderer.render(pose).left;
   const IdBuffer sight = renderer.id_buffers(pose, pose).left;
-  EyeFrame twice = once;
+  RenderedImage twice = once;
   twice.colour = once.colour.clone();
   mix_edges(EdgeSmoother(world, place_meshes(world)).mixes(sight.view, twice), {}, twice);
   int touched = 0, edges = 0;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 #include "renderer/renderer.h"
 #include "slam/math/random.h"
 #include "tests/renderer/folder.h"
@@ -112,7 +112,7 @@ struct Place {
 
 /// A point of a surface, as a picture that lies on it counts: to the right and up a wall, east and north on
 /// the floor.
-std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d& eye_m,
+std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d& camera_m,
                               const Eigen::Vector3d& point_m) {
   if (std::abs(point_m.z()) < 1e-4) return Place{-1, point_m.head<2>()};
   for (int i = 0; i < static_cast<int>(world.walls.size()); ++i) {
@@ -121,7 +121,7 @@ std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d&
     const double along_m = run.normalized().dot(offset);
     if (std::abs(run.normalized().x() * offset.y() - run.normalized().y() * offset.x()) < 1e-4 &&
         along_m > 0.0 && along_m < run.norm()) {
-      const Eigen::Vector2d sight = point_m.head<2>() - eye_m.head<2>();
+      const Eigen::Vector2d sight = point_m.head<2>() - camera_m.head<2>();
       const bool to_the_right = sight.x() * run.y() - sight.y() * run.x() < 0.0;
       return Place{i, {to_the_right ? along_m : -along_m, point_m.z()}};
     }
@@ -130,7 +130,7 @@ std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d&
 }
 
 /// What a pixel's centre sees, by its depth; world frame.
-Eigen::Vector3d seen_point(const EyeView& view, const EyeFrame& frame, int u, int v) {
+Eigen::Vector3d seen_point(const CameraView& view, const RenderedImage& frame, int u, int v) {
   return view.camera_from_world.inverse() *
          (double{frame.depth_m.at<float>(v, u)} * line_of_sight(view, {double(u), double(v)}));
 }
@@ -153,8 +153,8 @@ TEST(SurfaceTexture, ShowsEachPlaceItsTexel) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     slam::RandomStream random(seed, slam::Stream::kWorld);
     const slam::Pose pose = random_pose(random);
-    const EyeFrame frame = renderer.render(pose).right;
-    const EyeView view = eye_view(rig, vision::Eye::kRight, pose);
+    const RenderedImage frame = renderer.render(pose).right;
+    const CameraView view = camera_view(rig, vision::Side::kRight, pose);
     for (int v = 1; v + 1 < frame.depth_m.rows; ++v) {
       for (int u = 1; u + 1 < frame.depth_m.cols; ++u) {
         const auto at = [&](int du, int dv) {
@@ -197,16 +197,16 @@ TEST(SurfaceTexture, HasItsCornersWhereTheyProject) {
   world.floor = worlds::Material::kPlain;
   const vision::StereoRig rig = test::small_rig();
   const StereoFrame frame = Renderer(world, rig).render({});
-  const EyeView view = eye_view(rig, vision::Eye::kLeft, {});
+  const CameraView view = camera_view(rig, vision::Side::kLeft, {});
   const Eigen::Vector2d along = (world.walls[0].to_m - world.walls[0].from_m).normalized();
   std::vector<cv::Point2f> expected, found;
   for (int i = 1; i < 14; ++i) {
     for (int j = 1; j < 8; ++j) {
       const Eigen::Vector2d foot = world.walls[0].from_m + 0.3 * i * along;
-      const Eigen::Vector2d px =
-          vision::project(rig.camera, view.camera_from_world * Eigen::Vector3d(foot.x(), foot.y(), 0.3 * j));
-      if (px.x() > 12 && px.y() > 12 && px.x() < rig.camera.width_px - 13 &&
-          px.y() < rig.camera.height_px - 13)
+      const Eigen::Vector2d px = vision::project(
+          rig.intrinsics, view.camera_from_world * Eigen::Vector3d(foot.x(), foot.y(), 0.3 * j));
+      if (px.x() > 12 && px.y() > 12 && px.x() < rig.intrinsics.width_px - 13 &&
+          px.y() < rig.intrinsics.height_px - 13)
         expected.emplace_back(static_cast<float>(px.x()), static_cast<float>(px.y()));
     }
   }

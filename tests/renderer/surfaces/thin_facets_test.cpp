@@ -9,7 +9,7 @@
 #include "renderer/renderer.h"
 #include "renderer/truth/correspondence.h"
 #include "renderer/truth/distorted_ids.h"
-#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/pixel_truth.h"
 #include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 #include "vision/camera/distortion.h"
@@ -39,7 +39,7 @@ std::string column_file(int sides, int bands) {
       "column_" + std::to_string(sides) + "_" + std::to_string(bands) + ".obj", text + "\n");
 }
 
-/// Columns in a room, seen by both eyes.
+/// Columns in a room, seen by both cameras.
 struct ColumnRoom {
   ColumnRoom(std::uint64_t seed, bool has_lens) : world(with_columns(seed)), scene(world) {
     slam::RandomStream random(seed, slam::Stream::kOdometry);
@@ -78,13 +78,13 @@ struct ColumnRoom {
 
 class ThinFacets : public testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
-// A pixel's ray and range say where its point is, and that where the other eye sees it. Red before: shifts of
-// another point, the facet's nearest one, where the ray passes by its facet (up to px behind a lens).
+// A pixel's ray and range say where its point is, and that where the other camera sees it. Red before: shifts
+// of another point, the facet's nearest one, where the ray passes by its facet (up to px behind a lens).
 TEST_P(ThinFacets, ShiftsAreThoseOfThePixelsOwnRange) {
   const auto [seed, has_lens] = GetParam();
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
-  const EyeTruth truth = eye_truth(room.scene, room.left);
+  const PixelTruth truth = pixel_truth(room.scene, room.left);
   const PixelRays lines(room.left.view);
   double worst_px = 0.0;
   int compared = 0;
@@ -105,14 +105,14 @@ TEST_P(ThinFacets, ShiftsAreThoseOfThePixelsOwnRange) {
   EXPECT_GT(compared, 50000);
 }
 
-// Of pixels that see a wall or the floor, those that count as seen have a line to the other eye that no
+// Of pixels that see a wall or the floor, those that count as seen have a line to the other camera that no
 // facet of a column cuts: all facets are asked. Red before: facets that none of four pixels sees.
 TEST_P(ThinFacets, HideWhatIsBehindClosedMeshes) {
   const auto [seed, has_lens] = GetParam();
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
   const PixelRays lines(room.left.view);
-  const Eigen::Vector3d eye_m = room.right.view.centre_in_world();
+  const Eigen::Vector3d camera_m = room.right.view.centre_in_world();
   const int first = first_mesh_facet(room.world);
   const int last = first + 2 * (400 + 180 + 960 + 3000) + 398 + 58 + 22 + 98;
   int open = 0, hidden = 0;
@@ -123,7 +123,7 @@ TEST_P(ThinFacets, HideWhatIsBehindClosedMeshes) {
       hidden += occlusion == Occlusion::kHidden ? 1 : 0;
       if (facet >= first || occlusion != Occlusion::kSeen) continue;
       const Eigen::Vector3d point = room.scene.seen(facet, lines(u, v)).on_facet;
-      const Ray line{eye_m, point - eye_m};
+      const Ray line{camera_m, point - camera_m};
       bool cut = false;
       for (int other = first; other < last && !cut; ++other) cut = room.scene.enter(other, line) < 1.0 - 1e-9;
       open += cut ? 1 : 0;

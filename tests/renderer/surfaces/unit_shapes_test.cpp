@@ -76,7 +76,7 @@ TEST(UnitShapes, AreSurfacesOfTheirPaintAndNoBalls) {
   const std::size_t of_box = triangles.size();
   for (const Triangle& t : placed(world.meshes[1])) triangles.push_back(t);
   test::RayCaster caster(world, test::small_rig(), triangles);
-  caster.stand_at({}, vision::Eye::kLeft);
+  caster.stand_at({}, vision::Side::kLeft);
   const int first = static_cast<int>(world.balls.size() + world.walls.size()) + 1;
   int on_box = 0, on_ball = 0;
   for (int v = 2; v < 298; ++v) {
@@ -110,7 +110,7 @@ TEST(UnitShapes, AreSurfacesOfTheirPaintAndNoBalls) {
 }
 
 /// Mean colour of a picture's pixels where they are of one identity and depth is finite.
-cv::Scalar mean_of(const EyeFrame& frame, int id) {
+cv::Scalar mean_of(const RenderedImage& frame, int id) {
   return cv::mean(frame.colour, frame.ball_id == id);
 }
 

@@ -120,7 +120,7 @@ TEST_P(Textured, EveryPixelIsWhatTheReferenceFilters) {
     for (Eigen::Vector3d& c : t.corners)
       c = Eigen::Vector3d(x_m, 0.0, -0.5) + Eigen::Vector3d(1.0, scale, scale).cwiseProduct(c);
   test::RayCaster caster(world, rig, triangles);
-  caster.stand_at(pose, vision::Eye::kLeft);
+  caster.stand_at(pose, vision::Side::kLeft);
   const auto place = [&](double u, double v) {
     const Eigen::Vector3d p = caster.look(u, v).point_m;
     return Eigen::Vector2d((scale - p.y()) / (2.0 * scale) * bgr.cols,

@@ -17,7 +17,7 @@
 namespace stereobench::renderer {
 namespace {
 
-using vision::Eye;
+using vision::Side;
 
 constexpr int kBeyond_px = 150;  // how far outside of the picture is counted
 
@@ -50,27 +50,28 @@ TEST_P(BallTruths, CountAndBoxThePixelsThatRaysCount) {
   Renderer renderer(world, rig);
   const StereoFrame frame = renderer.render(pose);
   int balls = 0;
-  for (const auto& [eye, seen] : {std::pair(Eye::kLeft, &frame.left), std::pair(Eye::kRight, &frame.right)}) {
+  for (const auto& [side, seen] :
+       {std::pair(Side::kLeft, &frame.left), std::pair(Side::kRight, &frame.right)}) {
     test::RayCaster all(world, rig);
-    all.stand_at(pose, eye);
-    for (const BallTruth& truth : ball_truths(world, eye_view(rig, eye, pose), seen->ball_id)) {
+    all.stand_at(pose, side);
+    for (const BallTruth& truth : ball_truths(world, camera_view(rig, side, pose), seen->ball_id)) {
       const worlds::Ball& ball = world.balls[static_cast<std::size_t>(truth.ball)];
       if (truth.outline.semi_major_px > kBeyond_px / 2) continue;
       test::RayCaster alone(worlds::World{.balls = {ball}}, rig);
-      alone.stand_at(pose, eye);
+      alone.stand_at(pose, side);
       const std::string what = "ball " + std::to_string(truth.ball);
-      const PixelSet whole = counted(alone, 1, rig.camera, kBeyond_px);
-      const PixelSet inside = counted(alone, 1, rig.camera, 0);
-      const PixelSet visible = counted(all, truth.ball + 1, rig.camera, 0);
+      const PixelSet whole = counted(alone, 1, rig.intrinsics, kBeyond_px);
+      const PixelSet inside = counted(alone, 1, rig.intrinsics, 0);
+      const PixelSet visible = counted(all, truth.ball + 1, rig.intrinsics, 0);
       expect_same(whole, truth.px_count_all, truth.bbox_obj, what);
       expect_same(visible, truth.px_count_visib, truth.bbox_visib, what);
       EXPECT_DOUBLE_EQ(truth.visib_fract, double(visible.count) / double(whole.count));
       EXPECT_TRUE(inside.count == whole.count || truth.truncated) << what;
       const Eigen::Vector3d centre = all.in_camera(ball.centre_m);
-      EXPECT_NEAR(truth.centre_px.x(), rig.camera.cx_px + rig.camera.focal_px * centre.x() / centre.z(),
-                  1e-9);
-      EXPECT_NEAR(truth.centre_px.y(), rig.camera.cy_px + rig.camera.focal_px * centre.y() / centre.z(),
-                  1e-9);
+      EXPECT_NEAR(truth.centre_px.x(),
+                  rig.intrinsics.cx_px + rig.intrinsics.focal_px * centre.x() / centre.z(), 1e-9);
+      EXPECT_NEAR(truth.centre_px.y(),
+                  rig.intrinsics.cy_px + rig.intrinsics.focal_px * centre.y() / centre.z(), 1e-9);
       EXPECT_LT((truth.centre_in_camera_m - centre).norm(), 1e-12);
       ++balls;
     }
@@ -80,16 +81,16 @@ TEST_P(BallTruths, CountAndBoxThePixelsThatRaysCount) {
 
 INSTANTIATE_TEST_SUITE_P(Rooms, BallTruths, testing::Range(std::uint64_t{0}, std::uint64_t{5}));
 
-/// A ball before the left eye alone, at a place in its picture.
+/// A ball before the left camera alone, at a place in its picture.
 BallTruth ball_at(double u_px, double v_px, double radius_px) {
   const vision::StereoRig rig = test::rig_looking_up();
   const double depth_m = 2.0;
-  const Eigen::Vector3d in_camera = depth_m * vision::pixel_ray(rig.camera, {u_px, v_px});
-  const worlds::Ball ball{vision::robot_from_camera(rig, Eye::kLeft) * in_camera,
-                          radius_px * depth_m / rig.camera.focal_px, 0};
+  const Eigen::Vector3d in_camera = depth_m * vision::pixel_ray(rig.intrinsics, {u_px, v_px});
+  const worlds::Ball ball{vision::robot_from_camera(rig, Side::kLeft) * in_camera,
+                          radius_px * depth_m / rig.intrinsics.focal_px, 0};
   const worlds::World world = test::flat_sky({ball});
   const StereoFrame frame = Renderer(world, rig).render({});
-  return ball_truths(world, eye_view(rig, Eye::kLeft, {}), frame.left.ball_id).at(0);
+  return ball_truths(world, camera_view(rig, Side::kLeft, {}), frame.left.ball_id).at(0);
 }
 
 TEST(BallTruth, IsTruncatedFromTheFirstHundredthOfAPixelOn) {
@@ -121,7 +122,7 @@ TEST(BallTruth, SaysNothingOfBallsThatAreOutOfThePictureOrBehind) {
   const worlds::World world = test::flat_sky({{{-1.0, 0.0, 0.3}, 0.1, 0}, {{0.5, 5.0, 0.3}, 0.1, 0}});
   const vision::StereoRig rig = test::small_rig();
   const StereoFrame frame = Renderer(world, rig).render({});
-  EXPECT_TRUE(ball_truths(world, eye_view(rig, Eye::kLeft, {}), frame.left.ball_id).empty());
+  EXPECT_TRUE(ball_truths(world, camera_view(rig, Side::kLeft, {}), frame.left.ball_id).empty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "renderer/camera/lens.h"
 #include "renderer/renderer.h"
 #include "renderer/truth/correspondence.h"
-#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/pixel_truth.h"
 #include "tests/renderer/random_scene.h"
 #include "tests/renderer/ray_caster.h"
 #include "tests/renderer/wedge.h"
@@ -21,9 +21,9 @@
 namespace stereobench::renderer {
 namespace {
 
-using vision::Eye;
+using vision::Side;
 
-/// A room with a mesh, behind lenses that bend lines by many pixels; the right eye is out of place.
+/// A room with a mesh, behind lenses that bend lines by many pixels; the right camera is out of place.
 struct BentRoom {
   explicit BentRoom(std::uint64_t seed)
       : world(test::random_room(seed)), triangles(test::add_wedge(world)), scene(world) {
@@ -36,11 +36,11 @@ struct BentRoom {
     right = distorted_ids(scene, straight.right, rig);
   }
 
-  test::RayCaster caster(Eye eye) const {
+  test::RayCaster caster(Side side) const {
     vision::StereoRig straight = rig;
     straight.distortion = {};
     test::RayCaster caster(world, straight, triangles);
-    caster.stand_at(pose, eye);
+    caster.stand_at(pose, side);
     return caster;
   }
 
@@ -72,9 +72,10 @@ class BehindALens : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(BehindALens, EveryPixelHasWhatItsRayMeets) {
   const BentRoom room(GetParam());
   int others = 0, wrong_ranges = 0, wrong_normals = 0;
-  for (const auto& [sight, eye] : {std::pair(&room.left, Eye::kLeft), std::pair(&room.right, Eye::kRight)}) {
-    const test::RayCaster caster = room.caster(eye);
-    const EyeTruth truth = eye_truth(room.scene, *sight);
+  for (const auto& [sight, side] :
+       {std::pair(&room.left, Side::kLeft), std::pair(&room.right, Side::kRight)}) {
+    const test::RayCaster caster = room.caster(side);
+    const PixelTruth truth = pixel_truth(room.scene, *sight);
     for (int v = 0; v < truth.surface.rows; ++v) {
       for (int u = 0; u < truth.surface.cols; ++u) {
         const test::Sight ray = room.look(caster, u, v);
@@ -96,10 +97,10 @@ TEST_P(BehindALens, EveryPixelHasWhatItsRayMeets) {
 }
 
 // Mutation: places in the other picture without its lens.
-TEST_P(BehindALens, EveryPixelIsInTheOtherEyeWhereAnotherRaySaysItIs) {
+TEST_P(BehindALens, EveryPixelIsInTheOtherCameraWhereAnotherRaySaysItIs) {
   const BentRoom room(GetParam());
   const Correspondence found = correspond(room.scene, room.left, room.right);
-  const test::RayCaster from = room.caster(Eye::kLeft), to = room.caster(Eye::kRight);
+  const test::RayCaster from = room.caster(Side::kLeft), to = room.caster(Side::kRight);
   int wrong_shifts = 0, wrong_fates = 0, hidden = 0, outside = 0;
   for (int v = 0; v < found.occlusion.rows; ++v) {
     for (int u = 0; u < found.occlusion.cols; ++u) {
@@ -113,7 +114,7 @@ TEST_P(BehindALens, EveryPixelIsInTheOtherEyeWhereAnotherRaySaysItIs) {
       }
       const Eigen::Vector3d point = to.in_camera(ray.point_m);
       const Eigen::Vector2d place = vision::image_point(room.rig, point);
-      const bool is_inside = point.z() > 0.01 && vision::is_inside(room.rig.camera, place);
+      const bool is_inside = point.z() > 0.01 && vision::is_inside(room.rig.intrinsics, place);
       const Occlusion expected = !is_inside ? Occlusion::kOutside
                                  : room.look(to, place.x(), place.y()).depth_m < point.z() * (1.0 - 1e-7)
                                      ? Occlusion::kHidden
@@ -150,7 +151,8 @@ TEST(DistortedIds, OfALensThatDoesNotBendIsThePinholes) {
 /// a little beside the middle of the pinhole's pixels.
 worlds::World cracked_wall(const vision::StereoRig& rig, int column) {
   constexpr double kAhead_m = 3.0, kCrack_m = 1e-6;
-  const double aside_m = 0.5 * rig.baseline_m - kAhead_m * (column - rig.camera.cx_px) / rig.camera.focal_px;
+  const double aside_m =
+      0.5 * rig.baseline_m - kAhead_m * (column - rig.intrinsics.cx_px) / rig.intrinsics.focal_px;
   worlds::World world;
   world.walls = {{{kAhead_m, 9.0}, {kAhead_m, aside_m + kCrack_m}, 9.0},
                  {{kAhead_m, aside_m - kCrack_m}, {kAhead_m, -9.0}, 9.0}};
@@ -191,7 +193,7 @@ TEST(DistortedIds, HasNoPlaceForWhatTheLensWouldFold) {
     return distorted_ids(scene, renderer.id_buffers(pose, pose).left, rig);
   };
   const IdBuffer ahead = look(0.0), aside = look(1.1);
-  const EyeTruth truth = eye_truth(scene, ahead);
+  const PixelTruth truth = pixel_truth(scene, ahead);
   const Correspondence found = correspond(scene, ahead, aside);
   const PixelRays lines(ahead.view);
   int folded = 0, seen = 0;
@@ -202,7 +204,7 @@ TEST(DistortedIds, HasNoPlaceForWhatTheLensWouldFold) {
           aside.view.camera_from_world *
           (line.origin_m + double{truth.range_m.at<float>(v, u)} * line.direction.normalized());
       if (!(point.z() > 0.01 && point.head<2>().norm() > 1.2 * point.z())) continue;
-      folded += vision::is_inside(rig.camera, vision::image_point(rig, point)) ? 1 : 0;
+      folded += vision::is_inside(rig.intrinsics, vision::image_point(rig, point)) ? 1 : 0;
       seen += static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) == Occlusion::kOutside ? 0 : 1;
     }
   }
@@ -217,9 +219,9 @@ TEST(Sight, OfSomeRowsIsTheWholeOnes) {
   const slam::Pose pose = test::random_pose(6);
   Renderer renderer(world, test::small_rig());
   const SceneGeometry scene(world);
-  const EyeTruth whole = eye_truth(scene, renderer.id_buffers(pose, pose).right);
+  const PixelTruth whole = pixel_truth(scene, renderer.id_buffers(pose, pose).right);
   const cv::Range rows(101, 160);
-  const EyeTruth part = eye_truth(scene, renderer.id_buffers(pose, pose, rows).right);
+  const PixelTruth part = pixel_truth(scene, renderer.id_buffers(pose, pose, rows).right);
   EXPECT_EQ(cv::countNonZero(part.surface != whole.surface.rowRange(rows)), 0);
   EXPECT_LE(cv::norm(part.range_m, whole.range_m.rowRange(rows), cv::NORM_INF), 1e-5);
   EXPECT_LE(cv::norm(part.normal, whole.normal.rowRange(rows), cv::NORM_INF), 1e-6);

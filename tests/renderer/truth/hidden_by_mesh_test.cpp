@@ -20,23 +20,24 @@ namespace stereobench::renderer {
 namespace {
 
 using test::between;
-using vision::Eye;
+using vision::Side;
 
-/// Which share of each ball the eye sees that sees less of it; none of those outside of a picture.
+/// Which share of each ball the camera sees that sees less of it; none of those outside of a picture.
 std::map<int, double> shares_seen(Renderer& renderer, const worlds::World& world,
                                   const vision::StereoRig& rig, const slam::Pose& pose) {
   const StereoFrame frame = renderer.render(pose);
   std::map<int, double> shares;
-  std::map<int, int> eyes;
-  for (const auto& [eye, seen] : {std::pair(Eye::kLeft, &frame.left), std::pair(Eye::kRight, &frame.right)}) {
-    for (const BallTruth& truth : ball_truths(world, eye_view(rig, eye, pose), seen->ball_id)) {
+  std::map<int, int> cameras;
+  for (const auto& [side, seen] :
+       {std::pair(Side::kLeft, &frame.left), std::pair(Side::kRight, &frame.right)}) {
+    for (const BallTruth& truth : ball_truths(world, camera_view(rig, side, pose), seen->ball_id)) {
       if (truth.truncated || truth.px_count_all == 0) continue;
-      const double share = std::min(truth.visib_fract, eyes[truth.ball] > 0 ? shares[truth.ball] : 1.0);
+      const double share = std::min(truth.visib_fract, cameras[truth.ball] > 0 ? shares[truth.ball] : 1.0);
       shares[truth.ball] = share;
-      ++eyes[truth.ball];
+      ++cameras[truth.ball];
     }
   }
-  std::erase_if(shares, [&](const auto& entry) { return eyes[entry.first] < 2; });
+  std::erase_if(shares, [&](const auto& entry) { return cameras[entry.first] < 2; });
   return shares;
 }
 

@@ -1,8 +1,8 @@
 /// Identities and depth of every pixel against the double-precision ray-caster.
 ///
-/// Mutations seen red here: half a pixel added to u, to v, or to the balls' centres only; the eyes swapped;
-/// the rows flipped; the near root of the sphere exchanged for the far one; rims that write identity or
-/// depth; no depth test; a mesh without its scale; 16 bits of depth.
+/// Mutations seen red here: half a pixel added to u, to v, or to the balls' centres only; the cameras
+/// swapped; the rows flipped; the near root of the sphere exchanged for the far one; rims that write identity
+/// or depth; no depth test; a mesh without its scale; 16 bits of depth.
 
 #include <cmath>
 #include <limits>
@@ -48,7 +48,8 @@ bool seen_beside(const test::RayCaster& caster, const cv::Point& at, double dept
   return std::abs(depth_m - truth_m) <= 1.001 * (most_m - least_m);  // four looks do not meet the extremes
 }
 
-void compare_pixel(const EyeFrame& frame, const test::RayCaster& caster, const cv::Point& at, Tally& tally) {
+void compare_pixel(const RenderedImage& frame, const test::RayCaster& caster, const cv::Point& at,
+                   Tally& tally) {
   const test::Sight truth = caster.look(at.x, at.y);
   const double depth_m = double{frame.depth_m.at<float>(at)};
   ++tally.pixels;
@@ -68,7 +69,7 @@ void compare_pixel(const EyeFrame& frame, const test::RayCaster& caster, const c
   ++tally.near_pixels;
 }
 
-void compare_eye(const EyeFrame& frame, const test::RayCaster& caster, Tally& tally) {
+void compare_image(const RenderedImage& frame, const test::RayCaster& caster, Tally& tally) {
   for (int v = 0; v < frame.depth_m.rows; ++v) {
     for (int u = 0; u < frame.depth_m.cols; ++u) compare_pixel(frame, caster, {u, v}, tally);
   }
@@ -76,10 +77,10 @@ void compare_eye(const EyeFrame& frame, const test::RayCaster& caster, Tally& ta
 
 Tally compare(const StereoFrame& frame, test::RayCaster caster, const slam::Pose& pose) {
   Tally tally;
-  caster.stand_at(pose, vision::Eye::kLeft);
-  compare_eye(frame.left, caster, tally);
-  caster.stand_at(pose, vision::Eye::kRight);
-  compare_eye(frame.right, caster, tally);
+  caster.stand_at(pose, vision::Side::kLeft);
+  compare_image(frame.left, caster, tally);
+  caster.stand_at(pose, vision::Side::kRight);
+  compare_image(frame.right, caster, tally);
   return tally;
 }
 
@@ -162,9 +163,9 @@ TEST(Truth, AMeshStandsTurnsAndScalesAsTheScenarioSays) {
 
 TEST(Truth, NothingIsInfinitelyFar) {
   const StereoFrame frame = Renderer(test::flat_sky({}), test::rig_looking_up()).render({});
-  for (const EyeFrame* eye : {&frame.left, &frame.right}) {
-    EXPECT_EQ(cv::countNonZero(eye->depth_m == std::numeric_limits<float>::infinity()), 400 * 300);
-    EXPECT_EQ(cv::countNonZero(eye->ball_id), 0);
+  for (const RenderedImage* image : {&frame.left, &frame.right}) {
+    EXPECT_EQ(cv::countNonZero(image->depth_m == std::numeric_limits<float>::infinity()), 400 * 300);
+    EXPECT_EQ(cv::countNonZero(image->ball_id), 0);
   }
 }
 

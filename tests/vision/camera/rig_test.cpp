@@ -9,11 +9,11 @@
 namespace stereobench::vision {
 namespace {
 
-// Catches: a baseline of the wrong sign, swapped eyes.
-TEST(Rig, EyesStandHalfABaselineLeftAndRightOfTheRobot) {
+// Catches: a baseline of the wrong sign, swapped cameras.
+TEST(Rig, CamerasStandHalfABaselineLeftAndRightOfTheRobot) {
   const StereoRig rig;
-  const Eigen::Vector3d left = robot_from_camera(rig, Eye::kLeft) * Eigen::Vector3d::Zero();
-  const Eigen::Vector3d right = robot_from_camera(rig, Eye::kRight) * Eigen::Vector3d::Zero();
+  const Eigen::Vector3d left = robot_from_camera(rig, Side::kLeft) * Eigen::Vector3d::Zero();
+  const Eigen::Vector3d right = robot_from_camera(rig, Side::kRight) * Eigen::Vector3d::Zero();
   EXPECT_LT((left - Eigen::Vector3d(0.0, 0.06, 0.30)).norm(), 1e-12);
   EXPECT_LT((right - Eigen::Vector3d(0.0, -0.06, 0.30)).norm(), 1e-12);
 }
@@ -36,34 +36,34 @@ TEST(Rig, PitchedDownTheOpticalAxisMeetsTheFloor) {
   EXPECT_NEAR(robot_from_left.linear().determinant(), 1.0, 1e-12);
 }
 
-TEST(Rig, BothEyesSeeTheSamePoint) {
+TEST(Rig, BothCamerasSeeTheSamePoint) {
   painter::Dice dice(4);
   StereoRig rig;
   rig.pitch_down_rad = 0.2;
   for (int i = 0; i < 100; ++i) {
     if (i == 50) rig.right_turn_rad = {0.01, -0.02, 0.03};
     const Eigen::Vector3d in_left(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(0.5, 9));
-    const Eigen::Vector3d in_right = point_in_eye(rig, in_left, Eye::kRight);
-    ASSERT_LT((robot_from_camera(rig) * in_left - robot_from_camera(rig, Eye::kRight) * in_right).norm(),
+    const Eigen::Vector3d in_right = camera_point(rig, in_left, Side::kRight);
+    ASSERT_LT((robot_from_camera(rig) * in_left - robot_from_camera(rig, Side::kRight) * in_right).norm(),
               1e-12);
     if (i < 50) {
-      ASSERT_GT(project(rig.camera, in_left).x(), project(rig.camera, in_right).x());
+      ASSERT_GT(project(rig.intrinsics, in_left).x(), project(rig.intrinsics, in_right).x());
     }
   }
 }
 
 // Small turns: about x what is seen moves along the column, about y along the row.
-TEST(Rig, ATurnedRightEyeSeesPointsElsewhere) {
+TEST(Rig, ATurnedRightCameraSeesPointsElsewhere) {
   StereoRig rig;
   const Eigen::Vector3d ahead(rig.baseline_m, 0.0, 5.0);
   rig.right_turn_rad = {0.001, 0.0, 0.0};
-  Eigen::Vector2d moved = project(rig.camera, point_in_eye(rig, ahead, Eye::kRight));
-  EXPECT_NEAR(moved.x(), rig.camera.cx_px, 1e-9);
-  EXPECT_NEAR(moved.y(), rig.camera.cy_px + 0.001 * rig.camera.focal_px, 1e-3);
+  Eigen::Vector2d moved = project(rig.intrinsics, camera_point(rig, ahead, Side::kRight));
+  EXPECT_NEAR(moved.x(), rig.intrinsics.cx_px, 1e-9);
+  EXPECT_NEAR(moved.y(), rig.intrinsics.cy_px + 0.001 * rig.intrinsics.focal_px, 1e-3);
   rig.right_turn_rad = {0.0, 0.001, 0.0};
-  moved = project(rig.camera, point_in_eye(rig, ahead, Eye::kRight));
-  EXPECT_NEAR(moved.x(), rig.camera.cx_px - 0.001 * rig.camera.focal_px, 1e-3);
-  EXPECT_NEAR(moved.y(), rig.camera.cy_px, 1e-9);
+  moved = project(rig.intrinsics, camera_point(rig, ahead, Side::kRight));
+  EXPECT_NEAR(moved.x(), rig.intrinsics.cx_px - 0.001 * rig.intrinsics.focal_px, 1e-3);
+  EXPECT_NEAR(moved.y(), rig.intrinsics.cy_px, 1e-9);
 }
 
 // Catches: half a pixel in one of the two.
@@ -97,7 +97,7 @@ TEST(Rig, IsUsableOnlyWithFinitePositiveSizes) {
   rig.baseline_m = -0.12;
   EXPECT_FALSE(is_usable(rig));
   rig = {};
-  rig.camera.focal_px = std::nan("");
+  rig.intrinsics.focal_px = std::nan("");
   EXPECT_FALSE(is_usable(rig));
 }
 

@@ -157,7 +157,7 @@ TEST(EdgeProfile, OfAPictureTellsItsBlur) {
     scene.balls = painter::scattered_balls(rig, 1.0, 4.0, 31);
     EdgeProfile edge;
     for (const MeasuredOutline& outline :
-         find_outlines(painter::paint(scene, rig).left, rig.camera, {.noise_sd_levels = 2.0}))
+         find_outlines(painter::paint(scene, rig).left, rig.intrinsics, {.noise_sd_levels = 2.0}))
       edge.add(outline.edge);
     EXPECT_NEAR(edge.blur_px(), blur, 0.06) << blur;
   }

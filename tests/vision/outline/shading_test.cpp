@@ -26,8 +26,8 @@ struct LitBall {
   }
 };
 
-// The light source stands up to 120 degrees beside the eye: from further behind it lights nothing but the rim
-// itself.
+// The light source stands up to 120 degrees beside the camera: from further behind it lights nothing but the
+// rim itself.
 LitBall any_ball(painter::Dice& dice) {
   const double z = dice.uniform(0.4, 3.0);
   const Eigen::Vector3d ball(dice.uniform(-0.4, 0.4) * z, dice.uniform(-0.3, 0.3) * z, z);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kRadius_m = 0.06;
 constexpr int kBalls = 4000;
 
-/// A ball somewhere in view of both eyes, and what they measure of it.
+/// A ball somewhere in view of both cameras, and what they measure of it.
 struct Drawn {
   SizedBall ball;
   MeasuredOutline left, right;
@@ -45,8 +45,8 @@ Drawn draw(const StereoRig& rig, double radius_sd_m, std::uint64_t seed) {
   const Eigen::Vector2d aside(random.uniform() - 0.5, 0.6 * random.uniform() - 0.3);
   Drawn drawn;
   drawn.ball << aside * depth_m, depth_m, kRadius_m + radius_sd_m * random.normal();
-  drawn.left = measure(rig.camera, drawn.ball, random);
-  drawn.right = measure(rig.camera, drawn.ball - SizedBall(rig.baseline_m, 0.0, 0.0, 0.0), random);
+  drawn.left = measure(rig.intrinsics, drawn.ball, random);
+  drawn.right = measure(rig.intrinsics, drawn.ball - SizedBall(rig.baseline_m, 0.0, 0.0, 0.0), random);
   return drawn;
 }
 
@@ -82,8 +82,8 @@ constexpr double kOfMean =
     4.0 * std::numbers::sqrt2 / 63.2;  // four standard errors of a mean of 4000 squares
 
 // A known size has 8 R^2 / B^2 times the information of the disparity, so that the error is 1.73 times
-// smaller. Mutations: the size held to a tenth, as before it could be told (the ratio is 1); the eyes' radii
-// left out.
+// smaller. Mutations: the size held to a tenth, as before it could be told (the ratio is 1); the cameras'
+// radii left out.
 TEST(BallOfSize, ExactlyKnownIsMeasuredByItsSizeAsWell) {
   const double ratio = 8.0 * kRadius_m * kRadius_m / (StereoRig{}.baseline_m * StereoRig{}.baseline_m);
   const Errors errors = errors_with(0.0, 0.0);
@@ -134,19 +134,20 @@ TEST(BallOfSize, ThatContradictsItsDisparityClaimsSo) {
   EXPECT_NEAR(squares, 0.5, 0.1);
 }
 
-// Law: where a right eye is turned by so much that disparities tell nothing, the size does. The eye sees an
-// outline that is moved and stretched: a turn of half a degree that stretched nothing would be a disparity
-// off by a third. Mutation: the stretch left out of the covariance (345 of 400 balls fail, by 9 to 57 %).
-TEST(BallThroughATurnedEye, IsWhereItsSizeSays) {
+// Law: where a right camera is turned by so much that disparities tell nothing, the size does. The camera
+// sees an outline that is moved and stretched: a turn of half a degree that stretched nothing would be a
+// disparity off by a third. Mutation: the stretch left out of the covariance (345 of 400 balls fail, by 9 to
+// 57 %).
+TEST(BallThroughATurnedCamera, IsWhereItsSizeSays) {
   const StereoRig rig;
   StereoRig turned = rig;
   turned.right_turn_rad.y() = 0.5 * std::numbers::pi / 180.0;
-  const double sd_px = 0.0105 * rig.camera.focal_px;
+  const double sd_px = 0.0105 * rig.intrinsics.focal_px;
   for (int i = 0; i < 400; ++i) {
     Drawn drawn = draw(rig, 0.0, static_cast<std::uint64_t>(i));
     SizedBall in_right;
-    in_right << point_in_eye(turned, drawn.ball.head<3>(), Eye::kRight), kRadius_m;
-    const Eigen::Vector3d seen = seen_outline(rig.camera, in_right).outline_px;
+    in_right << camera_point(turned, drawn.ball.head<3>(), Side::kRight), kRadius_m;
+    const Eigen::Vector3d seen = seen_outline(rig.intrinsics, in_right).outline_px;
     drawn.right.centre_px = {seen.x(), drawn.left.centre_px.y()};  // rows tell of other turns
     drawn.right.radius_px = seen.z();
     const auto fit = fit_ball(rig, drawn.left, drawn.right, kRadius_m, sd_px * sd_px);

@@ -16,9 +16,9 @@ constexpr double kRadius_m = 0.05;
 
 OutlineCentres centres_of(const StereoRig& rig, const Eigen::Vector3d& ball, double sigma_px) {
   const Eigen::Matrix2d covariance = sigma_px * sigma_px * Eigen::Matrix2d::Identity();
-  return {sphere_outline(rig.camera, ball, kRadius_m)->centre_px,
-          sphere_outline(rig.camera, point_in_eye(rig, ball, Eye::kRight), kRadius_m)->centre_px, covariance,
-          covariance};
+  return {sphere_outline(rig.intrinsics, ball, kRadius_m)->centre_px,
+          sphere_outline(rig.intrinsics, camera_point(rig, ball, Side::kRight), kRadius_m)->centre_px,
+          covariance, covariance};
 }
 
 slam::RangeBearing measured(const StereoRig& rig, const OutlineCentres& centres,
@@ -102,7 +102,7 @@ TEST(RangeBearing, RangeSigmaGrowsWithTheSquareOfDepth) {
   const StereoRig rig;
   for (const double z : {2.0, 4.0, 8.0}) {
     const auto result = measured(rig, centres_of(rig, {0.06, 0.0, z}, 0.05), robot_from_camera(rig));
-    const double expected = z * z * std::sqrt(2.0) * 0.05 / (rig.camera.focal_px * rig.baseline_m);
+    const double expected = z * z * std::sqrt(2.0) * 0.05 / (rig.intrinsics.focal_px * rig.baseline_m);
     EXPECT_NEAR(std::sqrt(result.covariance(0, 0)), expected, 0.01 * expected);
   }
 }

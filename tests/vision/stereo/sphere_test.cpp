@@ -86,7 +86,7 @@ TEST(SphereOutline, IsEmptyUnlessTheWholeBallIsAhead) {
 }
 
 // Catches: front-surface depth (Z - R), uncorrected Z - R^2/Z, the projected centre, a baseline of the wrong
-// sign, half a pixel in one eye.
+// sign, half a pixel in one camera.
 // Law: the outline is sphere_outline's, and its derivative that of small changes of place and size.
 // Mutation: the radius' share of the centre's change left out.
 TEST(SeenOutline, IsTheEllipseAndItsDerivative) {
@@ -115,15 +115,15 @@ TEST(TriangulateBall, UndoesTheProjectionOfOutlines) {
   const StereoRig rig;
   for (int i = 0; i < kSpheres; ++i) {
     const Sphere sphere = random_sphere(dice);
-    const Sphere in_right{point_in_eye(rig, sphere.centre, Eye::kRight), sphere.radius_m};
-    const auto ball = triangulate_ball(rig, conic_centre(rig.camera, sphere),
-                                       conic_centre(rig.camera, in_right), sphere.radius_m);
+    const Sphere in_right{camera_point(rig, sphere.centre, Side::kRight), sphere.radius_m};
+    const auto ball = triangulate_ball(rig, conic_centre(rig.intrinsics, sphere),
+                                       conic_centre(rig.intrinsics, in_right), sphere.radius_m);
     ASSERT_TRUE(ball.has_value());
     ASSERT_LT((*ball - sphere.centre).norm(), 1e-6 * sphere.centre.norm()) << "sphere " << i;
   }
 }
 
-// Catches: swapped eyes.
+// Catches: swapped cameras.
 TEST(TriangulateBall, NeedsAPositiveDisparity) {
   const StereoRig rig;
   EXPECT_TRUE(triangulate_ball(rig, {520.0, 300.0}, {500.0, 300.0}, 0.05));

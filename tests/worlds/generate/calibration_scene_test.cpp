@@ -1,4 +1,4 @@
-// Galleries: what eyes are calibrated in.
+// Galleries: what cameras are calibrated in.
 #include "worlds/generate/calibration_scene.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace stereobench::worlds {
 namespace {
 
-Scenario eyes() {
+Scenario cameras() {
   Scenario scenario;
   scenario.rig.height_m = 0.4;
   scenario.rig.pitch_down_rad = 0.05;
@@ -27,10 +27,10 @@ Eigen::Vector3d in_left_camera(const Scenario& made, const slam::Pose& pose, con
 }
 
 // Every ball is there to be seen from one of the looks, above the floor, apart from all others; and every
-// look shows some. Mutations: a look's heading left out, or half a radian off; the right eye's view, the
+// look shows some. Mutations: a look's heading left out, or half a radian off; the right camera's view, the
 // floor or the room between balls not asked for.
-TEST(Gallery, ShowsEachBallToBothEyesInSomeLook) {
-  const Scenario scenario = eyes();
+TEST(Gallery, ShowsEachBallToBothCamerasInSomeLook) {
+  const Scenario scenario = cameras();
   const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Scenario made = gallery(scenario, {depths}, seed);
@@ -42,9 +42,9 @@ TEST(Gallery, ShowsEachBallToBothEyesInSomeLook) {
       for (std::size_t look = 0; look < shown.size(); ++look) {
         const Eigen::Vector3d left = in_left_camera(made, made.path[look].pose, ball);
         if (left.z() < depths.nearest_m - 1e-9 || left.z() > depths.farthest_m + 1e-9) continue;
-        const Eigen::Vector3d right = vision::point_in_eye(made.rig, left, vision::Eye::kRight);
-        const bool in_both = vision::project_if_visible(made.rig.camera, left) &&
-                             vision::project_if_visible(made.rig.camera, right);
+        const Eigen::Vector3d right = vision::camera_point(made.rig, left, vision::Side::kRight);
+        const bool in_both = vision::project_if_visible(made.rig.intrinsics, left) &&
+                             vision::project_if_visible(made.rig.intrinsics, right);
         shown[look] += in_both ? 1 : 0;
         looks += in_both ? 1 : 0;
       }
@@ -64,7 +64,7 @@ TEST(Gallery, ShowsEachBallToBothEyesInSomeLook) {
 // Of n balls whose logarithms of depth are uniform a quarter lies in each quarter, to 4 sqrt(3 n / 16); what
 // does not fit between others, or would lie below the floor, takes some of the near ones away.
 TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
-  const Scenario scenario = eyes();
+  const Scenario scenario = cameras();
   const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   std::array<int, 4> quarters{};
   int balls = 0;
@@ -83,7 +83,7 @@ TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
 }
 
 TEST(Gallery, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const Scenario scenario = eyes();
+  const Scenario scenario = cameras();
   const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   const World a = gallery(scenario, {depths}, 3).world;
   const World b = gallery(scenario, {depths}, 3).world;

@@ -18,11 +18,11 @@
 namespace stereobench::worlds {
 namespace {
 
-/// Whether a ray from an eye to a point meets a box, by its slabs.
-bool meets(const MeshInstance& box, const Eigen::Vector3d& eye, const Eigen::Vector3d& point) {
+/// Whether a ray from a camera to a point meets a box, by its slabs.
+bool meets(const MeshInstance& box, const Eigen::Vector3d& camera, const Eigen::Vector3d& point) {
   const Eigen::AngleAxisd back(-box.heading_rad, Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d from = back * (eye - box.position_m);
-  const Eigen::Vector3d way = back * (point - eye);
+  const Eigen::Vector3d from = back * (camera - box.position_m);
+  const Eigen::Vector3d way = back * (point - camera);
   const Eigen::Vector3d low(-0.5 * box.scale.x(), -0.5 * box.scale.y(), 0.0);
   const Eigen::Vector3d high(0.5 * box.scale.x(), 0.5 * box.scale.y(), box.scale.z());
   double begin = 0.0, end = 1.0;
@@ -34,15 +34,15 @@ bool meets(const MeshInstance& box, const Eigen::Vector3d& eye, const Eigen::Vec
   return begin < end;
 }
 
-/// Whether a thing stands before a ball: rays to its outline and middle, as it is seen from the eye.
-bool is_hidden(const World& world, const Ball& ball, const Eigen::Vector2d& eye_m, double height_m) {
-  const Eigen::Vector3d eye(eye_m.x(), eye_m.y(), height_m);
-  const Eigen::Vector3d sight = (ball.centre_m - eye).normalized();
+/// Whether a thing stands before a ball: rays to its outline and middle, as it is seen from the camera.
+bool is_hidden(const World& world, const Ball& ball, const Eigen::Vector2d& camera_m, double height_m) {
+  const Eigen::Vector3d camera(camera_m.x(), camera_m.y(), height_m);
+  const Eigen::Vector3d sight = (ball.centre_m - camera).normalized();
   const Eigen::Vector3d side = sight.unitOrthogonal();
   for (int k = 0; k < 24; ++k) {
     const Eigen::Vector3d rim = Eigen::AngleAxisd(k * M_PI / 12.0, sight) * side * (0.99 * ball.radius_m);
     for (const MeshInstance& mesh : world.meshes)
-      if (mesh.shape != MeshShape::kFile && meets(mesh, eye, ball.centre_m + rim)) return true;
+      if (mesh.shape != MeshShape::kFile && meets(mesh, camera, ball.centre_m + rim)) return true;
   }
   return false;
 }
@@ -60,20 +60,20 @@ TEST_P(Scattered, ThingsLeaveEnoughBallsInViewAtEachStep) {
   int hidden = 0;
   for (const PathStep& step : scenario.path) {
     std::array<std::vector<bool>, 2> whole;
-    std::array<Eigen::Vector2d, 2> eyes;
-    for (const std::size_t eye : {0U, 1U}) {
-      const double left_m = (eye == 0 ? 0.5 : -0.5) * scenario.rig.baseline_m;
-      eyes[eye] = eye_in_world(step.pose, left_m);
-      whole[eye] = whole_in_eye(scenario, bare, step.pose, left_m);
+    std::array<Eigen::Vector2d, 2> cameras;
+    for (const std::size_t side : {0U, 1U}) {
+      const double left_m = (side == 0 ? 0.5 : -0.5) * scenario.rig.baseline_m;
+      cameras[side] = camera_in_world(step.pose, left_m);
+      whole[side] = whole_in_camera(scenario, bare, step.pose, left_m);
     }
     int before = 0, left = 0;
     for (std::size_t i = 0; i < world.balls.size(); ++i) {
       if (!whole[0][i] || !whole[1][i]) continue;
       ++before;
-      const auto hides_it = [&](const Eigen::Vector2d& eye) {
-        return is_hidden(world, world.balls[i], eye, scenario.rig.height_m);
+      const auto hides_it = [&](const Eigen::Vector2d& camera) {
+        return is_hidden(world, world.balls[i], camera, scenario.rig.height_m);
       };
-      if (!hides_it(eyes[0]) && !hides_it(eyes[1])) ++left;
+      if (!hides_it(cameras[0]) && !hides_it(cameras[1])) ++left;
     }
     EXPECT_GE(left, std::min(before, scenario.randomise.balls_in_view));
     hidden += before - left;

@@ -42,8 +42,8 @@ TEST(Scenario, SaysWhoLooksHow) {
 // Catches: degrees taken for radians, a principal point at width / 2.
 TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
   const Scenario scenario = read_small({"rig.pitch_down_deg=10"});
-  EXPECT_DOUBLE_EQ(scenario.rig.camera.cx_px, 319.5);
-  EXPECT_DOUBLE_EQ(scenario.rig.camera.cy_px, 239.5);
+  EXPECT_DOUBLE_EQ(scenario.rig.intrinsics.cx_px, 319.5);
+  EXPECT_DOUBLE_EQ(scenario.rig.intrinsics.cy_px, 239.5);
   EXPECT_DOUBLE_EQ(scenario.rig.pitch_down_rad, 10 * slam::kRadPerDegree);
   EXPECT_DOUBLE_EQ(scenario.odometry_noise.w_constant_radps, 2 * slam::kRadPerDegree);
   EXPECT_DOUBLE_EQ(scenario.oracle.bearing_sd_rad, slam::kRadPerDegree);
@@ -194,7 +194,7 @@ TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
                 .k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.004, .pixel_aspect = 0.9}));
   EXPECT_EQ(scenario.rig.right_turn_rad.y(), 0.5 * std::numbers::pi / 180.0);
   EXPECT_EQ(scenario.believed_rig.baseline_m, 0.2);
-  EXPECT_EQ(scenario.believed_rig.camera.focal_px, 505.0);
+  EXPECT_EQ(scenario.believed_rig.intrinsics.focal_px, 505.0);
   EXPECT_EQ(scenario.believed_rig.right_turn_rad, scenario.rig.right_turn_rad);
   EXPECT_EQ(scenario.believed_rig.distortion, scenario.rig.distortion);
   const Scenario blind = read_small(
@@ -202,7 +202,7 @@ TEST(Scenario, BelievesTheTrueRigUnlessToldOtherwise) {
        "believed_rig={right_turn_deg: [0, 0, 0], distortion: [0, 0, 0, 0, 0], pixel_aspect: 1}"});
   EXPECT_EQ(blind.believed_rig.right_turn_rad, Eigen::Vector3d::Zero());
   EXPECT_EQ(blind.believed_rig.distortion, vision::Distortion{});
-  EXPECT_EQ(scenario.rig.camera.focal_px, read_small().believed_rig.camera.focal_px);
+  EXPECT_EQ(scenario.rig.intrinsics.focal_px, read_small().believed_rig.intrinsics.focal_px);
 }
 
 TEST(Scenario, SaysByHowManyRowsTheRigMayBeOff) {

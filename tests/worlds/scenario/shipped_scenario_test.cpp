@@ -58,8 +58,8 @@ TEST(BallCircle, IsThePapersScenarioOne) {
   EXPECT_EQ(scenario.world.balls.size(), 18U);
   EXPECT_EQ(scenario.path.size(), 73U);
   EXPECT_EQ(scenario.path[36].stamp_ns, 72000000000);
-  EXPECT_EQ(scenario.rig.camera.width_px, 1024);
-  EXPECT_EQ(scenario.rig.camera.height_px, 768);
+  EXPECT_EQ(scenario.rig.intrinsics.width_px, 1024);
+  EXPECT_EQ(scenario.rig.intrinsics.height_px, 768);
   EXPECT_EQ(scenario.seeds.size(), 10U);
   for (const PathStep& step : scenario.path) {
     EXPECT_NEAR(std::hypot(step.pose.x_m, step.pose.y_m - 1), 1.0, 1e-12);

@@ -1,9 +1,9 @@
 /// What hides a ball, and where something can stand, against points of triangles looked at one by one.
 ///
 /// Mutations seen red here: triangles not cut; sight that goes on below floors; the rim counted; no slack;
-/// cones that begin in the eye; slack not taken off what is excused; nothing excused; a circle in the middle
-/// of a triangle, or across its edge, not met. Not caught: cones cut at the ball's middle, which differ
-/// inside it.
+/// cones that begin in the camera; slack not taken off what is excused; nothing excused; a circle in the
+/// middle of a triangle, or across its edge, not met. Not caught: cones cut at the ball's middle, which
+/// differ inside it.
 #include "worlds/visibility/clearance_volume.h"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ std::vector<Vector3d> points_of(const TriangleCorners& corners) {
   return points;
 }
 
-/// How far a point is beside what an eye looks through to see a ball but its rim: below zero it hides some.
-double beside_sight_m(const Vector3d& eye, const Sphere& ball, const Vector3d& point) {
-  const Vector3d sight = (ball.centre_m - eye).normalized();
-  const double distance_m = (ball.centre_m - eye).norm();
+/// How far a point is beside what a camera looks through to see a ball but its rim: below zero it hides some.
+double beside_sight_m(const Vector3d& camera_m, const Sphere& ball, const Vector3d& point) {
+  const Vector3d sight = (ball.centre_m - camera_m).normalized();
+  const double distance_m = (ball.centre_m - camera_m).norm();
   const double half_angle = std::asin((1.0 - kRim) * ball.radius_m / distance_m);
-  const double ahead_m = (point - eye).dot(sight);
-  const double aside_m = (point - eye - ahead_m * sight).norm();
+  const double ahead_m = (point - camera_m).dot(sight);
+  const double aside_m = (point - camera_m - ahead_m * sight).norm();
   const double beside_m = aside_m * std::cos(half_angle) - ahead_m * std::sin(half_angle);
   const double behind_m = ahead_m - distance_m * std::pow(std::cos(half_angle), 2);
   const double within_m = ball.radius_m - (point - ball.centre_m).norm();
@@ -44,12 +44,12 @@ double beside_sight_m(const Vector3d& eye, const Sphere& ball, const Vector3d& p
 }
 
 struct Scene {
-  Vector3d eye;
+  Vector3d camera_m;
   Sphere ball;
   std::vector<TriangleCorners> triangles;
 };
 
-/// Balls and eyes beside triangles; a third of the triangles has a corner on the ball.
+/// Balls and cameras beside triangles; a third of the triangles has a corner on the ball.
 Scene random_scene(std::uint64_t seed, int triangles) {
   slam::RandomStream draws(seed, slam::Stream::kWorld, 77);
   Scene scene{random_in_box(draws, 0.5) - Vector3d(2.0, 0.0, 0.0),
@@ -60,18 +60,19 @@ Scene random_scene(std::uint64_t seed, int triangles) {
   return scene;
 }
 
-TEST(SightVolume, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
+TEST(SightVolume, IsMetByWhatHasAPointBetweenTheCameraAndTheBall) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     const Scene scene = random_scene(seed, 1 + static_cast<int>(seed % 8 == 0));
     double beside_m = 1e9, apart_m = 1e9;
     for (const TriangleCorners& corners : scene.triangles) {
       for (const Vector3d& point : points_of(corners)) {
-        beside_m = std::min(beside_m, beside_sight_m(scene.eye, scene.ball, point));
+        beside_m = std::min(beside_m, beside_sight_m(scene.camera_m, scene.ball, point));
         apart_m = std::min(apart_m, (point - scene.ball.centre_m).norm() - scene.ball.radius_m);
       }
     }
-    const bool is_met = meets(sight_volume(scene.eye, scene.ball, 0.0), TriangleBvh(scene.triangles), kHere);
+    const bool is_met =
+        meets(sight_volume(scene.camera_m, scene.ball, 0.0), TriangleBvh(scene.triangles), kHere);
     if (beside_m < -1e-3) {
       EXPECT_TRUE(is_met) << seed << ": " << beside_m;
     }
@@ -87,7 +88,7 @@ TEST(SightVolume, IsMetByWhatHasAPointBetweenTheEyeAndTheBall) {
 TEST(SightVolume, IsMetByManyIfByOne) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Scene scene = random_scene(seed, 12);
-    const ClearanceVolume volume = sight_volume(scene.eye, scene.ball, 0.02);
+    const ClearanceVolume volume = sight_volume(scene.camera_m, scene.ball, 0.02);
     const bool by_one = std::ranges::any_of(scene.triangles, [&](const TriangleCorners& corners) {
       return meets(volume, TriangleBvh({corners}), kHere);
     });
@@ -100,13 +101,13 @@ TEST(SightVolume, MovedAndTurnedWithEverythingElseItIsMetAsBefore) {
     Scene scene = random_scene(seed, 2);
     const double slack_m = seed % 2 == 0 ? 0.0 : 0.03;
     const TriangleBvh tree(scene.triangles);
-    const bool before = meets(sight_volume(scene.eye, scene.ball, slack_m), tree, kHere);
+    const bool before = meets(sight_volume(scene.camera_m, scene.ball, slack_m), tree, kHere);
     slam::RandomStream draws(seed, slam::Stream::kWorld, 78);
     Eigen::Affine3d moved = Eigen::Affine3d::Identity();
     moved.translate(random_in_box(draws, 10.0))
         .rotate(Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()));  // what is low stays low
     scene.ball.centre_m = moved * scene.ball.centre_m;
-    EXPECT_EQ(meets(sight_volume(moved * scene.eye, scene.ball, slack_m), tree, moved), before) << seed;
+    EXPECT_EQ(meets(sight_volume(moved * scene.camera_m, scene.ball, slack_m), tree, moved), before) << seed;
   }
 }
 
@@ -122,12 +123,12 @@ TEST(SightVolume, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
         Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()) * Vector3d(kSlack_m, 0.0, 0.0);
     for (const TriangleCorners& corners : scene.triangles) {
       const TriangleBvh tree({corners});
-      if (!meets(sight_volume(scene.eye, aside, 0.0), tree, kHere)) continue;
+      if (!meets(sight_volume(scene.camera_m, aside, 0.0), tree, kHere)) continue;
       if (std::ranges::any_of(points_of(corners), [&](const Vector3d& point) {
             return (point - scene.ball.centre_m).norm() < scene.ball.radius_m + kSlack_m + 0.01;
           }))
         continue;  // nobody puts a ball there
-      EXPECT_TRUE(meets(sight_volume(scene.eye, scene.ball, kSlack_m), tree, kHere)) << seed;
+      EXPECT_TRUE(meets(sight_volume(scene.camera_m, scene.ball, kSlack_m), tree, kHere)) << seed;
       ++met;
     }
   }
@@ -142,13 +143,14 @@ TriangleBvh floor_at(double z_m) {
 TEST(SightVolume, AFloorHidesNothingOfABallOnItUnlessItSinks) {
   for (int i = 0; i < 600; ++i) {
     const double radius_m = 0.05 + 0.05 * (i % 3);
-    const Vector3d eye(-0.7 - 0.05 * i, 0.3, 0.02 + 0.1 * (i % 17));
+    const Vector3d camera_m(-0.7 - 0.05 * i, 0.3, 0.02 + 0.1 * (i % 17));
     const Sphere ball{{0.0, 0.0, radius_m}, radius_m};
     for (const double slack_m : {0.0, 0.03}) {
-      const ClearanceVolume volume = sight_volume(eye, ball, slack_m);
+      const ClearanceVolume volume = sight_volume(camera_m, ball, slack_m);
       EXPECT_FALSE(meets(volume, floor_at(0.0), kHere)) << i;
-      EXPECT_FALSE(meets(volume, floor_at(std::min(0.9 * kRim * radius_m, eye.z() - 0.001)), kHere)) << i;
-      if (eye.z() > 0.6 * radius_m) {
+      EXPECT_FALSE(meets(volume, floor_at(std::min(0.9 * kRim * radius_m, camera_m.z() - 0.001)), kHere))
+          << i;
+      if (camera_m.z() > 0.6 * radius_m) {
         EXPECT_TRUE(meets(volume, floor_at(0.5 * radius_m), kHere)) << i;
       }
       EXPECT_FALSE(meets(volume, floor_at(2.5), kHere)) << "a ceiling";
@@ -177,30 +179,32 @@ TEST(SightVolume, NothingIsSeenThroughTheCracksBetweenTriangles) {
     slam::RandomStream draws(seed, slam::Stream::kWorld, 80);
     const Vector3d point = random_in_box(draws, 1.0) + Vector3d(3.0, 0.0, 10.0);
     const std::vector<TriangleCorners> wall = wall_around(point, draws);
-    const Vector3d eye = random_in_box(draws, 0.3) + Vector3d(0.0, 0.0, 10.0);
+    const Vector3d camera_m = random_in_box(draws, 0.3) + Vector3d(0.0, 0.0, 10.0);
     const TriangleBvh tree(wall);
     // Through a shared corner, and through points of shared edges.
     const Vector3d& other = wall[seed % wall.size()][1];
     for (const double share : {0.0, draws.uniform(), draws.uniform()}) {
       const Vector3d aim = point + share * (other - point);
-      const Sphere far{eye + 3.0 * (aim - eye), 1e-9};
-      EXPECT_TRUE(meets(sight_volume(eye, far, 0.0), tree, kHere)) << seed << " at " << share;
+      const Sphere far{camera_m + 3.0 * (aim - camera_m), 1e-9};
+      EXPECT_TRUE(meets(sight_volume(camera_m, far, 0.0), tree, kHere)) << seed << " at " << share;
     }
   }
 }
 
 TEST(SightVolume, WhatIsWithinTheBallHidesNothingAndWhatSticksOutDoes) {
   const Sphere ball{{3.0, 0.0, 0.5}, 0.2};
-  const Vector3d eye(0.0, 0.0, 0.5);
+  const Vector3d camera_m(0.0, 0.0, 0.5);
   const auto rod = [](double from_x, double to_x) {
     return TriangleBvh({{Vector3d(from_x, 0.0, 0.5), Vector3d(to_x, 0.01, 0.5), Vector3d(to_x, -0.01, 0.5)}});
   };
-  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(2.85, 3.1), kHere));
-  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.0), rod(2.75, 3.1), kHere));
-  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
-  EXPECT_FALSE(meets(sight_volume(eye, ball, 0.0), rod(-0.5, 0.005), kHere)) << "nearer than pictures begin";
-  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.0), rod(-0.5, 0.02), kHere));
-  EXPECT_TRUE(meets(sight_volume(eye, ball, 0.06), rod(2.85, 3.1), kHere)) << "the ball may lie behind it";
+  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(2.85, 3.1), kHere));
+  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.0), rod(2.75, 3.1), kHere));
+  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
+  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(-0.5, 0.005), kHere))
+      << "nearer than pictures begin";
+  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.0), rod(-0.5, 0.02), kHere));
+  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.06), rod(2.85, 3.1), kHere))
+      << "the ball may lie behind it";
 }
 
 TEST(UprightCylinder, IsMetByWhatHasAPointInIt) {

@@ -12,8 +12,8 @@
 
 namespace stereobench::worlds {
 
-/// A ball as an eye has it: a disc in the image that holds the true outline. Written anew here, in the plane
-/// and for level cameras only, so that a fault of vision or of the renderer cannot hide in it.
+/// A ball as a camera has it: a disc in the image that holds the true outline. Written anew here, in the
+/// plane and for level cameras only, so that a fault of vision or of the renderer cannot hide in it.
 struct Disc {
   double u_px = 0.0;
   double v_px = 0.0;
@@ -21,17 +21,17 @@ struct Disc {
   double forward_m = 0.0;
 };
 
-inline Eigen::Vector2d eye_in_world(const slam::Pose& pose, double left_m) {
+inline Eigen::Vector2d camera_in_world(const slam::Pose& pose, double left_m) {
   return {pose.x_m - left_m * std::sin(pose.heading_rad), pose.y_m + left_m * std::cos(pose.heading_rad)};
 }
 
 inline std::optional<Disc> disc_of(const Ball& ball, const vision::StereoRig& rig, const slam::Pose& pose,
                                    double left_m) {
-  const Eigen::Vector2d away = ball.centre_m.head<2>() - eye_in_world(pose, left_m);
+  const Eigen::Vector2d away = ball.centre_m.head<2>() - camera_in_world(pose, left_m);
   const double forward_m = away.x() * std::cos(pose.heading_rad) + away.y() * std::sin(pose.heading_rad);
   const double aside_m = -away.x() * std::sin(pose.heading_rad) + away.y() * std::cos(pose.heading_rad);
   if (forward_m < 3 * ball.radius_m) return std::nullopt;
-  const vision::Intrinsics& camera = rig.camera;
+  const vision::Intrinsics& camera = rig.intrinsics;
   const Disc disc = {camera.cx_px - camera.focal_px * aside_m / forward_m,
                      camera.cy_px - camera.focal_px * (ball.centre_m.z() - rig.height_m) / forward_m,
                      camera.focal_px * ball.radius_m / forward_m * 1.08 + 2.0, forward_m};
@@ -51,23 +51,23 @@ inline bool hidden_by(const Wall& wall, const Eigen::Vector2d& from, const Eigen
          cross(sight, wall.from_m - from) * cross(sight, wall.to_m - from) < 0;
 }
 
-/// Whether no wall stands between an eye and the ball's middle or either of its sides.
-inline bool clear_of_walls(const World& world, const Ball& ball, const Eigen::Vector2d& eye) {
-  const Eigen::Vector2d sight = (ball.centre_m.head<2>() - eye).normalized();
+/// Whether no wall stands between a camera and the ball's middle or either of its sides.
+inline bool clear_of_walls(const World& world, const Ball& ball, const Eigen::Vector2d& camera_m) {
+  const Eigen::Vector2d sight = (ball.centre_m.head<2>() - camera_m).normalized();
   const Eigen::Vector2d side = Eigen::Vector2d(-sight.y(), sight.x()) * ball.radius_m;
   return std::ranges::none_of(world.walls, [&](const Wall& wall) {
-    return hidden_by(wall, eye, ball.centre_m.head<2>() + side) ||
-           hidden_by(wall, eye, ball.centre_m.head<2>() - side);
+    return hidden_by(wall, camera_m, ball.centre_m.head<2>() + side) ||
+           hidden_by(wall, camera_m, ball.centre_m.head<2>() - side);
   });
 }
 
-/// The balls that an eye sees whole: not cut by the border, not behind a wall, not touched by a nearer ball's
-/// disc.
-inline std::vector<bool> whole_in_eye(const Scenario& scenario, const World& world, const slam::Pose& pose,
-                                      double left_m) {
+/// The balls that a camera sees whole: not cut by the border, not behind a wall, not touched by a nearer
+/// ball's disc.
+inline std::vector<bool> whole_in_camera(const Scenario& scenario, const World& world, const slam::Pose& pose,
+                                         double left_m) {
   std::vector<std::optional<Disc>> discs;
   for (const Ball& ball : world.balls) {
-    const bool clear = clear_of_walls(world, ball, eye_in_world(pose, left_m));
+    const bool clear = clear_of_walls(world, ball, camera_in_world(pose, left_m));
     discs.push_back(clear ? disc_of(ball, scenario.rig, pose, left_m) : std::nullopt);
   }
   std::vector<bool> whole;
@@ -83,7 +83,7 @@ inline std::vector<bool> whole_in_eye(const Scenario& scenario, const World& wor
 
 /// What a whole drive sees of a world.
 struct Views {
-  std::vector<int> balls_in_view;  ///< for each step: whole in both eyes within the distance
+  std::vector<int> balls_in_view;  ///< for each step: whole in both cameras within the distance
   std::vector<int> steps_seen;     ///< for each ball
   double nearest_m = 1e9;
 };
@@ -92,8 +92,8 @@ inline Views views_of(const Scenario& scenario, const World& world, double withi
   Views views;
   views.steps_seen.resize(world.balls.size());
   for (const PathStep& step : scenario.path) {
-    const auto left = whole_in_eye(scenario, world, step.pose, scenario.rig.baseline_m / 2);
-    const auto right = whole_in_eye(scenario, world, step.pose, -scenario.rig.baseline_m / 2);
+    const auto left = whole_in_camera(scenario, world, step.pose, scenario.rig.baseline_m / 2);
+    const auto right = whole_in_camera(scenario, world, step.pose, -scenario.rig.baseline_m / 2);
     int count = 0;
     for (std::size_t i = 0; i < world.balls.size(); ++i) {
       const double range_m = slam::predict_sighting(step.pose, world.balls[i].centre_m.head<2>()).x();

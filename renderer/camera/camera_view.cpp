@@ -1,4 +1,4 @@
-#include "renderer/camera/eye_view.h"
+#include "renderer/camera/camera_view.h"
 
 #include <stdexcept>
 
@@ -23,15 +23,15 @@ Eigen::Matrix4d projection(const vision::Intrinsics& camera) {
 
 }  // namespace
 
-EyeView eye_view(const vision::StereoRig& rig, vision::Eye eye, const slam::Pose& world_from_robot) {
+CameraView camera_view(const vision::StereoRig& rig, vision::Side side, const slam::Pose& world_from_robot) {
   const Eigen::Isometry3d placed = Eigen::Translation3d(world_from_robot.x_m, world_from_robot.y_m, 0.0) *
                                    Eigen::AngleAxisd(world_from_robot.heading_rad, Eigen::Vector3d::UnitZ()) *
-                                   vision::robot_from_camera(rig, eye);
-  return {placed.inverse(), rig.camera, eye == vision::Eye::kLeft ? 0 : rig.camera.width_px};
+                                   vision::robot_from_camera(rig, side);
+  return {placed.inverse(), rig.intrinsics, side == vision::Side::kLeft ? 0 : rig.intrinsics.width_px};
 }
 
-Eigen::Vector3d line_of_sight(const EyeView& view, const Eigen::Vector2d& pixel_px) {
-  const Eigen::Vector3d arriving = vision::pixel_ray(view.camera, pixel_px);
+Eigen::Vector3d line_of_sight(const CameraView& view, const Eigen::Vector2d& pixel_px) {
+  const Eigen::Vector3d arriving = vision::pixel_ray(view.intrinsics, pixel_px);
   if (view.lens == vision::Distortion{}) return arriving;
   const Eigen::Vector2d place = arriving.head<2>();
   auto direction = vision::undistort(view.lens, place, place);
@@ -40,9 +40,9 @@ Eigen::Vector3d line_of_sight(const EyeView& view, const Eigen::Vector2d& pixel_
   return direction->homogeneous();
 }
 
-Eigen::Vector2d shown_at(const EyeView& view, const Eigen::Vector3d& point_in_camera) {
-  if (view.lens == vision::Distortion{}) return vision::project(view.camera, point_in_camera);
-  return vision::project(view.camera,
+Eigen::Vector2d shown_at(const CameraView& view, const Eigen::Vector3d& point_in_camera) {
+  if (view.lens == vision::Distortion{}) return vision::project(view.intrinsics, point_in_camera);
+  return vision::project(view.intrinsics,
                          vision::distort(view.lens, point_in_camera.hnormalized()).homogeneous());
 }
 
@@ -55,8 +55,8 @@ Eigen::Vector2d device_point(const vision::Intrinsics& camera, const Eigen::Vect
           2.0 * (pixel_px.y() + 0.5) / camera.height_px - 1.0};
 }
 
-glm::mat4 clip_from_world(const EyeView& view) {
-  const Eigen::Matrix4d matrix = projection(view.camera) * view.camera_from_world.matrix();
+glm::mat4 clip_from_world(const CameraView& view) {
+  const Eigen::Matrix4d matrix = projection(view.intrinsics) * view.camera_from_world.matrix();
   glm::mat4 result(1.0F);
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) result[column][row] = static_cast<float>(matrix(row, column));

@@ -1,12 +1,12 @@
 /// Facets, ranges, normals, disparity and flow of every pixel against the double-precision ray-caster.
 ///
 /// Mutations seen red here: occluders of one pixel around the place instead of four; a ball that does not
-/// hide its own far side; walls without bounds, triangles as parallelograms; a right eye that is not turned,
-/// disparity of the other sign; normals away from the eye or in the world frame, depth for range; the ball's
-/// far root; half a pixel added to rays; triangles numbered one late, walls in the order they are drawn
-/// in; hidden called outside; no near plane; balls' facets without their depth.
+/// hide its own far side; walls without bounds, triangles as parallelograms; a right camera that is not
+/// turned, disparity of the other sign; normals away from the camera or in the world frame, depth for range;
+/// the ball's far root; half a pixel added to rays; triangles numbered one late, walls in the order they are
+/// drawn in; hidden called outside; no near plane; balls' facets without their depth.
 
-#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/pixel_truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +24,9 @@
 namespace stereobench::renderer {
 namespace {
 
-using vision::Eye;
+using vision::Side;
 
-/// A room with a mesh, and some without a floor, seen by a rig whose right eye is out of place, before and
+/// A room with a mesh, and some without a floor, seen by a rig whose right camera is out of place, before and
 /// after a move.
 struct Room {
   explicit Room(std::uint64_t seed) : world(test::random_room(seed)), pose(test::random_pose(seed)) {
@@ -36,9 +36,9 @@ struct Room {
     rig.right_turn_rad = {0.004, -0.007, 0.011};
     moved = {pose.x_m + 0.05, pose.y_m - 0.03, pose.heading_rad + 0.06};
   }
-  test::RayCaster caster(const slam::Pose& at, Eye eye) const {
+  test::RayCaster caster(const slam::Pose& at, Side side) const {
     test::RayCaster result(world, rig, triangles);
-    result.stand_at(at, eye);
+    result.stand_at(at, side);
     return result;
   }
 
@@ -83,7 +83,7 @@ bool is_same_facet(const Room& room, int facet, const test::RayCaster& caster, c
 }
 
 void compare_truth(const Room& room, const IdBuffer& sight, const test::RayCaster& caster, Tally& tally) {
-  const EyeTruth truth = eye_truth(SceneGeometry(room.world), sight);
+  const PixelTruth truth = pixel_truth(SceneGeometry(room.world), sight);
   for (int v = 0; v < truth.range_m.rows; ++v) {
     for (int u = 0; u < truth.range_m.cols; ++u) {
       const int facet = sight.facet.at<int>(v, u);
@@ -99,7 +99,7 @@ void compare_truth(const Room& room, const IdBuffer& sight, const test::RayCaste
   }
 }
 
-/// A point's place in an eye's picture, and what becomes of it there by casting another ray.
+/// A point's place in a camera's picture, and what becomes of it there by casting another ray.
 Occlusion followed(const test::Sight& ray, const test::RayCaster& to, const vision::Intrinsics& camera,
                    Eigen::Vector2d& place_px) {
   if (ray.surface == 0) return Occlusion::kNothing;
@@ -120,7 +120,7 @@ void compare_fates(const Room& room, const IdBuffer& sight, const IdBuffer& othe
     for (int u = 0; u < found.occlusion.cols; ++u) {
       if (!is_same_facet(room, sight.facet.at<int>(v, u), from, {u, v}, tally)) continue;
       Eigen::Vector2d place_px = Eigen::Vector2d::Zero();
-      const Occlusion occlusion = followed(from.look(u, v), to, sight.view.camera, place_px);
+      const Occlusion occlusion = followed(from.look(u, v), to, sight.view.intrinsics, place_px);
       const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
       const Eigen::Vector2d off = shift - (place_px - Eigen::Vector2d(u, v));
       if (occlusion == Occlusion::kSeen || occlusion == Occlusion::kHidden)
@@ -138,17 +138,17 @@ TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
   const Room room(GetParam());
   const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   Tally tally;
-  compare_truth(room, sight.left, room.caster(room.pose, Eye::kLeft), tally);
-  compare_truth(room, sight.right, room.caster(room.pose, Eye::kRight), tally);
+  compare_truth(room, sight.left, room.caster(room.pose, Side::kLeft), tally);
+  compare_truth(room, sight.right, room.caster(room.pose, Side::kRight), tally);
   EXPECT_EQ(tally.wrong_ranges, 0);
   EXPECT_EQ(tally.wrong_normals, 0);
   EXPECT_EQ(tally.other_inside, 0);
 }
 
-TEST_P(EveryPixel, IsInTheOtherEyeWhereAnotherRaySaysItIs) {
+TEST_P(EveryPixel, IsInTheOtherCameraWhereAnotherRaySaysItIs) {
   const Room room(GetParam());
   const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
-  const auto left = room.caster(room.pose, Eye::kLeft), right = room.caster(room.pose, Eye::kRight);
+  const auto left = room.caster(room.pose, Side::kLeft), right = room.caster(room.pose, Side::kRight);
   Tally tally;
   compare_fates(room, sight.left, sight.right, left, right, tally);
   compare_fates(room, sight.right, sight.left, right, left, tally);
@@ -164,10 +164,10 @@ TEST_P(EveryPixel, FlowsToWhereARayFromTheNextPoseMeetsIt) {
   const StereoIdBuffers before = renderer.id_buffers(room.pose, room.pose);
   const StereoIdBuffers after = renderer.id_buffers(room.moved, room.moved);
   Tally tally;
-  compare_fates(room, before.left, after.left, room.caster(room.pose, Eye::kLeft),
-                room.caster(room.moved, Eye::kLeft), tally);
-  compare_fates(room, before.right, after.right, room.caster(room.pose, Eye::kRight),
-                room.caster(room.moved, Eye::kRight), tally);
+  compare_fates(room, before.left, after.left, room.caster(room.pose, Side::kLeft),
+                room.caster(room.moved, Side::kLeft), tally);
+  compare_fates(room, before.right, after.right, room.caster(room.pose, Side::kRight),
+                room.caster(room.moved, Side::kRight), tally);
   EXPECT_EQ(tally.wrong_shifts, 0);
   EXPECT_LE(tally.wrong_fates, 2);
   EXPECT_GT(tally.occlusions[Occlusion::kHidden], 100);
@@ -182,11 +182,11 @@ TEST(Surfaces, AreThoseThatRaysMeet) {
   Tally tally;
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
     Room room(seed);
-    room.rig.camera = {};
+    room.rig.intrinsics = {};
     const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
-    for (const auto& [eye, seen] :
-         {std::pair(Eye::kLeft, &sight.left), std::pair(Eye::kRight, &sight.right)}) {
-      const test::RayCaster caster = room.caster(room.pose, eye);
+    for (const auto& [side, seen] :
+         {std::pair(Side::kLeft, &sight.left), std::pair(Side::kRight, &sight.right)}) {
+      const test::RayCaster caster = room.caster(room.pose, side);
       for (int v = 0; v < seen->facet.rows; ++v) {
         for (int u = 0; u < seen->facet.cols; ++u) {
           is_same_facet(room, seen->facet.at<int>(v, u), caster, {u, v}, tally);
@@ -199,7 +199,7 @@ TEST(Surfaces, AreThoseThatRaysMeet) {
   EXPECT_LE(static_cast<double>(tally.other_surfaces), 5e-6 * static_cast<double>(tally.pixels));
 }
 
-/// Every pixel of both eyes.
+/// Every pixel of both cameras.
 template <typename Check>
 void for_each_pixel(const cv::Mat& picture, Check check) {
   for (int v = 0; v < picture.rows; ++v) {
@@ -215,13 +215,13 @@ TEST(Disparity, TimesDepthIsFocalLengthTimesBaseline) {
   const StereoIdBuffers sight = renderer.id_buffers(room.pose, room.pose);
   const StereoFrame frame = renderer.render(room.pose);
   const SceneGeometry scene(room.world);
-  const cv::Mat left = disparity_px(correspond(scene, sight.left, sight.right), Eye::kLeft);
-  const cv::Mat right = disparity_px(correspond(scene, sight.right, sight.left), Eye::kRight);
-  const double fb = room.rig.camera.focal_px * room.rig.baseline_m;
+  const cv::Mat left = disparity_px(correspond(scene, sight.left, sight.right), Side::kLeft);
+  const cv::Mat right = disparity_px(correspond(scene, sight.right, sight.left), Side::kRight);
+  const double fb = room.rig.intrinsics.focal_px * room.rig.baseline_m;
   int wrong = 0;
   for_each_pixel(left, [&](int u, int v) {
-    for (const auto& [disparity, eye] : {std::pair(&left, &frame.left), std::pair(&right, &frame.right)}) {
-      const double depth_m = double{eye->depth_m.at<float>(v, u)};
+    for (const auto& [disparity, image] : {std::pair(&left, &frame.left), std::pair(&right, &frame.right)}) {
+      const double depth_m = double{image->depth_m.at<float>(v, u)};
       const double found_px = double{disparity->at<float>(v, u)};
       wrong +=
           std::isinf(depth_m) ? !std::isinf(found_px) : !(std::abs(found_px * depth_m / fb - 1.0) < 1e-5);
@@ -255,7 +255,7 @@ TEST(Flow, OfWhatIsBehindTheNextPoseHasNoPlace) {
       correspond(SceneGeometry(room.world), before, renderer.id_buffers(turned, turned).left);
   EXPECT_EQ(cv::countNonZero(found.occlusion == static_cast<int>(Occlusion::kOutside)),
             cv::countNonZero(before.facet));
-  EXPECT_EQ(cv::countNonZero(disparity_px(found, Eye::kRight) == std::numeric_limits<float>::infinity()),
+  EXPECT_EQ(cv::countNonZero(disparity_px(found, Side::kRight) == std::numeric_limits<float>::infinity()),
             400 * 300);
 }
 
@@ -273,7 +273,7 @@ bool is_colour_around(const cv::Vec3b& colour, const cv::Mat& picture, double x,
   return true;
 }
 
-// Law: what both eyes see has one colour, light being the same from everywhere.
+// Law: what both cameras see has one colour, light being the same from everywhere.
 TEST(Disparity, TakesColoursOfTheRightPictureToTheLeftOne) {
   Room room(0);
   for (worlds::Wall& wall : room.world.walls) wall.material = worlds::Material::kPlain;

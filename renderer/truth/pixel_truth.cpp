@@ -1,4 +1,4 @@
-#include "renderer/truth/eye_truth.h"
+#include "renderer/truth/pixel_truth.h"
 
 #include <limits>
 
@@ -14,10 +14,10 @@ cv::Vec3f vec(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-EyeTruth eye_truth(const SceneGeometry& scene, const IdBuffer& ids) {
+PixelTruth pixel_truth(const SceneGeometry& scene, const IdBuffer& ids) {
   const cv::Size size = ids.facet.size();
-  EyeTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
-                 cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
+  PixelTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
+                   cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
   const Eigen::Matrix3d turn = ids.view.camera_from_world.linear();
   const PixelRays lines(ids.view);
   for (int v = 0; v < size.height; ++v) {
