@@ -112,7 +112,7 @@ struct Renderer::Parts {
   BallPainter balls;
   EdgeSmoother edges;
   PicturePool pictures;
-  PicturePool straight_pictures;  ///< those that the lens bends
+  PicturePool undistorted_pictures;  ///< those that the lens distorts
   bool has_drawn = false;
 
   /// @param placed read before there is a context, as reading meshes forks
@@ -182,7 +182,7 @@ struct Renderer::Parts {
   CameraPicture read_surfaces(const CameraView& view, const cv::Range& rows) {
     CameraPicture picture = {.view = view,
                              .frame = blank_frame({view.intrinsics.width_px, rows.size()}, depth,
-                                                  lens ? straight_pictures : pictures)};
+                                                  lens ? undistorted_pictures : pictures)};
     read_part(gl, {view.first_column_px, rows.start}, {{0, 0}, picture.frame.colour.size()}, picture.frame);
     picture.mixes = edges.mixes(part_of(view, rows), picture.frame);
     picture.balls = balls.outlines(view);
@@ -234,7 +234,7 @@ StereoFrame Renderer::render(const slam::Pose& left_pose, const slam::Pose& righ
   const auto finished = [&](CameraPicture& picture) {
     parts_->finish(picture, drawn);
     const std::optional<Lens>& lens = parts_->lens;
-    return lens ? lens->bend(picture.frame, drawn.start, rows, parts_->pictures)
+    return lens ? lens->distort(picture.frame, drawn.start, rows, parts_->pictures)
                 : part_of(picture.frame, drawn.start, rows);
   };
   return {finished(pictures[0]), finished(pictures[1])};
@@ -249,11 +249,11 @@ StereoIdBuffers Renderer::id_buffers(const slam::Pose& left_pose, const slam::Po
   const auto [left, right] = parts_->open_cameras(left_pose, right_pose, Eigen::Vector3f::Zero(), rows);
   for (const CameraView& view : {left, right}) {
     parts_->look_through(view);
-    parts_->surfaces.draw_facets(view);
-    parts_->balls.draw_facets(view);
+    parts_->surfaces.draw_primitives(view);
+    parts_->balls.draw_primitives(view);
   }
   const auto seen = [&](const CameraView& view) {
-    return IdBuffer{part_of(view, rows), read_facets(parts_->gl, columns_of(view), rows)};
+    return IdBuffer{part_of(view, rows), read_primitives(parts_->gl, columns_of(view), rows)};
   };
   return {seen(left), seen(right)};
 }

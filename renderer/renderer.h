@@ -55,7 +55,7 @@ class Renderer {
   /// @throws std::invalid_argument also when the pictures have no such rows
   StereoFrame render(const slam::Pose& left_pose, const slam::Pose& right_pose, const cv::Range& rows);
 
-  /// Which facet of the world each pixel of render() sees, in place of its colour; asked for by those who
+  /// Which primitive of the world each pixel of render() sees, in place of its colour; asked for by those who
   /// want more truth than a frame carries (pixel_truth.h, correspondence.h).
   /// @param rows of the picture, those that look now; the views are of a picture of these alone
   ///

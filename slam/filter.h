@@ -55,7 +55,7 @@ class Filter {
     filter.held_->update(sightings);
   }
 
-  /// @return what the filter believes now: pose, map and what it had to mend so far
+  /// @return what the filter believes now: pose, map and what it had to repair so far
   friend Estimate estimate(const Filter& filter) { return filter.held_->estimate(); }
 
   /// @return the same without its map, at a cost that does not depend on the map

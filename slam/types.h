@@ -58,7 +58,7 @@ struct LandmarkEstimate {
   int origin = kUnknown;  ///< the sighting that founded it, counted from 0 over all a filter was given
 };
 
-/// What a filter had to mend or refuse, so that nothing happens in silence.
+/// What a filter had to repair or refuse, so that nothing happens in silence.
 struct FilterCounters {
   long resamplings = 0;         ///< particle sets drawn anew
   long covariance_repairs = 0;  ///< covariances that had to be made semidefinite

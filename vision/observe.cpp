@@ -200,9 +200,9 @@ ObservedPair observe(const StereoPair& pair, const Rectification& rectification,
                      const ObserverSettings& settings, const RigWatch& watch) {
   constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
   if (rectification.is_nothing()) return look_at(pair, rectification.rig(), settings, watch);
-  ObserverSettings of_straightened = settings;
-  of_straightened.resampled = true;
-  ObservedPair look = look_at(rectification.apply(pair), rectification.rig(), of_straightened, watch);
+  ObserverSettings of_rectified = settings;
+  of_rectified.resampled = true;
+  ObservedPair look = look_at(rectification.apply(pair), rectification.rig(), of_rectified, watch);
   for (BallObservation& seen : look.balls) {
     const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Side::kLeft) &&
                        rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Side::kRight);

@@ -13,7 +13,7 @@ struct ObserverSettings {
   double rows_within_px = 10.0;   ///< that a rig may be off by: 0.5 degrees about x are 8 px at f = 887 px
   double min_radius_px = 5.0;     ///< outlines of less than 0.98 of it are not measured
   double min_depth_m = 0.15;      ///< nearer balls are not looked for
-  /// Whether the pictures were interpolated, as those that were straightened are: edges are then less
+  /// Whether the pictures were interpolated, as those that were rectified are: edges are then less
   /// alike.
   bool resampled = false;
   /// Colours that were learned (learned_palette.h), in place of kPalette's; must outlive the settings.

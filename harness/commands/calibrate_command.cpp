@@ -8,7 +8,7 @@
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/detector_noise/calibration_result.h"
-#include "harness/detector_noise/galleries.h"
+#include "harness/detector_noise/calibration_scenes.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "vision/observe.h"
@@ -43,15 +43,15 @@ int run_calibration(const CalibrateArguments& arguments) {
   check_metrics(gates, calibration_json({}));
   const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
   if (arguments.scenario.run.dry_run) {
-    fmt::print("{}: would look at {} galleries; results: {}\n", scenario.name, seeds.size(),
+    fmt::print("{}: would look at {} calibration scenes; results: {}\n", scenario.name, seeds.size(),
                (out / "").string());
     return kPassed;
   }
   prepare_output_folder(out);
-  const worlds::GalleryDepths depths = worlds::measurable_depths(scenario.rig, scenario.world.ball_radius_m(),
-                                                                 vision::ObserverSettings{}.min_radius_px);
-  const auto takes = take_galleries(scenario, {depths, arguments.plain}, seeds, arguments.scenario.backend,
-                                    arguments.scenario.run.jobs);
+  const worlds::CalibrationDepths depths = worlds::measurable_depths(
+      scenario.rig, scenario.world.ball_radius_m(), vision::ObserverSettings{}.min_radius_px);
+  const auto takes = take_calibration_scenes(scenario, {depths, arguments.plain}, seeds,
+                                             arguments.scenario.backend, arguments.scenario.run.jobs);
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;
   result.detector = scenario.detector.command.empty() ? "stereobench" : scenario.detector.command;
@@ -87,13 +87,10 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_flag("--plain", arguments->plain, "before walls and floors without texture");
   command->footer(
-      "Takes the cameras of a scenario (rig, camera, detector, size of balls) through galleries: balls of "
-      "all\n"
-      "colours at all depths, under any light, before any wall. The noise is fitted to the galleries of "
-      "every\n"
-      "other seed and held against the rest, by depth: errors beside the Cramer-Rao bound, and NIS/2, which "
-      "is\n"
-      "1 where covariances are honest. Writes noise.yaml, for a scenario's\n"
+      "Takes the cameras of a scenario (rig, camera, detector, size of balls) through calibration scenes:\n"
+      "balls of all colours at all depths, under any light, before any wall. The noise is fitted to the\n"
+      "scenes of every other seed and held against the rest, by depth: errors beside the Cramer-Rao bound,\n"
+      "and NIS/2, which is 1 where covariances are honest. Writes noise.yaml, for a scenario's\n"
       "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
       "and calibration.json, whose numbers --gate can limit.\n\n"
       "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");

@@ -164,11 +164,10 @@ void add_render_command(CLI::App& program, Action& action) {
       "reads. Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a "
       "folder of its own\n"
       "there (seed_0/). Interrupted, it goes on where it was; what is complete is left as it is.\n"
-      "--truth adds folders of the same names for each camera (left_flow/...), those of disparity, match and "
-      "flow "
-      "with\n"
-      "what becomes of each pixel there: 0 nothing, 85 out of the other picture, 170 hidden in it, 255 "
-      "seen.\n\n"
+      "--truth adds folders of the same names for each camera (left_flow/...), those of disparity, match\n"
+      "and flow with what becomes of each pixel there: 0 nothing, 85 out of the other picture, 170 hidden "
+      "in\n"
+      "it, 255 seen.\n\n"
       "Example: stereobench render assets/scenarios/ball_circle.yaml --set path.laps=1 --out out/dataset");
   command->callback([arguments, &action] { action = [arguments] { return render(*arguments); }; });
 }

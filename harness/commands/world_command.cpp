@@ -107,10 +107,9 @@ void add_world_command(CLI::App& program, Action& action) {
       ->needs(seed);
   add_quiet_option(*command);
   command->footer(
-      "A ball is in view where both cameras see it whole and large enough to be measured; walls and balls "
-      "hide\n"
-      "what is behind them, and so do meshes, boxes and other shapes. For an oracle it is what lies in its "
-      "sector.\n\n"
+      "A ball is in view where both cameras see it whole and large enough to be measured; walls and balls\n"
+      "hide what is behind them, and so do meshes, boxes and other shapes. For an oracle it is what lies in\n"
+      "its sector.\n\n"
       "Example: stereobench world assets/scenarios/corridor.yaml -o out/corridor.svg");
   command->callback([arguments, &action] { action = [arguments] { return show_world(*arguments); }; });
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "renderer/surfaces/facets.h"
+#include "renderer/surfaces/primitives.h"
 
 namespace stereobench::harness {
 namespace {
@@ -49,9 +49,9 @@ std::string surfaces_csv(const worlds::World& world) {
       csv += fmt::format("{},{},{}\n", first + static_cast<int>(i), kind, i);
   };
   add(1, "ball", world.balls.size());
-  add(renderer::kFloorFacet, "floor", world.has_floor ? 1 : 0);
-  add(renderer::kFirstWallFacet, "wall", world.walls.size());
-  add(renderer::first_mesh_facet(world), "mesh", world.meshes.size());
+  add(renderer::kFloorPrimitive, "floor", world.has_floor ? 1 : 0);
+  add(renderer::kFirstWallPrimitive, "wall", world.walls.size());
+  add(renderer::first_mesh_primitive(world), "mesh", world.meshes.size());
   return csv;
 }
 

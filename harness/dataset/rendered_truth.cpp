@@ -76,7 +76,7 @@ RenderedTruth::RenderedTruth(std::filesystem::path folder, TruthRequest request,
       scene_(world, read) {
   require_truth(request_, scenario);
   const std::size_t surfaces =
-      static_cast<std::size_t>(renderer::first_mesh_facet(world)) + world.meshes.size();
+      static_cast<std::size_t>(renderer::first_mesh_primitive(world)) + world.meshes.size();
   if (wants(TruthKind::kSurface) && surfaces > std::numeric_limits<std::uint16_t>::max())
     throw std::runtime_error(
         fmt::format("--truth surface: {} surfaces are more than 16 bits can number", surfaces));

@@ -11,16 +11,16 @@ namespace {
 std::string obstacle(TruthKind kind, const worlds::Scenario& scenario) {
   const vision::Distortion& lens = scenario.rig.distortion;
   const bool has_lens = !(lens == vision::Distortion{});
-  const std::string bent =
+  const std::string key =
       lens == vision::Distortion{.pixel_aspect = lens.pixel_aspect} ? "rig.pixel_aspect" : "rig.distortion";
   const bool rolls = scenario.shutter.readout_s != 0.0;
   switch (kind) {
     case TruthKind::kSurface:
     case TruthKind::kRange:
     case TruthKind::kNormal:
-      return has_lens && rolls ? "shutter.readout_s behind " + bent : "";
+      return has_lens && rolls ? "shutter.readout_s behind " + key : "";
     case TruthKind::kBalls:
-      return has_lens ? bent : rolls ? "shutter.readout_s" : "";
+      return has_lens ? key : rolls ? "shutter.readout_s" : "";
     case TruthKind::kDisparity:
     case TruthKind::kMatch:
       return rolls ? "shutter.readout_s" : "";

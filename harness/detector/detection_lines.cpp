@@ -67,11 +67,11 @@ bool imagine_pixels(const BallGeometry& geometry, BallObservation& ball) {
 }
 
 /// The centres as a rig without faults would have them.
-struct StraightCentres {
+struct RectifiedCentres {
   std::optional<Eigen::Vector2d> left, right;
 };
 
-StraightCentres straight_centres(const BallGeometry& geometry, const BallObservation& ball) {
+RectifiedCentres rectified_centres(const BallGeometry& geometry, const BallObservation& ball) {
   return {vision::rectified_point(geometry.rig, ball.left_px, vision::Side::kLeft),
           vision::rectified_point(geometry.rig, ball.right_px, vision::Side::kRight)};
 }
@@ -79,7 +79,7 @@ StraightCentres straight_centres(const BallGeometry& geometry, const BallObserva
 /// Range, bearing and covariance that the centres' pixels stand for.
 slam::RangeBearing seen_through(const BallGeometry& geometry, const BallObservation& ball, double sd_px) {
   const Eigen::Matrix2d of_centre = sd_px * sd_px * Eigen::Matrix2d::Identity();
-  const auto [left, right] = straight_centres(geometry, ball);
+  const auto [left, right] = rectified_centres(geometry, ball);
   const vision::OutlineCentres centres = {left.value_or(ball.left_px), right.value_or(ball.right_px),
                                           of_centre, of_centre};
   return vision::range_bearing(ball.ball_in_camera,
@@ -91,10 +91,11 @@ slam::RangeBearing seen_through(const BallGeometry& geometry, const BallObservat
 void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
   ball.left_px = read_pixel(value.at("left_px"));
   ball.right_px = read_pixel(value.at("right_px"));
-  const auto [straight_left, straight_right] = straight_centres(geometry, ball);
-  if (!straight_left || !straight_right) value.at("left_px").refuse("pixels that the rig's lenses can reach");
+  const auto [rectified_left, rectified_right] = rectified_centres(geometry, ball);
+  if (!rectified_left || !rectified_right)
+    value.at("left_px").refuse("pixels that the rig's lenses can reach");
   const auto place =
-      vision::triangulate_ball(geometry.rig, *straight_left, *straight_right, geometry.radius_m);
+      vision::triangulate_ball(geometry.rig, *rectified_left, *rectified_right, geometry.radius_m);
   if (!place || place->z() > kMost_m)
     value.at("left_px").refuse("a column to the right of right_px's: a ball that is ahead");
   ball.ball_in_camera = *place;

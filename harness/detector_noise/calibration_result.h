@@ -12,15 +12,15 @@
 
 namespace stereobench::harness {
 
-/// A detector's noise, fitted to one half of the galleries and held against the other.
+/// A detector's noise, fitted to one half of the calibration scenes and held against the other.
 struct CalibrationResult {
   std::string scenario;
   std::string detector;
   std::vector<std::uint64_t> fitted_seeds;
   std::vector<std::uint64_t> held_out_seeds;
   FittedNoise noise;
-  std::vector<CalibrationBin> bins;  ///< of the galleries held out
-  VisionScore score;                 ///< of the galleries held out
+  std::vector<CalibrationBin> bins;  ///< of the calibration scenes held out
+  VisionScore score;                 ///< of the calibration scenes held out
 };
 
 /// @param takes of all seeds, one each; every other one is held out

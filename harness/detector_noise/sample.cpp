@@ -19,12 +19,12 @@ namespace stereobench::harness {
 namespace {
 
 /// The bounds on range and bearing that the picture's noise makes.
-/// @param world the gallery's, as its seed has it
-BallBounds bounds_of(const worlds::Scenario& gallery, const worlds::World& world,
+/// @param world the calibration scene's, as its seed has it
+BallBounds bounds_of(const worlds::Scenario& scene, const worlds::World& world,
                      const renderer::StereoFrame& frame, const BallOutline& ball, double noise_sd_levels) {
-  const vision::StereoRig& rig = gallery.rig;
+  const vision::StereoRig& rig = scene.rig;
   const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
-                                  gallery.camera.defocus_sd_px};
+                                  scene.camera.defocus_sd_px};
   vision::SizedBall sized;
   sized << vision::robot_from_camera(rig).inverse() * ball.ball_in_robot,
       world.balls[static_cast<std::size_t>(ball.ball)].radius_m;
@@ -51,22 +51,22 @@ CalibrationSample compare(const BallOutline& ball, const vision::BallObservation
 
 }  // namespace
 
-CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend backend) {
+CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend backend) {
   CalibrationTake take;
-  const double noise_sd_levels = detector_setup(gallery).noise_sd_levels;
+  const double noise_sd_levels = detector_setup(scene).noise_sd_levels;
   Listeners listeners;
-  const worlds::World world = worlds::world_for_seed(gallery, gallery.seeds.front());
+  const worlds::World world = worlds::world_for_seed(scene, scene.seeds.front());
   listeners.on_frame = [&](const FrameEvent& event) {
     for (const MatchedObservation& seen : event.match.observations) {
       if (!seen.undistorted.trusted() || !seen.colour_agrees) continue;
       const BallOutline& ball = event.match.outlines[*seen.outline];
       CalibrationSample sample = compare(ball, seen.undistorted);
-      sample.depth_m = (vision::robot_from_camera(gallery.rig).inverse() * ball.ball_in_robot).z();
-      if (sample.whole) sample.bounds = bounds_of(gallery, world, event.frame, ball, noise_sd_levels);
+      sample.depth_m = (vision::robot_from_camera(scene.rig).inverse() * ball.ball_in_robot).z();
+      if (sample.whole) sample.bounds = bounds_of(scene, world, event.frame, ball, noise_sd_levels);
       take.samples.push_back(sample);
     }
   };
-  take.score = *record(gallery, gallery.seeds.front(), listeners, backend).vision;
+  take.score = *record(scene, scene.seeds.front(), listeners, backend).vision;
   return take;
 }
 

@@ -25,14 +25,14 @@ struct CalibrationSample {
   bool whole = true;  ///< at least 95 % of the ball is seen by each camera
 };
 
-/// What one gallery gave.
+/// What one calibration scene gave.
 struct CalibrationTake {
   std::vector<CalibrationSample> samples;
   VisionScore score;
 };
 
-/// Looks around in a gallery (worlds::gallery) with the scenario's detector.
-/// @param gallery its single seed is that of the noise
-CalibrationTake take_samples(const worlds::Scenario& gallery, renderer::Backend backend);
+/// Looks around in a calibration scene (worlds::calibration_scene) with the scenario's detector.
+/// @param scene its single seed is that of the noise
+CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend backend);
 
 }  // namespace stereobench::harness

@@ -1,4 +1,4 @@
-/// What a gallery gave, on its way from a worker process to its parent, exact to the last bit.
+/// What a calibration scene gave, on its way from a worker process to its parent, exact to the last bit.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace stereobench::harness {
 
-/// What a gallery gave as bytes (CBOR), and back.
+/// What a calibration scene gave as bytes (CBOR), and back.
 std::string to_bytes(const CalibrationTake& take);
 CalibrationTake calibration_take_from_bytes(std::string_view bytes);
 

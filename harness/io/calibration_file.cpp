@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double kRounding = 1e-12;   // of a rotation that went through a file
 constexpr double kSquare = 1e-9;      // pixels that are as square as this were meant to be
-constexpr double kLeastAspect = 0.5;  // of pixels; a picture put straight is up to twice as large
+constexpr double kLeastAspect = 0.5;  // of pixels; a rectified picture is up to twice as large
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));

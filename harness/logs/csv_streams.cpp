@@ -42,12 +42,12 @@ Eigen::Matrix2d covariance_in(const NumberTable& table, const TableRow& row) {
 }
 
 /// Column 1 is the identity; `colour_class` and the covariance follow where the header names them.
-std::vector<Sighting> sightings_from(const NumberTable& table, const SensorNoise& noise) {
+std::vector<LoggedSighting> sightings_from(const NumberTable& table, const SensorNoise& noise) {
   stamps_from(table);  // refuses time that runs backwards
-  std::vector<Sighting> sightings;
+  std::vector<LoggedSighting> sightings;
   sightings.reserve(table.rows.size());
   for (const TableRow& row : table.rows) {
-    Sighting sighting = sighting_from(table, row, noise);
+    LoggedSighting sighting = sighting_from(table, row, noise);
     sighting.measurement.landmark_id = whole_number_in(table, row, 1, slam::kUnknown);
     if (table.columns.size() > 4) {
       sighting.measurement.colour_class = whole_number_in(table, row, 4, slam::kUnknown);

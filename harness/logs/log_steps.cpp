@@ -22,7 +22,7 @@ double seconds(std::int64_t duration_ns) {
 /// One instant for each group of sightings, and one at each end of the odometry.
 std::vector<std::int64_t> needed_instants(const RecordedStreams& streams) {
   std::vector<std::int64_t> instants;
-  for (const Sighting& sighting : streams.sightings) {
+  for (const LoggedSighting& sighting : streams.sightings) {
     const bool same = !instants.empty() && sighting.stamp_ns - instants.back() <= kSameInstant_ns;
     if (!same) instants.push_back(sighting.stamp_ns);
   }
@@ -94,9 +94,9 @@ std::optional<slam::Pose> truth_at(const std::vector<StampedPose>& truth, std::i
 }
 
 /// Gives each sighting to the step it is nearest to.
-void deal_out(const std::vector<Sighting>& sightings, std::vector<LogStep>& steps) {
+void deal_out(const std::vector<LoggedSighting>& sightings, std::vector<LogStep>& steps) {
   std::size_t step = 0;
-  for (const Sighting& sighting : sightings) {
+  for (const LoggedSighting& sighting : sightings) {
     const auto distance = [&](std::size_t i) { return std::abs(steps[i].stamp_ns - sighting.stamp_ns); };
     while (step + 1 < steps.size() && distance(step + 1) < distance(step)) ++step;
     steps[step].measurements.push_back(sighting.measurement);

@@ -54,7 +54,7 @@ void read_sightings(const NumberTable& table, const std::map<int, int>& subjects
                     RecordedStreams& streams) {
   stamps_from(table);  // refuses time that runs backwards
   for (const TableRow& row : table.rows) {
-    Sighting sighting = sighting_from(table, row, noise);
+    LoggedSighting sighting = sighting_from(table, row, noise);
     const auto subject = subjects.find(whole_number_in(table, row, 1, 0));
     if (subject == subjects.end()) {
       ++streams.unknown_barcodes;
@@ -74,7 +74,7 @@ void count_from_first_second(RecordedStreams& streams) {
   const std::int64_t rest_ns = ((first_ns % kSecond_ns) + kSecond_ns) % kSecond_ns;
   const std::int64_t epoch_ns = first_ns - rest_ns;
   for (OdometryReading& reading : streams.odometry) reading.stamp_ns -= epoch_ns;
-  for (Sighting& sighting : streams.sightings) sighting.stamp_ns -= epoch_ns;
+  for (LoggedSighting& sighting : streams.sightings) sighting.stamp_ns -= epoch_ns;
   for (StampedPose& pose : streams.truth) pose.stamp_ns -= epoch_ns;
 }
 

@@ -53,16 +53,16 @@ class OdometryPath {
 
 /// Two sightings of one landmark.
 struct Pair {
-  const Sighting* earlier;
-  const Sighting* later;
+  const LoggedSighting* earlier;
+  const LoggedSighting* later;
 };
 
-std::vector<Pair> pairs_of(const std::vector<Sighting>& sightings) {
-  std::map<int, const Sighting*> waiting;  // by landmark
+std::vector<Pair> pairs_of(const std::vector<LoggedSighting>& sightings) {
+  std::map<int, const LoggedSighting*> waiting;  // by landmark
   std::vector<Pair> pairs;
-  for (const Sighting& sighting : sightings) {
+  for (const LoggedSighting& sighting : sightings) {
     if (sighting.measurement.landmark_id < 0) continue;
-    const Sighting*& earlier = waiting[sighting.measurement.landmark_id];
+    const LoggedSighting*& earlier = waiting[sighting.measurement.landmark_id];
     if (earlier && sighting.stamp_ns - earlier->stamp_ns < kLeastApart_ns) continue;
     if (earlier && sighting.stamp_ns - earlier->stamp_ns <= kMostApart_ns)
       pairs.push_back({earlier, &sighting});
@@ -126,8 +126,9 @@ bool is_better(const std::vector<double>& without, const std::vector<double>& wi
 
 OdometryDelay estimate_odometry_delay(const RecordedStreams& streams) {
   constexpr std::size_t kFewest = 30;  // pairs; below, a standard error means little
-  const bool named = std::ranges::any_of(
-      streams.sightings, [](const Sighting& sighting) { return sighting.measurement.landmark_id >= 0; });
+  const bool named = std::ranges::any_of(streams.sightings, [](const LoggedSighting& sighting) {
+    return sighting.measurement.landmark_id >= 0;
+  });
   if (!named && !streams.sightings.empty()) return {0.0, DelaySource::kNoIdentities};
   const std::vector<Pair> pairs = pairs_of(streams.sightings);
   if (pairs.size() < kFewest) return {0.0, DelaySource::kFewPairs};

@@ -17,7 +17,7 @@ struct OdometryReading {
   double w_radps = 0.0;
 };
 
-struct Sighting {
+struct LoggedSighting {
   std::int64_t stamp_ns = 0;
   slam::RangeBearing measurement;
 };
@@ -29,7 +29,7 @@ struct StampedPose {
 
 struct RecordedStreams {
   std::vector<OdometryReading> odometry;  ///< at least one
-  std::vector<Sighting> sightings;
+  std::vector<LoggedSighting> sightings;
   std::vector<StampedPose> truth;
   std::vector<LandmarkTruth> landmarks;
   std::optional<std::vector<std::int64_t>> instants_ns;  ///< the steps' stamps, where the log states them

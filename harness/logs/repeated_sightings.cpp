@@ -18,7 +18,8 @@ bool same_name(const slam::RangeBearing& a, const slam::RangeBearing& b) {
 using Alike = std::function<bool(const slam::RangeBearing&, const slam::RangeBearing&)>;
 
 /// Whether one like a sighting is among those before it that belong to its instant.
-bool has_alike_before(const std::vector<Sighting>& before, const Sighting& sighting, const Alike& alike) {
+bool has_alike_before(const std::vector<LoggedSighting>& before, const LoggedSighting& sighting,
+                      const Alike& alike) {
   for (auto other = before.rbegin(); other != before.rend(); ++other) {
     if (sighting.stamp_ns - other->stamp_ns > kSameInstant_ns) return false;
     if (alike(other->measurement, sighting.measurement)) return true;
@@ -28,19 +29,19 @@ bool has_alike_before(const std::vector<Sighting>& before, const Sighting& sight
 
 }  // namespace
 
-long drop_repeated(std::vector<Sighting>& sightings) {
-  std::vector<Sighting> kept;
-  for (const Sighting& sighting : sightings)
+long drop_repeated(std::vector<LoggedSighting>& sightings) {
+  std::vector<LoggedSighting> kept;
+  for (const LoggedSighting& sighting : sightings)
     if (!has_alike_before(kept, sighting, same_reading)) kept.push_back(sighting);
   const auto dropped = static_cast<long>(sightings.size() - kept.size());
   sightings = std::move(kept);
   return dropped;
 }
 
-long count_concurrent(const std::vector<Sighting>& sightings) {
-  std::vector<Sighting> before;
+long count_concurrent(const std::vector<LoggedSighting>& sightings) {
+  std::vector<LoggedSighting> before;
   long count = 0;
-  for (const Sighting& sighting : sightings) {
+  for (const LoggedSighting& sighting : sightings) {
     count += has_alike_before(before, sighting, same_name) ? 1 : 0;
     before.push_back(sighting);
   }

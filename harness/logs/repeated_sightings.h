@@ -12,10 +12,10 @@ namespace stereobench::harness {
 /// filters would take both for evidence.
 /// @param sightings in order of time; the first of equals stays
 /// @return how many were taken out
-long drop_repeated(std::vector<Sighting>& sightings);
+long drop_repeated(std::vector<LoggedSighting>& sightings);
 
 /// @param sightings in order of time, without repeated ones
 /// @return how many name a landmark that another one within 1 ms before names as well
-long count_concurrent(const std::vector<Sighting>& sightings);
+long count_concurrent(const std::vector<LoggedSighting>& sightings);
 
 }  // namespace stereobench::harness

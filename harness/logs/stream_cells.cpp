@@ -77,8 +77,8 @@ std::vector<LandmarkTruth> landmarks_from(const NumberTable& table) {
   return landmarks;
 }
 
-Sighting sighting_from(const NumberTable& table, const TableRow& row, const SensorNoise& noise) {
-  Sighting sighting;
+LoggedSighting sighting_from(const NumberTable& table, const TableRow& row, const SensorNoise& noise) {
+  LoggedSighting sighting;
   sighting.stamp_ns = stamp_ns_in(table, row, 0);
   sighting.measurement.range_m = number_in(table, row, 2);
   if (sighting.measurement.range_m < 0.0) refuse(table, row, 2, "expected a range of at least 0");

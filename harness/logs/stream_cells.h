@@ -16,7 +16,7 @@ std::vector<StampedPose> truth_from(const NumberTable& table);
 std::vector<LandmarkTruth> landmarks_from(const NumberTable& table);
 
 /// Columns t, id, range, bearing and whatever follows, without the identity.
-Sighting sighting_from(const NumberTable& table, const TableRow& row, const SensorNoise& noise);
+LoggedSighting sighting_from(const NumberTable& table, const TableRow& row, const SensorNoise& noise);
 
 /// The stamps of column 0, which must not run backwards.
 std::vector<std::int64_t> stamps_from(const NumberTable& table);

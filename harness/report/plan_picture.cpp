@@ -55,8 +55,8 @@ Sector sector_of(const worlds::Scenario& scenario) {
 }
 
 /// How far one sees from a point along a direction: to the nearest line that hides what is behind it.
-double sight_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double reach_m,
-               std::span<const FloorLine> lines) {
+double free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double reach_m,
+              std::span<const FloorLine> lines) {
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
   };
@@ -82,7 +82,7 @@ void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<
       const double angle_rad = step.pose.heading_rad + sector.half_angle_rad * k / 60.0;
       const Eigen::Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
       corners.push_back(corners.front() +
-                        sight_m(corners.front(), direction, sector.reach_m, lines) * direction);
+                        free_m(corners.front(), direction, sector.reach_m, lines) * direction);
     }
     sheet.polygon(corners, "fill=\"#4a90d9\" fill-opacity=\"0.1\" stroke=\"#4a90d9\" stroke-opacity=\"0.3\"");
   }

@@ -8,7 +8,7 @@
 
 namespace stereobench::harness {
 
-/// What is wrong with a calibration and would mend it, a line each: corners that are farther off than
+/// What is wrong with a calibration and would repair it, a line each: corners that are farther off than
 /// neighbours differ, so that something smooth is not in the model; few views; and views that leave the focal
 /// length, or whether pixels are square, open.
 /// @return empty for a good one

@@ -70,9 +70,9 @@ RigCalibration rectified_rig(const RigFit& fit, RigModel model, int width_px, in
     return result;
   }
   const Eigen::Matrix3d half = rotation_of(0.5 * fit.turn_rad);
-  const Eigen::Matrix3d straight = rectified_from_common(half.transpose() * fit.right_in_left_m);
-  cameras[0].rectified_from_camera = straight * half.transpose();
-  cameras[1].rectified_from_camera = straight * half;
+  const Eigen::Matrix3d turned = rectified_from_common(half.transpose() * fit.right_in_left_m);
+  cameras[0].rectified_from_camera = turned * half.transpose();
+  cameras[1].rectified_from_camera = turned * half;
   const Eigen::Vector3d mean = 0.5 * (fit.cameras[0] + fit.cameras[1]).head<3>();
   rig.intrinsics = {width_px, height_px, mean[0], mean[1], mean[2]};
   result.cameras = cameras;
@@ -87,8 +87,8 @@ std::optional<Eigen::Vector2d> rectified_px(const RigCalibration& calibration,
   const auto direction =
       vision::undistort(taken_by.lens, vision::pixel_ray(taken_by.intrinsics, taken_px).head<2>());
   if (!direction) return std::nullopt;
-  const Eigen::Vector3d straight = taken_by.rectified_from_camera * direction->homogeneous();
-  return vision::project(calibration.rig.intrinsics, straight);
+  const Eigen::Vector3d turned = taken_by.rectified_from_camera * direction->homogeneous();
+  return vision::project(calibration.rig.intrinsics, turned);
 }
 
 }  // namespace stereobench::harness

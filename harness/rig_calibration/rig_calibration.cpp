@@ -20,7 +20,7 @@ constexpr double kOutlier = 3.0;         // times the median error of views
 constexpr double kAlwaysFine_px = 0.05;  // of a view's error: no outlier, however good the others are
 
 /// The views in which both cameras see the board, and what became of all.
-struct Sighted {
+struct FoundBoards {
   std::vector<BoardView> views;
   std::vector<ViewOutcome> outcomes;
   cv::Size size;
@@ -54,28 +54,28 @@ std::string look(const std::array<cv::Mat, 2>& pair, const cv::Size& size, const
   return {};
 }
 
-Sighted find_boards(const std::vector<ViewFiles>& files, const Board& board) {
+FoundBoards find_boards(const std::vector<ViewFiles>& files, const Board& board) {
   std::vector<std::array<cv::Mat, 2>> pairs;
   for (const ViewFiles& file : files)
     pairs.push_back({read_grey_picture(file.left), read_grey_picture(file.right)});
-  Sighted sighted;
-  sighted.size = usual_size(pairs);
+  FoundBoards boards;
+  boards.size = usual_size(pairs);
   for (std::size_t i = 0; i < files.size(); ++i) {
     BoardView view{.name = files[i].name};
-    const std::string dropped = look(pairs[i], sighted.size, board, view);
-    sighted.outcomes.push_back({.name = files[i].name, .dropped = dropped, .index = sighted.views.size()});
-    if (dropped.empty()) sighted.views.push_back(view);
+    const std::string dropped = look(pairs[i], boards.size, board, view);
+    boards.outcomes.push_back({.name = files[i].name, .dropped = dropped, .index = boards.views.size()});
+    if (dropped.empty()) boards.views.push_back(view);
   }
-  return sighted;
+  return boards;
 }
 
-[[noreturn]] void refuse_too_few(const Sighted& sighted, std::size_t expected) {
+[[noreturn]] void refuse_too_few(const FoundBoards& boards, std::size_t expected) {
   std::string reasons;
-  for (const ViewOutcome& outcome : sighted.outcomes)
+  for (const ViewOutcome& outcome : boards.outcomes)
     if (!outcome.dropped.empty()) reasons += fmt::format("; {}: {}", outcome.name, outcome.dropped);
   throw std::runtime_error(
       fmt::format("expected at least {} views in which both cameras see the board (got {}){}", expected,
-                  sighted.views.size(), reasons));
+                  boards.views.size(), reasons));
 }
 
 double error_of(const std::array<double, 2>& cameras) {
@@ -83,10 +83,10 @@ double error_of(const std::array<double, 2>& cameras) {
 }
 
 /// Takes out the views that do not suit the others.
-void drop_outliers(Sighted& sighted, const FitSettings& settings, const Compared& compared) {
+void drop_outliers(FoundBoards& boards, const FitSettings& settings, const Compared& compared) {
   FitSettings robust = fullest(settings, compared);
   robust.robust = true;
-  const RigFit fit = fit_rig(sighted.views, robust);
+  const RigFit fit = fit_rig(boards.views, robust);
   std::vector<double> errors;
   for (const auto& cameras : fit.view_rms_px) errors.push_back(error_of(cameras));
   std::vector<double> sorted = errors;
@@ -94,17 +94,17 @@ void drop_outliers(Sighted& sighted, const FitSettings& settings, const Compared
   const double median = sorted[sorted.size() / 2];
   const double most = std::max(kOutlier * median, kAlwaysFine_px);
   std::vector<BoardView> kept;
-  for (ViewOutcome& outcome : sighted.outcomes) {
+  for (ViewOutcome& outcome : boards.outcomes) {
     if (!outcome.dropped.empty()) continue;
     const std::size_t view = outcome.index;
     outcome.index = kept.size();
     if (errors[view] <= most)
-      kept.push_back(sighted.views[view]);
+      kept.push_back(boards.views[view]);
     else
       outcome.dropped = fmt::format("its corners are {:.3g} px off, those of the other views {:.3g} px",
                                     errors[view], median);
   }
-  sighted.views = kept;
+  boards.views = kept;
 }
 
 /// Rows: how far apart the cameras' corners are across the epipolar lines, once rectified.
@@ -168,21 +168,21 @@ void judge_squares(const Board& board, BoardCalibration& calibration) {
 }  // namespace
 
 BoardCalibration calibrate_rig(const std::vector<ViewFiles>& files, const BoardSettings& settings) {
-  Sighted sighted = find_boards(files, settings.board);
-  if (sighted.views.size() < settings.fewest_views) refuse_too_few(sighted, settings.fewest_views);
+  FoundBoards boards = find_boards(files, settings.board);
+  if (boards.views.size() < settings.fewest_views) refuse_too_few(boards, settings.fewest_views);
   const FitSettings fit{.board = settings.board,
-                        .width_px = sighted.size.width,
-                        .height_px = sighted.size.height,
+                        .width_px = boards.size.width,
+                        .height_px = boards.size.height,
                         .model = settings.model,
                         .lens = settings.lens,
                         .square_pixels = settings.compared.aspect || settings.square_pixels};
-  drop_outliers(sighted, fit, settings.compared);
-  if (sighted.views.size() < settings.fewest_views) refuse_too_few(sighted, settings.fewest_views);
-  ModelChoice choice = choose_model(sighted.views, fit, settings.compared);
+  drop_outliers(boards, fit, settings.compared);
+  if (boards.views.size() < settings.fewest_views) refuse_too_few(boards, settings.fewest_views);
+  ModelChoice choice = choose_model(boards.views, fit, settings.compared);
   BoardCalibration calibration{.fit = choice.fit, .models = std::move(choice.trials)};
   calibration.rig = rectified_rig(calibration.fit, settings.model, fit.width_px, fit.height_px);
-  calibration.used = std::move(sighted.views);
-  calibration.outcomes = std::move(sighted.outcomes);
+  calibration.used = std::move(boards.views);
+  calibration.outcomes = std::move(boards.outcomes);
   judge_rows(calibration);
   judge_squares(settings.board, calibration);
   return calibration;

@@ -21,11 +21,12 @@ constexpr std::array<Colour, 3> kBars = {
     {{0.2, 0.4, 0.8, 1.0}, {0.85, 0.45, 0.1, 1.0}, {0.2, 0.6, 0.3, 1.0}}};
 constexpr std::array<const char*, 3> kBarNames = {"left", "right", "rows between the cameras"};
 
-/// Both cameras' straightened pictures side by side, above white paper for the chart.
-cv::Mat sheet_of(const vision::StereoPair& straight, double scale) {
+/// Both cameras' rectified pictures side by side, above white paper for the chart.
+cv::Mat sheet_of(const vision::StereoPair& rectified, double scale) {
   cv::Mat both;
-  cv::hconcat(straight.left, straight.right, both);
-  cv::resize(both, both, {kWidth_px, static_cast<int>(scale * straight.left.rows)}, 0.0, 0.0, cv::INTER_AREA);
+  cv::hconcat(rectified.left, rectified.right, both);
+  cv::resize(both, both, {kWidth_px, static_cast<int>(scale * rectified.left.rows)}, 0.0, 0.0,
+             cv::INTER_AREA);
   cv::copyMakeBorder(both, both, 0, kChartHeight_px, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(255));
   return both;
 }
@@ -117,15 +118,15 @@ std::string draw_rig_picture(const BoardCalibration& calibration, std::size_t vi
   const vision::CameraPair cameras =
       calibration.rig.cameras ? *calibration.rig.cameras : vision::cameras_of(calibration.rig.rig);
   const vision::Rectification rectification(calibration.rig.rig, cameras);
-  const vision::StereoPair straight = rectification.apply(pair);
-  const double scale = 0.5 * kWidth_px / straight.left.cols;
-  const cv::Mat sheet = sheet_of(straight, scale);
+  const vision::StereoPair rectified = rectification.apply(pair);
+  const double scale = 0.5 * kWidth_px / rectified.left.cols;
+  const cv::Mat sheet = sheet_of(rectified, scale);
   const double height_px = sheet.rows - kChartHeight_px;
   Canvas canvas(sheet);
   draw_rows(canvas, height_px);
   draw_corners(canvas, calibration, calibration.used[view], rectification, scale);
   draw_legend(canvas, height_px,
-              fmt::format("View {}, straightened. Errors by view, rms in pixels: {:.3f} overall, rows {:.3f}",
+              fmt::format("View {}, rectified. Errors by view, rms in pixels: {:.3f} overall, rows {:.3f}",
                           calibration.used[view].name, calibration.fit.rms_px, calibration.row_rms_px));
   draw_errors(canvas, calibration, height_px);
   return canvas.png();

@@ -7,7 +7,7 @@
 
 namespace stereobench::harness {
 
-/// Draws a pair as the rig straightens it, with lines that go through both cameras' rows and the corners of
+/// Draws a pair rectified, with lines that go through both cameras' rows and the corners of
 /// the board, and below it each view's errors.
 /// @param pair CV_8UC3, as taken
 /// @param view which of the fit's views it is

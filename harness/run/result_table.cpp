@@ -75,9 +75,9 @@ std::string error_table(const RunResult& result) {
   return plain_text(table);
 }
 
-/// What filters mended or refused, as sums over the seeds; nothing for filters that did neither.
+/// What filters repaired or refused, as sums over the seeds; nothing for filters that did neither.
 std::string counters_table(const std::vector<FilterResult>& filters) {
-  AlignedTable table{.header = {"mended or refused", "refused, by particle", "inputs", "covariances",
+  AlignedTable table{.header = {"repaired or refused", "refused, by particle", "inputs", "covariances",
                                 "weights", "joint searches cut"}};
   for (const FilterResult& filter : filters) {
     const slam::FilterCounters& c = filter.counters;

@@ -30,7 +30,7 @@ struct FilterResult {
   std::vector<FilterScore> scores;  ///< one a seed
   FilterSummary summary;
   std::optional<AssociationScore> association;  ///< of all seeds, where the logs say whose the sightings are
-  slam::FilterCounters counters;                ///< what it mended and refused, summed over the seeds
+  slam::FilterCounters counters;                ///< what it repaired and refused, summed over the seeds
 };
 
 /// One filter beside another on the same seeds.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "harness/scoring/sighted_landmark.h"
+#include "harness/scoring/measured_landmark.h"
 
 namespace stereobench::harness {
 namespace {
@@ -77,7 +77,7 @@ InnovationScore score_innovations(const FilterRun& run, const MeasurementLog& lo
     for (const slam::NormalisedInnovation& innovation : run.updates[k].innovations) {
       score.run.add(innovation);
       const auto sighting = static_cast<std::size_t>(innovation.sighting);
-      if (const auto seen = sighted_landmark(log.steps[k], sighting, log.landmarks))
+      if (const auto seen = measured_landmark(log.steps[k], sighting, log.landmarks))
         score.by_landmark[log.landmarks[*seen].landmark_id].add(innovation);
     }
   return score;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/scoring/sighted_landmark.h"
+#include "harness/scoring/measured_landmark.h"
 #include "slam/reference/batch.h"
 #include "slam/reference/posterior_bound.h"
 
@@ -32,7 +32,7 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
     std::vector<slam::TrueSighting> frame;
     const LogStep& step = log.steps[k];
     for (std::size_t i = 0; i < step.measurements.size(); ++i) {
-      const auto landmark = sighted_landmark(step, i, log.landmarks);
+      const auto landmark = measured_landmark(step, i, log.landmarks);
       if (landmark) frame.push_back({static_cast<int>(*landmark), step.measurements[i].covariance});
     }
     bound.look(frame);

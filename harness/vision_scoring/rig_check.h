@@ -34,7 +34,7 @@ RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& si
 /// larger than sizes say. Null where nothing tells.
 nlohmann::ordered_json rig_json(const RigCheck& check);
 
-/// A line for each of both that cannot be chance: how large it is, and what a calibration would mend.
+/// A line for each of both that cannot be chance: how large it is, and what a calibration would repair.
 std::vector<std::string> rig_warnings(const RigCheck& check);
 
 }  // namespace stereobench::harness

@@ -110,11 +110,11 @@ void BallPainter::draw(const CameraView& view, const std::vector<BallOutline>& o
   gl_->Disable(GL_BLEND);
 }
 
-void BallPainter::draw_facets(const CameraView& view) {
+void BallPainter::draw_primitives(const CameraView& view) {
   const std::vector<BallOutline> outlines = this->outlines(view);
   if (outlines.empty()) return;
-  if (!facet_) facet_.emplace(make_part(*gl_, BallPart::kFacet));
-  facet_->program.use();
+  if (!primitive_) primitive_.emplace(make_part(*gl_, BallPart::kPrimitive));
+  primitive_->program.use();
   stream_.bind();
   upload(outlines);
   draw_boxes(outlines.size());

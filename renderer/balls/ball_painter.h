@@ -22,8 +22,8 @@ class BallPainter {
   /// @param outlines as above
   void draw(const CameraView& view, const std::vector<BallOutline>& outlines);
 
-  /// Draws those that the camera can see with the numbers of facets (facets.h) in place of colours.
-  void draw_facets(const CameraView& view);
+  /// Draws those that the camera can see with the numbers of primitives (primitives.h) in place of colours.
+  void draw_primitives(const CameraView& view);
 
  private:
   struct Part {
@@ -41,7 +41,7 @@ class BallPainter {
   VertexArray stream_;
   Part core_;
   Part rim_;
-  std::optional<Part> facet_;  // once somebody asked
+  std::optional<Part> primitive_;  // once somebody asked
 };
 
 }  // namespace stereobench::renderer

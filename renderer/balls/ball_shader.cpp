@@ -31,10 +31,11 @@ uniform vec3 u_towards_light;  // camera frame, unit length
 uniform vec2 u_light;          // ambient, diffuse
 uniform float u_near;
 
-// Area of the unit square around the pixel's centre on the inner side of an edge, in closed form.
-// size: the edge's unit normal, absolute values; outside: signed distance of the centre beyond the edge's nearest
-// point, where it has this curvature. Between its ends the edge is replaced by the line that cuts off the same
-// area: it bends away from its tangent by curvature t^2 / 2, t running along the chord within the square.
+// Area of the unit square around the pixel's centre on the inner side of an edge, in closed form. size: the
+// edge's unit normal, absolute values; outside: signed distance of the centre beyond the edge's nearest
+// point, where it has this curvature. Between its ends the edge is replaced by the line that cuts off the
+// same area: it bends away from its tangent by curvature t^2 / 2, t running along the chord within the
+// square.
 float covered_area(vec2 size, float outside, float curvature) {
   float a = max(size.x, size.y), b = max(min(size.x, size.y), 1e-6);
   float corner = max(0.5 * (a + b) - abs(outside), 0.0);  // what the line leaves of the way to the far corner
@@ -78,7 +79,7 @@ constexpr const char* kRimTest = R"glsl(
   float root = 0.0;
 )glsl";
 
-constexpr const char* kFacetTest = R"glsl(
+constexpr const char* kPrimitiveTest = R"glsl(
   if (inside <= 0.0) discard;
   float root = sqrt(f_shape.w * inside);
 )glsl";
@@ -98,7 +99,7 @@ constexpr const char* kColour = R"glsl(
 }
 )glsl";
 
-constexpr const char* kFacet = R"glsl(
+constexpr const char* kPrimitive = R"glsl(
   o_colour = vec4(f_colour.a, 0.0, 0.0, 0.0);
 }
 )glsl";
@@ -110,7 +111,8 @@ std::string ball_vertex_shader() {
 }
 
 std::string ball_fragment_shader(BallPart part) {
-  if (part == BallPart::kFacet) return fmt::format("{}{}{}{}", kFragmentHead, kFacetTest, kDepth, kFacet);
+  if (part == BallPart::kPrimitive)
+    return fmt::format("{}{}{}{}", kFragmentHead, kPrimitiveTest, kDepth, kPrimitive);
   return fmt::format("{}{}{}{}", kFragmentHead, part == BallPart::kCore ? kCoreTest : kRimTest, kDepth,
                      kColour);
 }

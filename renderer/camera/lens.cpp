@@ -30,10 +30,11 @@ void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int d
   for (std::size_t column = 0; column < places.size(); ++column) {
     const Eigen::Vector2d pixel((static_cast<double>(column) + 0.5) / density - 0.5,
                                 (row + 0.5) / density - 0.5);
-    const Eigen::Vector2d bent = vision::pixel_ray(rig.intrinsics, pixel).head<2>();
+    const Eigen::Vector2d distorted = vision::pixel_ray(rig.intrinsics, pixel).head<2>();
     std::optional<Eigen::Vector2d> found;
-    if (column >= 2) found = vision::undistort(rig.distortion, bent, 2.0 * last - before);  // it goes on so
-    if (!found) found = vision::undistort(rig.distortion, bent);
+    if (column >= 2)
+      found = vision::undistort(rig.distortion, distorted, 2.0 * last - before);  // it goes on so
+    if (!found) found = vision::undistort(rig.distortion, distorted);
     if (!found) throw std::invalid_argument("Lens: the lens folds its picture");
     before = std::exchange(last, *found);
     const Eigen::Vector2d at = vision::project(pinhole, found->homogeneous());
@@ -45,7 +46,7 @@ cv::Vec2s rounded(const cv::Vec2d& place) {
   return {static_cast<short>(std::lround(place[0])), static_cast<short>(std::lround(place[1]))};
 }
 
-/// The rows of the pinhole's picture that each row of the bent one has places in.
+/// The rows of the pinhole's picture that each row of the distorted one has places in.
 std::vector<cv::Range> rows_of(const cv::Mat& places) {
   std::vector<cv::Range> rows;
   for (int first = 0; first < places.rows; first += kOversampling) {
@@ -102,30 +103,32 @@ cv::Range Lens::rows_seen(const cv::Range& rows) const {
           std::min(seen.end + kMargin_px + 1, pinhole_.intrinsics.height_px)};
 }
 
-RenderedImage Lens::bend(const RenderedImage& straight, int first_row, const cv::Range& rows,
-                         PicturePool& pool) const {
+RenderedImage Lens::distort(const RenderedImage& undistorted, int first_row, const cv::Range& rows,
+                            PicturePool& pool) const {
   const cv::Size size(truth_places_.cols, rows.size());
-  const bool is_fine = straight.colour.depth() == CV_16U;
-  RenderedImage bent = blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
-  const auto bend_row = [&](int v) {
+  const bool is_fine = undistorted.colour.depth() == CV_16U;
+  RenderedImage distorted =
+      blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
+  const auto distort_row = [&](int v) {
     const int row = rows.start + v;
     const auto light = [&](int k) {
       const int dense = kOversampling * row + k;
       return LightPlaces{light_places_.ptr<cv::Vec2s>(dense), light_fractions_.ptr<std::uint16_t>(dense)};
     };
     if (is_fine)
-      gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr<std::uint16_t>(v),
-                   size.width);
+      gather_light({light(0), light(1)}, {undistorted.colour, first_row},
+                   distorted.colour.ptr<std::uint16_t>(v), size.width);
     else
-      gather_light({light(0), light(1)}, {straight.colour, first_row}, bent.colour.ptr(v), size.width);
+      gather_light({light(0), light(1)}, {undistorted.colour, first_row}, distorted.colour.ptr(v),
+                   size.width);
     const auto* truth = truth_places_.ptr<cv::Vec2s>(row);
-    pick(truth, {straight.ball_id, first_row}, bent.ball_id.ptr(v), size.width);
-    pick(truth, {straight.depth_m, first_row}, bent.depth_m.ptr<float>(v), size.width);
+    pick(truth, {undistorted.ball_id, first_row}, distorted.ball_id.ptr(v), size.width);
+    pick(truth, {undistorted.depth_m, first_row}, distorted.depth_m.ptr<float>(v), size.width);
   };
   cv::parallel_for_({0, rows.size()}, [&](const cv::Range& part) {
-    for (int v = part.start; v < part.end; ++v) bend_row(v);
+    for (int v = part.start; v < part.end; ++v) distort_row(v);
   });
-  return bent;
+  return distorted;
 }
 
 }  // namespace stereobench::renderer

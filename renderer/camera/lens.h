@@ -15,28 +15,28 @@ namespace stereobench::renderer {
 /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
 vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig);
 
-/// Bends pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is drawn
-/// by a pinhole camera with twice as many pixels each way, and its light gathered per pixel of the bent
-/// picture at four places. Truth is that of the pinhole's pixel nearest to where the bent pixel's centre
-/// looks, a third of a pixel off at most.
+/// Distorts pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is
+/// drawn by a pinhole camera with twice as many pixels each way, and its light gathered per pixel of the
+/// distorted picture at four places. Truth is that of the pinhole's pixel nearest to where the distorted
+/// pixel's centre looks, a third of a pixel off at most.
 class Lens {
  public:
   /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
   explicit Lens(const vision::StereoRig& rig);
 
-  /// The rig without distortion whose pictures bend() takes.
+  /// The rig without distortion whose pictures distort() takes.
   const vision::StereoRig& pinhole_rig() const { return pinhole_; }
 
   int height_px() const { return truth_places_.rows; }
 
-  /// The rows of the pinhole's picture that some rows of the bent one are made of.
+  /// The rows of the pinhole's picture that some rows of the distorted one are made of.
   cv::Range rows_seen(const cv::Range& rows) const;
 
-  /// @param straight of the pinhole rig, from a row of its picture on
-  /// @param rows of the bent picture, all of whose rows_seen() are there
-  /// @param pool that the bent pictures' memory is of
-  RenderedImage bend(const RenderedImage& straight, int first_row, const cv::Range& rows,
-                     PicturePool& pool) const;
+  /// @param undistorted of the pinhole rig, from a row of its picture on
+  /// @param rows of the distorted picture, all of whose rows_seen() are there
+  /// @param pool that the distorted pictures' memory is of
+  RenderedImage distort(const RenderedImage& undistorted, int first_row, const cv::Range& rows,
+                        PicturePool& pool) const;
 
  private:
   vision::StereoRig pinhole_;

@@ -68,11 +68,12 @@ void depth_to_metres(cv::Mat& depth, float near_m) {
   for (int row = 0; row < depth.rows; ++row) row_to_metres(depth.ptr<float>(row), depth.cols, near_m);
 }
 
-cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows) {
+cv::Mat read_primitives(const Gl& gl, const cv::Range& columns, const cv::Range& rows) {
   static_assert(std::endian::native == std::endian::little, "the lowest byte is written first");
-  cv::Mat facets(rows.size(), columns.size(), CV_32SC1);
-  gl.ReadPixels(columns.start, rows.start, facets.cols, facets.rows, GL_RGBA, GL_UNSIGNED_BYTE, facets.data);
-  return facets;
+  cv::Mat primitives(rows.size(), columns.size(), CV_32SC1);
+  gl.ReadPixels(columns.start, rows.start, primitives.cols, primitives.rows, GL_RGBA, GL_UNSIGNED_BYTE,
+                primitives.data);
+  return primitives;
 }
 
 void read_part(const Gl& gl, const cv::Point& origin, const cv::Rect& part, RenderedImage& frame) {

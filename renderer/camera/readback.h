@@ -15,10 +15,10 @@ void split_colour_and_id(const cv::Mat& pixels, RenderedImage& frame);
 /// @param depth CV_32FC1
 void depth_to_metres(cv::Mat& depth, float near_m);
 
-/// Reads some rows of one camera's part of the framebuffer that is bound, drawn as facets.
+/// Reads some rows of one camera's part of the framebuffer that is bound, drawn as primitives.
 /// @param columns of the camera's part
-/// @return CV_32SC1, numbers of facets.h
-cv::Mat read_facets(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
+/// @return CV_32SC1, numbers of primitives.h
+cv::Mat read_primitives(const Gl& gl, const cv::Range& columns, const cv::Range& rows);
 
 /// Reads a part of one camera's picture out of the framebuffer that is bound, over what the frame has there.
 /// @param origin of the frame in the framebuffer

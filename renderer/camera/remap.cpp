@@ -77,11 +77,13 @@ struct Mean<std::uint16_t> {
 }  // namespace
 
 template <class Level>
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, Level* bent, int width) {
+void gather_light(const LightPlaces (&places)[2], const UndistortedRows& undistorted, Level* distorted,
+                  int width) {
   static const Weights weights;
   constexpr int kBits = Mean<Level>::kBits;
-  const std::size_t step = straight.pixels.step1();
-  const auto* origin = straight.pixels.ptr<Level>() - static_cast<std::ptrdiff_t>(step) * straight.first_row;
+  const std::size_t step = undistorted.pixels.step1();
+  const auto* origin =
+      undistorted.pixels.ptr<Level>() - static_cast<std::ptrdiff_t>(step) * undistorted.first_row;
   const auto at = [&](const cv::Vec2s& place) {
     return origin + step * static_cast<std::size_t>(place[1]) + 3 * place[0];
   };
@@ -95,11 +97,11 @@ void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, 
         sum += light_between(weights, at(row.pixels[k]), step, row.fractions[k]);
     int levels[4];
     cv::v_store(levels, sum >> kBits);
-    for (int c = 0; c < 3; ++c) *bent++ = static_cast<Level>(levels[c]);
+    for (int c = 0; c < 3; ++c) *distorted++ = static_cast<Level>(levels[c]);
   }
 }
 
-template void gather_light(const LightPlaces (&)[2], const StraightRows&, std::uint8_t*, int);
-template void gather_light(const LightPlaces (&)[2], const StraightRows&, std::uint16_t*, int);
+template void gather_light(const LightPlaces (&)[2], const UndistortedRows&, std::uint8_t*, int);
+template void gather_light(const LightPlaces (&)[2], const UndistortedRows&, std::uint16_t*, int);
 
 }  // namespace stereobench::renderer

@@ -1,4 +1,4 @@
-/// Pixels of a bent picture, gathered from a straight one that is larger than a processor's caches.
+/// Pixels of a distorted picture, gathered from an undistorted one that is larger than a processor's caches.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace stereobench::renderer {
 
-/// Some rows of a straight picture.
-struct StraightRows {
+/// Some rows of an undistorted picture.
+struct UndistortedRows {
   const cv::Mat& pixels;
   int first_row = 0;  ///< in the whole picture, in which places are counted
 };
@@ -17,7 +17,7 @@ struct StraightRows {
 /// How many places ahead what they name is asked for.
 inline constexpr int kPlacesAhead = 64;
 
-/// Places that a row of a bent picture looks at, two for each of its pixels: OpenCV's fixed-point maps.
+/// Places that a row of a distorted picture looks at, two for each of its pixels: OpenCV's fixed-point maps.
 struct LightPlaces {
   const cv::Vec2s* pixels;         ///< columns and rows of the first of four pixels
   const std::uint16_t* fractions;  ///< of the ways to the next column and row
@@ -27,16 +27,18 @@ struct LightPlaces {
 /// bits it is to the byte what cv::remap makes of the places (INTER_LINEAR) and cv::resize of that
 /// (INTER_AREA); of 16 bits it is rounded once.
 /// @tparam Level std::uint8_t or std::uint16_t
-/// @param straight CV_8UC3 or CV_16UC3, with two columns to the right of every place
-/// @param bent `width` times blue, green, red
+/// @param undistorted CV_8UC3 or CV_16UC3, with two columns to the right of every place
+/// @param distorted `width` times blue, green, red
 template <class Level>
-void gather_light(const LightPlaces (&places)[2], const StraightRows& straight, Level* bent, int width);
+void gather_light(const LightPlaces (&places)[2], const UndistortedRows& undistorted, Level* distorted,
+                  int width);
 
 /// For each place its pixel.
 template <class Pixel>
-void pick(const cv::Vec2s* places, const StraightRows& straight, Pixel* picked, int width) {
-  const std::size_t step = straight.pixels.step1();
-  const Pixel* origin = straight.pixels.ptr<Pixel>() - static_cast<std::ptrdiff_t>(step) * straight.first_row;
+void pick(const cv::Vec2s* places, const UndistortedRows& undistorted, Pixel* picked, int width) {
+  const std::size_t step = undistorted.pixels.step1();
+  const Pixel* origin =
+      undistorted.pixels.ptr<Pixel>() - static_cast<std::ptrdiff_t>(step) * undistorted.first_row;
   const auto at = [&](const cv::Vec2s& place) {
     return origin + step * static_cast<std::size_t>(place[1]) + place[0];
   };

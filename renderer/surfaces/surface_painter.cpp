@@ -4,7 +4,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "renderer/surfaces/facet_shader.h"
+#include "renderer/surfaces/primitive_shader.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -74,19 +74,20 @@ void SurfacePainter::use(SurfacePaint paint, int texture, const Eigen::Vector3f&
 }
 
 const PolygonTexture& SurfacePainter::texture_of(const SurfacePolygon& polygon) const {
-  return polygon_textures_[static_cast<std::size_t>(polygon.facet - kFloorFacet)];
+  return polygon_textures_[static_cast<std::size_t>(polygon.primitive - kFloorPrimitive)];
 }
 
-void SurfacePainter::use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
-  if (!facet_program_) {
-    Program program(*gl_, surface_vertex_shader(), facet_fragment_shader());
+void SurfacePainter::use_primitives(int first, int for_each_triangle, const glm::mat4& clip_from_position) {
+  if (!primitive_program_) {
+    Program program(*gl_, surface_vertex_shader(), primitive_fragment_shader());
     const GLint matrix = program.uniform("u_clip_from_position");
-    const GLint facet = program.uniform("u_facet");
-    facet_program_.emplace(FacetProgram{std::move(program), matrix, facet});
+    const GLint primitive = program.uniform("u_primitive");
+    primitive_program_.emplace(PrimitiveProgram{std::move(program), matrix, primitive});
   }
-  facet_program_->program.use();
-  gl_->UniformMatrix4fv(facet_program_->clip_from_position, 1, GL_FALSE, glm::value_ptr(clip_from_position));
-  gl_->Uniform2i(facet_program_->facet, first, for_each_triangle);
+  primitive_program_->program.use();
+  gl_->UniformMatrix4fv(primitive_program_->clip_from_position, 1, GL_FALSE,
+                        glm::value_ptr(clip_from_position));
+  gl_->Uniform2i(primitive_program_->primitive, first, for_each_triangle);
 }
 
 /// Draws meshes, then polygons. What each is painted with is for the callers to say; corners of polygons are
@@ -133,14 +134,14 @@ void SurfacePainter::draw(const CameraView& view) {
       });
 }
 
-void SurfacePainter::draw_facets(const CameraView& view) {
-  const int meshes = first_mesh_facet(world_);
+void SurfacePainter::draw_primitives(const CameraView& view) {
+  const int meshes = first_mesh_primitive(world_);
   draw(
       view,
       [&, matrix = clip_from_world(view)](const MeshRun& run) {
-        use_facets(meshes + run.first / 3, 1, matrix);
+        use_primitives(meshes + run.first / 3, 1, matrix);
       },
-      [&](const SurfacePolygon& polygon) { use_facets(polygon.facet, 0, glm::mat4(1.0F)); });
+      [&](const SurfacePolygon& polygon) { use_primitives(polygon.primitive, 0, glm::mat4(1.0F)); });
 }
 
 }  // namespace stereobench::renderer

@@ -20,8 +20,8 @@ class SurfacePainter {
   /// Draws the surfaces that the camera can see over an empty picture; their identity is 0.
   void draw(const CameraView& view);
 
-  /// The same with the numbers of facets (facets.h) in place of colours.
-  void draw_facets(const CameraView& view);
+  /// The same with the numbers of primitives (primitives.h) in place of colours.
+  void draw_primitives(const CameraView& view);
 
  private:
   struct PaintProgram {
@@ -30,28 +30,28 @@ class SurfacePainter {
     GLint tint;
     GLint shape, first, last_level;  // of textures alone
   };
-  struct FacetProgram {
+  struct PrimitiveProgram {
     Program program;
     GLint clip_from_position;
-    GLint facet;
+    GLint primitive;
   };
   void compile(SurfacePaint paint);
   /// @param texture of kTexture
   void use(SurfacePaint paint, int texture, const Eigen::Vector3f& tint_rgb,
            const glm::mat4& clip_from_position) const;
   const PolygonTexture& texture_of(const SurfacePolygon& polygon) const;
-  void use_facets(int first, int for_each_triangle, const glm::mat4& clip_from_position);
+  void use_primitives(int first, int for_each_triangle, const glm::mat4& clip_from_position);
   template <typename UseMesh, typename UsePolygon>
   void draw(const CameraView& view, UseMesh use_mesh, UsePolygon use_polygon);
 
   const Gl* gl_;
   worlds::World world_;
   std::array<std::optional<PaintProgram>, 8> programs_;  // by SurfacePaint
-  std::optional<FacetProgram> facet_program_;            // once somebody asked
+  std::optional<PrimitiveProgram> primitive_program_;    // once somebody asked
   std::vector<MeshRun> mesh_runs_;
   std::optional<NumberList> texels_;  // where there are textures
   std::vector<MipPlace> textures_;
-  std::vector<PolygonTexture> polygon_textures_;  // by facet
+  std::vector<PolygonTexture> polygon_textures_;  // by primitive
   VertexArray meshes_;
   VertexArray polygons_;
 };

@@ -85,7 +85,7 @@ std::vector<SurfacePolygon> visible_polygons(const CameraView& view, const world
   std::vector<SurfacePolygon> polygons;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     SurfacePolygon seen = wall_polygon(view, world.walls[i], world.light);
-    seen.facet = kFirstWallFacet + static_cast<int>(i);
+    seen.primitive = kFirstWallPrimitive + static_cast<int>(i);
     seen.tint_rgb = world.walls[i].tint_rgb.cast<float>();
     if (!seen.corners.empty()) polygons.push_back(std::move(seen));
   }
@@ -94,7 +94,7 @@ std::vector<SurfacePolygon> visible_polygons(const CameraView& view, const world
   });
   if (!world.has_floor) return polygons;
   SurfacePolygon floor = floor_polygon(view, world);
-  floor.facet = kFloorFacet;
+  floor.primitive = kFloorPrimitive;
   floor.tint_rgb = world.floor_tint_rgb.cast<float>();
   if (!floor.corners.empty()) polygons.push_back(std::move(floor));
   return polygons;

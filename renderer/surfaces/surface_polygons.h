@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/camera/camera_view.h"
-#include "renderer/surfaces/facets.h"
+#include "renderer/surfaces/primitives.h"
 #include "worlds/types.h"
 
 namespace stereobench::renderer {
@@ -30,7 +30,7 @@ inline constexpr double kFloorReach_m = 10000.0;
 struct SurfacePolygon {
   worlds::Material material = worlds::Material::kPlain;
   Eigen::Vector3f tint_rgb = Eigen::Vector3f::Ones();  ///< factors on its colours
-  int facet = kNoFacet;
+  int primitive = kNoPrimitive;
   std::vector<SurfaceVertex> corners;  ///< in order around it; none when the camera does not see it
   double nearest_m = 0.0;              ///< smallest Z of the corners
   bool runs_left = false;              ///< a wall whose first corner is on the right, as the camera sees it

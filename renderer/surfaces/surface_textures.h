@@ -24,8 +24,9 @@ struct PolygonTexture {
 
 /// What a world's files hold, in its place.
 struct Surfaces {
-  MeshSurfaces meshes;                   ///< and the textures of all surfaces, those of polygons last
-  std::vector<PolygonTexture> polygons;  ///< in the order of facets (facets.h): the floor, and each wall
+  MeshSurfaces meshes;  ///< and the textures of all surfaces, those of polygons last
+  std::vector<PolygonTexture>
+      polygons;  ///< in the order of primitives (primitives.h): the floor, and each wall
 };
 
 /// Reads meshes and the textures of walls and of the floor, each file once.

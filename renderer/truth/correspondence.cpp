@@ -13,34 +13,34 @@ namespace {
 constexpr float kUnknown_px = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 1e-9;  ///< relative; what meets a point may be the point itself
 
-/// A point of a facet, looked for from another camera.
+/// A point of a primitive, looked for from another camera.
 struct Point {
-  int facet;
+  int primitive;
   Eigen::Vector3d in_world;
 };
 
-/// Whether a line that reaches a facet's point at 1 meets another ball before it. A ball's own far side is
-/// told by where it faces: at the rim its two sides are too near to each other.
-bool ball_is_before(const SceneGeometry& scene, int facet, const Ray& line, const Point& point) {
-  if (!is_ball(facet)) return false;
-  if (facet != point.facet) return scene.enter(facet, line) < 1.0 - kRounding;
-  return scene.normal(facet, point.in_world).dot(line.direction) > 0.0;
+/// Whether a line that reaches a primitive's point at 1 meets another ball before it. A ball's own far side
+/// is told by where it faces: at the rim its two sides are too near to each other.
+bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, const Point& point) {
+  if (!is_ball(primitive)) return false;
+  if (primitive != point.primitive) return scene.enter(primitive, line) < 1.0 - kRounding;
+  return scene.normal(primitive, point.in_world).dot(line.direction) > 0.0;
 }
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
-/// these see anything but the point's own facet, all of them are asked.
+/// these see anything but the point's own primitive, all of them are asked.
 bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const Point& point) {
   const Eigen::Vector3d camera_m = ids.view.centre_in_world();
   const Ray line{camera_m, point.in_world - camera_m};
   const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;
   if (!(in_camera.z() > kNear_m)) return false;
-  const std::array<int, 4> around = facets_around(ids.facet, shown_at(ids.view, in_camera));
-  if (ball_is_before(scene, point.facet, line, point)) return true;
-  if (std::all_of(around.begin(), around.end(), [&](int facet) { return facet == point.facet; }))
+  const std::array<int, 4> around = primitives_around(ids.primitive, shown_at(ids.view, in_camera));
+  if (ball_is_before(scene, point.primitive, line, point)) return true;
+  if (std::all_of(around.begin(), around.end(), [&](int primitive) { return primitive == point.primitive; }))
     return false;
   return std::any_of(around.begin(), around.end(),
-                     [&](int facet) { return ball_is_before(scene, facet, line, point); }) ||
-         scene.first_flat(line, kNear_m / in_camera.z(), 1.0 - kRounding, point.facet) != kNoFacet;
+                     [&](int primitive) { return ball_is_before(scene, primitive, line, point); }) ||
+         scene.first_flat(line, kNear_m / in_camera.z(), 1.0 - kRounding, point.primitive) != kNoPrimitive;
 }
 
 /// Follows pixels of one look to another.
@@ -52,19 +52,19 @@ class Follower {
       field_ = vision::directions_seen(to.view.lens, to.view.intrinsics);
   }
 
-  /// @param facet that the pixel sees
+  /// @param primitive that the pixel sees
   /// @param shift_px set where the point has a place in the other picture's plane
-  Occlusion follow(int facet, int u, int v, cv::Vec2f& shift_px) const {
-    if (facet == kNoFacet) return Occlusion::kNothing;
-    const SceneGeometry::Seen seen = scene_.seen(facet, lines_(u, v));
-    const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_sight;
+  Occlusion follow(int primitive, int u, int v, cv::Vec2f& shift_px) const {
+    if (primitive == kNoPrimitive) return Occlusion::kNothing;
+    const SceneGeometry::Seen seen = scene_.seen(primitive, lines_(u, v));
+    const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_ray;
     if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Occlusion::kOutside;
     const Eigen::Vector2d there = shown_at(to_.view, in_other);
-    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_sight);
+    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_ray);
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
     if (!vision::is_inside(to_.view.intrinsics, there)) return Occlusion::kOutside;
-    return is_hidden(scene_, to_, {facet, seen.on_facet}) ? Occlusion::kHidden : Occlusion::kSeen;
+    return is_hidden(scene_, to_, {primitive, seen.on_primitive}) ? Occlusion::kHidden : Occlusion::kSeen;
   }
 
  private:
@@ -83,13 +83,13 @@ class Follower {
 }  // namespace
 
 Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to) {
-  const cv::Size size = from.facet.size();
+  const cv::Size size = from.primitive.size();
   Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)), cv::Mat(size, CV_8UC1)};
   const Follower follower(scene, from, to);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
       const Occlusion occlusion =
-          follower.follow(from.facet.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
+          follower.follow(from.primitive.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
       result.occlusion.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(occlusion);
     }
   }

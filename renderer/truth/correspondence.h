@@ -24,9 +24,10 @@ struct Correspondence {
 /// Follows every pixel's point to another look at the same world, by geometry alone.
 ///
 /// Shifts are those of the place on the pixel's own ray that its range says. A point is hidden when the line
-/// from the other camera meets something before it, which is decided exactly, with the facets' own bounds.
-/// Nothing is looked for where the other camera's four pixels around the place all see the point's own facet:
-/// what is thinner than a pixel and alone before a facet is missed, as it is missed by the picture.
+/// from the other camera meets something before it, which is decided exactly, with the primitives' own
+/// bounds. Nothing is looked for where the other camera's four pixels around the place all see the point's
+/// own primitive: what is thinner than a pixel and alone before a primitive is missed, as it is missed by the
+/// picture.
 Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to);
 
 /// Disparity, u in the left picture minus u in the right one.

@@ -6,8 +6,8 @@
 
 namespace stereobench::renderer {
 
-/// Finds the facet that each bent ray meets: rasterisers draw undistorted lines, so what can be met is looked
-/// for among the facets of four pixels of a undistorted picture, and then decided exactly.
+/// Finds the primitive that each distorted ray meets: rasterisers draw straight lines, so what can be met
+/// is looked for among the primitives of four pixels of an undistorted picture, and then decided exactly.
 /// @param undistorted what a camera of the rig's pinhole (pinhole_rig_of in lens.h) sees
 /// @param rig as it is, with its lens
 /// @throws std::invalid_argument when the lens folds its picture

@@ -1,4 +1,4 @@
-/// What cameras look at, exactly: from where, and which facet of the world each pixel's centre sees.
+/// What cameras look at, exactly: from where, and which primitive of the world each pixel's centre sees.
 #pragma once
 
 #include <array>
@@ -12,11 +12,12 @@ namespace stereobench::renderer {
 /// One camera's look. With the world's geometry (scene_geometry.h) all else follows in double precision.
 struct IdBuffer {
   CameraView view;
-  cv::Mat facet;  ///< CV_32SC1, numbers of facets.h
+  cv::Mat primitive;  ///< CV_32SC1, numbers of primitives.h
 };
 
-/// The facets that the four pixels around a place see; those nearest to it, where it is not in the picture.
-std::array<int, 4> facets_around(const cv::Mat& facets, const Eigen::Vector2d& place_px);
+/// The primitives that the four pixels around a place see; those nearest to it, where it is not in the
+/// picture.
+std::array<int, 4> primitives_around(const cv::Mat& primitives, const Eigen::Vector2d& place_px);
 
 struct StereoIdBuffers {
   IdBuffer left;

@@ -15,20 +15,20 @@ cv::Vec3f vec(const Eigen::Vector3d& v) {
 }  // namespace
 
 PixelTruth pixel_truth(const SceneGeometry& scene, const IdBuffer& ids) {
-  const cv::Size size = ids.facet.size();
+  const cv::Size size = ids.primitive.size();
   PixelTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
                    cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
   const Eigen::Matrix3d turn = ids.view.camera_from_world.linear();
   const PixelRays lines(ids.view);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const int facet = ids.facet.at<int>(v, u);
-      if (facet == kNoFacet) continue;
+      const int primitive = ids.primitive.at<int>(v, u);
+      if (primitive == kNoPrimitive) continue;
       const Ray line = lines(u, v);
-      const SceneGeometry::Seen seen = scene.seen(facet, line);
-      const Eigen::Vector3d normal = scene.normal(facet, seen.on_facet);
-      truth.surface.at<int>(v, u) = scene.surface(facet);
-      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_sight - line.origin_m).norm());
+      const SceneGeometry::Seen seen = scene.seen(primitive, line);
+      const Eigen::Vector3d normal = scene.normal(primitive, seen.on_primitive);
+      truth.surface.at<int>(v, u) = scene.surface(primitive);
+      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_ray - line.origin_m).norm());
       truth.normal.at<cv::Vec3f>(v, u) = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
     }
   }

@@ -55,9 +55,9 @@ bool SceneGeometry::Flat::contains(double s, double t) const {
 
 std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& world, const FormReader& read) {
   std::vector<Flat> flats;
-  flats.emplace_back(world.has_floor ? Shape::kPlane : Shape::kNothing, kFloorFacet, Eigen::Vector3d::Zero(),
-                     Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
-  int surface = kFirstWallFacet;
+  flats.emplace_back(world.has_floor ? Shape::kPlane : Shape::kNothing, kFloorPrimitive,
+                     Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
+  int surface = kFirstWallPrimitive;
   for (const worlds::Wall& wall : world.walls) {
     const Eigen::Vector2d run = wall.to_m - wall.from_m;
     flats.emplace_back(Shape::kParallelogram, surface++,
@@ -91,12 +91,12 @@ std::vector<Eigen::AlignedBox3d> SceneGeometry::boxes_of(const std::vector<Flat>
   return boxes;
 }
 
-double SceneGeometry::enter(int facet, const Ray& ray) const {
-  if (is_ball(facet)) {
-    const Passage past = passage(ball(facet), ray);
+double SceneGeometry::enter(int primitive, const Ray& ray) const {
+  if (is_ball(primitive)) {
+    const Passage past = passage(ball(primitive), ray);
     return past.spare_m2 > 0.0 && past.middle > 0.0 ? entry(past, ray) : kNever;
   }
-  const Flat& plane = flat(facet);
+  const Flat& plane = flat(primitive);
   const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
   if (!(depth > 0.0)) return kNever;
   const Eigen::Vector3d place = ray.origin_m + depth * ray.direction - plane.corner;
@@ -104,12 +104,12 @@ double SceneGeometry::enter(int facet, const Ray& ray) const {
 }
 
 int SceneGeometry::first_flat(const Ray& ray, double from, double before, int but_for) const {
-  const auto enters = [&](int facet) { return facet == but_for ? kNever : enter(facet, ray); };
-  const double floor = enters(kFloorFacet);
+  const auto enters = [&](int primitive) { return primitive == but_for ? kNever : enter(primitive, ray); };
+  const double floor = enters(kFloorPrimitive);
   const bool on_floor = floor >= from && floor < before;
   const worlds::Bvh::Met met = tree_.first(ray, from, on_floor ? floor : before,
-                                           [&](int thing) { return enters(kFirstWallFacet + thing); });
-  return met.thing >= 0 ? kFirstWallFacet + met.thing : on_floor ? kFloorFacet : kNoFacet;
+                                           [&](int thing) { return enters(kFirstWallPrimitive + thing); });
+  return met.thing >= 0 ? kFirstWallPrimitive + met.thing : on_floor ? kFloorPrimitive : kNoPrimitive;
 }
 
 Eigen::Vector3d SceneGeometry::Flat::nearest(const Eigen::Vector3d& in_plane) const {
@@ -122,12 +122,12 @@ Eigen::Vector3d SceneGeometry::Flat::nearest(const Eigen::Vector3d& in_plane) co
   return corner + s * along + t * up;
 }
 
-SceneGeometry::Seen SceneGeometry::seen(int facet, const Ray& ray) const {
-  if (is_ball(facet)) {
-    const Eigen::Vector3d point = ray.origin_m + entry(passage(ball(facet), ray), ray) * ray.direction;
+SceneGeometry::Seen SceneGeometry::seen(int primitive, const Ray& ray) const {
+  if (is_ball(primitive)) {
+    const Eigen::Vector3d point = ray.origin_m + entry(passage(ball(primitive), ray), ray) * ray.direction;
     return {point, point};
   }
-  const Flat& plane = flat(facet);
+  const Flat& plane = flat(primitive);
   const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
   const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
   if (plane.contains(plane.dual_along.dot(point - plane.corner), plane.dual_up.dot(point - plane.corner)))
@@ -137,12 +137,13 @@ SceneGeometry::Seen SceneGeometry::seen(int facet, const Ray& ray) const {
   return {nearest, ray.origin_m + beside * ray.direction};
 }
 
-Eigen::Vector3d SceneGeometry::normal(int facet, const Eigen::Vector3d& point_m) const {
-  return is_ball(facet) ? (point_m - ball(facet).centre_m).stableNormalized() : flat(facet).normal;
+Eigen::Vector3d SceneGeometry::normal(int primitive, const Eigen::Vector3d& point_m) const {
+  return is_ball(primitive) ? (point_m - ball(primitive).centre_m).stableNormalized()
+                            : flat(primitive).normal;
 }
 
-int SceneGeometry::surface(int facet) const {
-  return facet < kFloorFacet ? facet : flat(facet).surface;
+int SceneGeometry::surface(int primitive) const {
+  return primitive < kFloorPrimitive ? primitive : flat(primitive).surface;
 }
 
 }  // namespace stereobench::renderer

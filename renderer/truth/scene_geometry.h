@@ -1,12 +1,12 @@
-/// The facets of a world as equations in double precision: where rays meet them.
+/// The primitives of a world as equations in double precision: where rays meet them.
 #pragma once
 
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "renderer/surfaces/facets.h"
 #include "renderer/surfaces/mesh_surfaces.h"
+#include "renderer/surfaces/primitives.h"
 #include "renderer/truth/ray.h"
 #include "worlds/visibility/bvh.h"
 
@@ -19,30 +19,31 @@ class SceneGeometry {
   /// @throws std::runtime_error as read_form
   explicit SceneGeometry(const worlds::World& world, const FormReader& read = read_form);
 
-  /// The parameter at which a ray enters a facet.
+  /// The parameter at which a ray enters a primitive.
   /// @return +inf where it passes by, or meets it behind its origin, and for a floor that there is not
-  double enter(int facet, const Ray& ray) const;
+  double enter(int primitive, const Ray& ray) const;
 
   /// The wall, triangle or floor that a ray enters first; balls are passed over.
   /// @param from,before the parameters between which it is looked at
-  /// @param but_for a facet that does not count
-  /// @return kNoFacet where it meets none
-  int first_flat(const Ray& ray, double from, double before, int but_for = kNoFacet) const;
+  /// @param but_for a primitive that does not count
+  /// @return kNoPrimitive where it meets none
+  int first_flat(const Ray& ray, double from, double before, int but_for = kNoPrimitive) const;
 
-  /// What a pixel's centre sees of a facet. The rasteriser snaps corners to 1/256 px and computes outlines in
-  /// single precision: where the ray just passes by, the facet's nearest point is taken.
+  /// What a pixel's centre sees of a primitive. The rasteriser snaps corners to 1/256 px and computes
+  /// outlines in single precision: where the ray just passes by, the primitive's nearest point is taken.
   struct Seen {
-    Eigen::Vector3d on_facet;
-    Eigen::Vector3d on_sight;  ///< the same point, or where the ray comes nearest to it
+    Eigen::Vector3d on_primitive;
+    Eigen::Vector3d on_ray;  ///< the same point, or where the ray comes nearest to it
   };
-  /// @param facet that is seen there, not kNoFacet
-  Seen seen(int facet, const Ray& ray) const;
+  /// @param primitive that is seen there, not kNoPrimitive
+  Seen seen(int primitive, const Ray& ray) const;
 
-  /// The unit normal of a facet at one of its points, world frame: outwards for balls, either way for others.
-  Eigen::Vector3d normal(int facet, const Eigen::Vector3d& point_m) const;
+  /// The unit normal of a primitive at one of its points, world frame: outwards for balls, either way for
+  /// others.
+  Eigen::Vector3d normal(int primitive, const Eigen::Vector3d& point_m) const;
 
-  /// The surface that a facet is of (facets.h).
-  int surface(int facet) const;
+  /// The surface that a primitive is of (primitives.h).
+  int surface(int primitive) const;
 
  private:
   enum class Shape { kNothing, kPlane, kParallelogram, kTriangle };
@@ -51,7 +52,7 @@ class SceneGeometry {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
          const Eigen::Vector3d& up);
     bool contains(double s, double t) const;
-    /// The point of the facet that is taken for one of its plane which is not on it.
+    /// The point of the primitive that is taken for one of its plane which is not on it.
     Eigen::Vector3d nearest(const Eigen::Vector3d& in_plane) const;
     Shape shape;
     int surface;
@@ -59,8 +60,10 @@ class SceneGeometry {
   };
   static std::vector<Flat> flats_of(const worlds::World& world, const FormReader& read);
   static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
-  const Flat& flat(int facet) const { return flats_[static_cast<std::size_t>(facet - kFloorFacet)]; }
-  const worlds::Ball& ball(int facet) const { return balls_[static_cast<std::size_t>(facet - 1)]; }
+  const Flat& flat(int primitive) const {
+    return flats_[static_cast<std::size_t>(primitive - kFloorPrimitive)];
+  }
+  const worlds::Ball& ball(int primitive) const { return balls_[static_cast<std::size_t>(primitive - 1)]; }
 
   std::vector<worlds::Ball> balls_;
   std::vector<Flat> flats_;  // the floor, walls, triangles

@@ -33,8 +33,8 @@ class JointFactor {
       rest -= row.back() * row.back().transpose();
       residual -= row.back() * before.white;
     }
-    long mended = 0;  // of a search, not of a belief
-    const Factor2 factor(rest, mended);
+    long repaired = 0;  // of a search, not of a belief
+    const Factor2 factor(rest, repaired);
     const Eigen::Vector2d white = factor.whiten<1>(residual.transpose()).transpose();
     const double length = white.squaredNorm();
     chosen_.push_back({pair, std::move(row), factor, white, squared_length() + length,

@@ -52,9 +52,9 @@ PoseBelief given_next(const PoseBelief& belief, const PoseBelief& predicted, con
 template <class Model>
 void PathSampler<Model>::correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) const {
   const PredictedMeasurement expected = model_.expect(belief, seen.place, seen.observation, repairs);
-  const long mended = repairs;
+  const long before = repairs;
   const Factor2 factor(expected.covariance, repairs);
-  if (repairs != mended) return;  // all is certain: nothing is learnt
+  if (repairs != before) return;  // all is certain: nothing is learnt
 
   // What the pose shares with the sighting, and the innovation.
   Eigen::Matrix<double, 4, 2> whitened;

@@ -42,7 +42,7 @@ class PathSampler {
   explicit PathSampler(const UnscentedParameters& parameters = {}) : model_(parameters) {}
 
   /// @param start the pose before the first step, known
-  /// @param repairs counts covariances that had to be mended
+  /// @param repairs counts covariances that had to be repaired
   /// @return the pose at each step; valid until the next call
   std::span<const Pose> draw(const Pose& start, std::span<const PathStep> steps, RandomStream& random,
                              long& repairs);

@@ -9,7 +9,7 @@ namespace stereobench::slam {
 
 /// Looks for a landmark where it should be, by the slopes at the belief's mean.
 ///
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 JointInnovation innovation(const Linearised& model, const JointBelief& belief, int landmark,
                            const Observation& observation, long& repairs);
 
@@ -24,7 +24,7 @@ JointInnovation innovation(const Unscented& model, const JointBelief& belief, in
 
 /// Takes a landmark for what is seen from an uncertain pose: one more than the last.
 ///
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 void find(const Linearised& model, JointBelief& belief, int landmark, const Observation& observation,
           long& repairs);
 

@@ -13,7 +13,7 @@ namespace stereobench::slam {
 /// The root is taken of the correlations, so that metres and millimetres go together, and lets what is
 /// semidefinite up to rounding pass.
 ///
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 /// @return their places, m, in the world
 std::vector<Eigen::Vector2d> draw_landmarks(const JointBelief& belief, RandomStream& random, long& repairs);
 

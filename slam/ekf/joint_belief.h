@@ -34,7 +34,7 @@ void follow(JointBelief& belief, const PoseBelief& motion);
 
 /// Looks for a landmark where it should be.
 ///
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 JointInnovation innovation(const JointBelief& belief, int landmark, const Observation& observation,
                            long& repairs);
 
@@ -55,7 +55,7 @@ void correct(JointBelief& belief, int landmark, const JointInnovation& seen,
 ///
 /// @param landmark index of a landmark, or one more than the last
 /// @param found where it is seen from the pose's mean, with the sensor's uncertainty
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 void place(JointBelief& belief, int landmark, const LandmarkBelief& found, long& repairs);
 
 }  // namespace stereobench::slam

@@ -142,17 +142,17 @@ void JointCovariance::subtract(const Columns& whitened, long& repairs) {
     y[i + 1] -= a[i + 1] * a[i + 1] + b[i + 1] * b[i + 1];
     next = y + i + 2;
   }
-  if (!is_semidefinite(pose())) mend_block<3>(0, repairs);
+  if (!is_semidefinite(pose())) project_block<3>(0, repairs);
   for (Eigen::Index first = 3; first < size_; first += 2) {
     const double x = row(first)[first];
     const double* last = row(first + 1) + first;  // covariance with x, then y's own variance
-    if (!(x > 0.0 && last[1] > 0.0 && last[0] * last[0] < x * last[1])) mend_block<2>(first, repairs);
+    if (!(x > 0.0 && last[1] > 0.0 && last[0] * last[0] < x * last[1])) project_block<2>(first, repairs);
   }
 }
 
 /// Rounding has taken too much of a block, or it was singular all along.
 template <int kSize>
-void JointCovariance::mend_block(Eigen::Index first, long& repairs) {
+void JointCovariance::project_block(Eigen::Index first, long& repairs) {
   for (Eigen::Index i = first; i < first + kSize; ++i) {
     if (at(i, i) >= 0.0) continue;
     for (Eigen::Index j = 0; j < size_; ++j) at(i, j) = 0.0;

@@ -61,7 +61,7 @@ class JointCovariance {
 
  private:
   template <int kSize>
-  void mend_block(Eigen::Index first, long& repairs);
+  void project_block(Eigen::Index first, long& repairs);
   Eigen::Index size() const { return size_; }
   double* row(Eigen::Index index) { return lower_.data() + index * (index + 1) / 2; }
   const double* row(Eigen::Index index) const { return lower_.data() + index * (index + 1) / 2; }

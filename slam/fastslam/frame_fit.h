@@ -33,7 +33,7 @@ struct FrameFit {
 ///
 /// @param predicted before the frame is used
 /// @param matches at least one
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 FrameFit fit_frame(const PoseBelief& predicted, std::span<const Match> matches, long& repairs);
 
 }  // namespace stereobench::slam

@@ -24,7 +24,7 @@ struct Expectation {
 ///
 /// @param predicted before the frame is used
 /// @param frame at least one
-/// @param repairs counts covariances that had to be mended
+/// @param repairs counts covariances that had to be repaired
 Posterior correct_at_once(const PoseBelief& predicted, std::span<const Expectation> frame, long& repairs);
 
 }  // namespace stereobench::slam

@@ -100,11 +100,11 @@ int MapManagement::lookalike(const Particle& particle, const Sighting& sighting)
   int like = -1;
   visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
     if (contains(claimed_, j)) return;
-    long mended = 0;  // for a comparison only
+    long repaired = 0;  // for a comparison only
     const PredictedMeasurement seen =
-        Linearised().expect(particle.pose, landmark.belief, observation, mended);
+        Linearised().expect(particle.pose, landmark.belief, observation, repaired);
     const double squared_length =
-        Factor2(seen.covariance, mended)
+        Factor2(seen.covariance, repaired)
             .squared_length(sighting_residual(observation.range_bearing, seen.expected));
     if (!(squared_length <= nearest)) return;
     nearest = squared_length;

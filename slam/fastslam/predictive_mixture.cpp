@@ -74,9 +74,9 @@ std::optional<NormalisedInnovation> innovation(const Expectations& all, std::siz
   }
   if (!(moments.total >= 0.5 * total) || !(total > 0.0)) return {};
   const Eigen::Vector2d mean = centre + moments.mean();
-  long mended = 0;  // of a report alone
+  long repaired = 0;  // of a report alone
   const double squared_length =
-      Factor2(moments.covariance(), mended)
+      Factor2(moments.covariance(), repaired)
           .squared_length(sighting_residual(all.frame[k].observation.range_bearing, mean));
   if (!std::isfinite(squared_length)) return {};
   return NormalisedInnovation{all.frame[k].index, squared_length, refusing >= 0.5 * moments.total};

@@ -91,7 +91,7 @@ Eigen::Matrix<double, kSize, kSize> semidefinite_root(const Eigen::Matrix<double
 /// digits apart has directions with less than no variance. One that is semidefinite up to rounding stays as
 /// it is, to the last bit.
 ///
-/// @param repairs incremented when something was mended
+/// @param repairs incremented when something was repaired
 template <int kSize>
 void project_to_psd(Eigen::Matrix<double, kSize, kSize>& covariance, long& repairs) {
   const long before = repairs;
@@ -102,7 +102,7 @@ void project_to_psd(Eigen::Matrix<double, kSize, kSize>& covariance, long& repai
 /// A positive definite 2x2 covariance, factored once and used for gain, distance and density.
 class Factor2 {
  public:
-  /// @param covariance symmetric; one that is not positive definite is mended and counted
+  /// @param covariance symmetric; one that is not positive definite is repaired and counted
   Factor2(const Eigen::Matrix2d& covariance, long& repairs) {
     constexpr double kVanishing = 1e-14;
     first_ = covariance(0, 0);

@@ -23,7 +23,7 @@ struct Moments {
   Eigen::Matrix<double, kSize, 1> mean() const { return first / total; }
   Eigen::Matrix<double, kSize, kSize> covariance() const {
     Eigen::Matrix<double, kSize, kSize> difference = second / total - mean() * mean().transpose();
-    long of_the_report = 0;  // where the reference lies far from the weight; no belief is mended
+    long of_the_report = 0;  // where the reference lies far from the weight; no belief is repaired
     project_to_psd<kSize>(difference, of_the_report);
     return difference;
   }

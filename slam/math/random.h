@@ -17,7 +17,7 @@ enum class Stream : std::uint32_t {
   kShotNoise,
   kReadNoise,
   kFrameLoss,
-  kGallery,
+  kCalibrationScene,
   kRandomise,
   kBallRadius
 };

@@ -156,7 +156,7 @@ class Search {
  private:
   void add_motion(std::size_t index, const std::vector<Control>& controls) {
     PoseBelief motion;
-    long repairs = 0;  // a first-order motion mends nothing
+    long repairs = 0;  // a first-order motion repairs nothing
     for (const Control& control : controls) {
       if (!is_valid(control)) continue;
       const Eigen::Vector2d control_sd = standard_deviations(control, config_.odometry_noise);

@@ -48,7 +48,7 @@ PosteriorBound::PosteriorBound(const OdometryNoise& noise, const Pose& start,
 }
 
 void PosteriorBound::move(const Control& control) {
-  long repairs = 0;  // a first-order motion mends nothing
+  long repairs = 0;  // a first-order motion repairs nothing
   const Eigen::Vector2d control_sd = standard_deviations(control, noise_);
   const PoseBelief moved = Linearised().move(pose_, control, control_sd, repairs);
   const PoseBelief from_known =
@@ -98,7 +98,7 @@ std::optional<Eigen::Matrix2d> PosteriorBound::landmark(int index) const {
 void PosteriorBound::add(const TrueSighting& sighting) {
   const auto index = static_cast<std::size_t>(sighting.landmark);
   const Pose& robot = pose_.mean;
-  long repairs = 0;  // nothing that is found needs mending
+  long repairs = 0;  // nothing that is found needs repair
   const Observation seen{predict_sighting(robot, landmarks_[index]), sighting.noise};
   const Eigen::Matrix2d own = Linearised().found(robot, seen, repairs).covariance;
   const Pose place{landmarks_[index].x(), landmarks_[index].y(), 0.0};

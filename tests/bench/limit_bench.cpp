@@ -38,14 +38,14 @@ struct Plane {
   Eigen::AlignedBox2d reach_m;
 };
 
-Plane plane_of(const worlds::World& world, int facet) {
+Plane plane_of(const worlds::World& world, int primitive) {
   constexpr double kReach_m = 1e4;
-  if (facet == renderer::kFloorFacet)
+  if (primitive == renderer::kFloorPrimitive)
     return {Vector3d::Zero(),
             Vector3d::UnitX(),
             Vector3d::UnitY(),
             {Vector2d::Constant(-kReach_m), Vector2d::Constant(kReach_m)}};
-  const worlds::Wall& wall = world.walls[static_cast<std::size_t>(facet - renderer::kFirstWallFacet)];
+  const worlds::Wall& wall = world.walls[static_cast<std::size_t>(primitive - renderer::kFirstWallPrimitive)];
   const Vector2d run = wall.to_m - wall.from_m;
   return {{wall.from_m.x(), wall.from_m.y(), 0.0},
           Vector3d(run.x(), run.y(), 0.0).normalized(),
@@ -65,10 +65,10 @@ void set_bounds(const vision::Intrinsics& camera, const Vector2d& low, const Vec
 
 LimitSurface surface_of(const renderer::CameraView& view, const worlds::World& world,
                         const renderer::SurfacePolygon& polygon) {
-  const bool is_floor = polygon.facet == renderer::kFloorFacet;
+  const bool is_floor = polygon.primitive == renderer::kFloorPrimitive;
   if (polygon.material != (is_floor ? worlds::Material::kTiles : worlds::Material::kBricks))
     throw std::invalid_argument("the limit is that of a room of tiles and bricks");
-  const Plane plane = plane_of(world, polygon.facet);
+  const Plane plane = plane_of(world, polygon.primitive);
   const Eigen::Matrix3d turn = view.camera_from_world.linear();
   const Vector3d to_corner = plane.corner - view.centre_in_world();
   const Vector3d normal = plane.along.cross(plane.up);

@@ -24,7 +24,7 @@ inline vision::StereoRig finer(vision::StereoRig rig) {
 
 /// What a camera sees in finer pixels.
 struct FinerImage {
-  cv::Mat colour, facet;
+  cv::Mat colour, primitive;
 
   /// The mean of the finer pixels that make up a pixel, in levels.
   cv::Vec3d mean_colour(int u, int v) const {
@@ -42,17 +42,17 @@ struct FinerImage {
   bool has_sliver(int u, int v) const {
     std::set<int> unseen;
     for (int y = 0; y < kFiner; ++y)
-      for (int x = 0; x < kFiner; ++x) unseen.insert(facet.at<int>(kFiner * v + y, kFiner * u + x));
+      for (int x = 0; x < kFiner; ++x) unseen.insert(primitive.at<int>(kFiner * v + y, kFiner * u + x));
     for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      unseen.erase(facet.at<int>(kFiner * (v + dy) + kFiner / 2, kFiner * (u + dx) + kFiner / 2));
+      unseen.erase(primitive.at<int>(kFiner * (v + dy) + kFiner / 2, kFiner * (u + dx) + kFiner / 2));
     return !unseen.empty();
   }
 
-  /// Whether all centres of a pixel's finer pixels, and of so many beyond its borders, see one facet.
+  /// Whether all centres of a pixel's finer pixels, and of so many beyond its borders, see one primitive.
   /// @param u, v not at the picture's border
-  bool is_one_facet(int u, int v, int beyond) const {
+  bool is_one_primitive(int u, int v, int beyond) const {
     const int size = kFiner + 2 * beyond;
-    const cv::Mat seen = facet(cv::Rect(kFiner * u - beyond, kFiner * v - beyond, size, size));
+    const cv::Mat seen = primitive(cv::Rect(kFiner * u - beyond, kFiner * v - beyond, size, size));
     return cv::countNonZero(seen != seen.at<int>(0, 0)) == 0;
   }
 };
@@ -61,8 +61,9 @@ inline std::array<FinerImage, 2> finer_pair(const worlds::World& world, const vi
                                             const slam::Pose& pose) {
   Renderer renderer(world, finer(rig));
   const StereoFrame frame = renderer.render(pose);
-  const StereoIdBuffers sight = renderer.id_buffers(pose, pose);
-  return {FinerImage{frame.left.colour, sight.left.facet}, FinerImage{frame.right.colour, sight.right.facet}};
+  const StereoIdBuffers ids = renderer.id_buffers(pose, pose);
+  return {FinerImage{frame.left.colour, ids.left.primitive},
+          FinerImage{frame.right.colour, ids.right.primitive}};
 }
 
 }  // namespace stereobench::renderer::test

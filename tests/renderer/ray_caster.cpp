@@ -71,36 +71,36 @@ void RayCaster::stand_at(const slam::Pose& pose, vision::Side side) {
   forward_ = axes.col(2);
 }
 
-Sight RayCaster::look(double u, double v) const {
+RayHit RayCaster::look(double u, double v) const {
   const vision::Intrinsics& camera = rig_.intrinsics;
   const Eigen::Vector3d ray = forward_ + right_ * ((u - camera.cx_px) / camera.focal_px) +
                               down_ * ((v - camera.cy_px) / camera.focal_px);
-  Sight sight;
-  sight.depth_m = kNever;
+  RayHit hit;
+  hit.depth_m = kNever;
   int surface = 0;
   const auto meet = [&](double depth_m, int ball_id) {
     ++surface;
-    if (!(depth_m < sight.depth_m)) return;
-    sight.ball_id = ball_id;
-    sight.surface = surface;
-    sight.depth_m = depth_m;
+    if (!(depth_m < hit.depth_m)) return;
+    hit.ball_id = ball_id;
+    hit.surface = surface;
+    hit.depth_m = depth_m;
   };
   for (std::size_t k = 0; k < world_.balls.size(); ++k) {
     double miss = 0.0;
     const double depth_m = enter_ball(world_.balls[k], origin_, ray, miss);
-    sight.edge_px = std::min(sight.edge_px,
-                             std::abs(miss) * camera.focal_px / (world_.balls[k].centre_m - origin_).norm());
+    hit.edge_px =
+        std::min(hit.edge_px, std::abs(miss) * camera.focal_px / (world_.balls[k].centre_m - origin_).norm());
     meet(depth_m, static_cast<int>(k) + 1);
   }
   for (const worlds::Wall& wall : world_.walls) meet(meet_wall(wall, origin_, ray), 0);
   for (const Triangle& triangle : triangles_) meet(meet_triangle(triangle, origin_, ray), 0);
   meet(world_.has_floor && ray.z() < 0.0 ? -origin_.z() / ray.z() : kNever, 0);
-  if (sight.surface == 0) return sight;
-  sight.point_m = origin_ + sight.depth_m * ray;
-  const Eigen::Vector3d normal = normal_of(sight.surface, sight.point_m);
+  if (hit.surface == 0) return hit;
+  hit.point_m = origin_ + hit.depth_m * ray;
+  const Eigen::Vector3d normal = normal_of(hit.surface, hit.point_m);
   const Eigen::Vector3d facing = normal.dot(ray) > 0.0 ? Eigen::Vector3d(-normal) : normal;
-  sight.normal = {facing.dot(right_), facing.dot(down_), facing.dot(forward_)};
-  return sight;
+  hit.normal = {facing.dot(right_), facing.dot(down_), facing.dot(forward_)};
+  return hit;
 }
 
 Eigen::Vector3d RayCaster::in_camera(const Eigen::Vector3d& point_m) const {
@@ -124,7 +124,7 @@ Eigen::Vector3d RayCaster::normal_of(int surface, const Eigen::Vector3d& point_m
       .normalized();
 }
 
-int RayCaster::facet(int surface) const {
+int RayCaster::primitive(int surface) const {
   const int balls = static_cast<int>(world_.balls.size());
   const int flats = static_cast<int>(world_.walls.size() + triangles_.size());
   if (surface <= balls) return surface;

@@ -12,7 +12,7 @@
 namespace stereobench::renderer::test {
 
 /// What a ray meets first.
-struct Sight {
+struct RayHit {
   int ball_id = 0;       ///< 0 = no ball, k = World::balls[k - 1]
   int surface = 0;       ///< 0 = nothing, else a number for each ball, wall, triangle and the floor
   double depth_m = 0.0;  ///< planar Z, +inf for nothing
@@ -29,13 +29,13 @@ class RayCaster {
   void stand_at(const slam::Pose& world_from_robot, vision::Side side);
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
-  Sight look(double u, double v) const;
+  RayHit look(double u, double v) const;
 
   /// A point of the world in the camera's frame.
   Eigen::Vector3d in_camera(const Eigen::Vector3d& point_m) const;
 
-  /// What number facets.h has for a surface of this caster's.
-  int facet(int surface) const;
+  /// What number primitives.h has for a surface of this caster's.
+  int primitive(int surface) const;
 
   /// The colour without noise: materials must be plain, light ambient only. Red, green, blue in [0, 1].
   Eigen::Vector3d ball_or_sky_colour(double u, double v) const;

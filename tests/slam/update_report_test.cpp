@@ -76,7 +76,7 @@ using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFa
                                       InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(Reports, MappingNames);
 
-// A report draws nothing and mends nothing that counts.
+// A report draws nothing and repairs nothing that counts.
 TYPED_TEST(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {
   const Drive world;
   FilterConfig config = reporting(world, 20);

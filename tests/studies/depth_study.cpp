@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 
 #include "harness/commands/scenario_arguments.h"
-#include "harness/detector_noise/galleries.h"
+#include "harness/detector_noise/calibration_scenes.h"
 
 namespace stereobench {
 namespace {
 
 using harness::CalibrationBin;
 
-constexpr worlds::GalleryDepths kDepths = {0.5, 15.0};
+constexpr worlds::CalibrationDepths kDepths = {0.5, 15.0};
 constexpr int kBins = 6;
 constexpr double k95 = 1.96;  // standard deviations of a normal either side
 constexpr double kPerMilli = 1e3;
@@ -105,7 +105,7 @@ worlds::Scenario cameras(double radius_sd_m) {
 std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<std::uint64_t>& seeds,
                                           int jobs) {
   std::vector<harness::CalibrationSample> samples;
-  for (const harness::CalibrationTake& take : harness::take_galleries(
+  for (const harness::CalibrationTake& take : harness::take_calibration_scenes(
            cameras(radius_sd_m), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
     samples.insert(samples.end(), take.samples.begin(), take.samples.end());
   const harness::FittedNoise as_stated;

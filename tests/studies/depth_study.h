@@ -10,8 +10,8 @@
 
 namespace stereobench {
 
-/// Looks around in galleries before plain walls, balls of exactly 9 cm radius 0.5 to 15 m away.
-/// @param seeds one gallery each
+/// Looks around in calibration scenes before plain walls, balls of exactly 9 cm radius 0.5 to 15 m away.
+/// @param seeds one calibration scene each
 std::vector<Section> study_depths(const std::vector<std::uint64_t>& seeds, int jobs);
 
 /// The same with balls that are made to a millimetre, whose size tells next to nothing.

@@ -17,14 +17,15 @@ struct Arguments {
 };
 
 void add_options(CLI::App& program, Arguments& arguments) {
-  add_study_options(program, arguments.study, "of the galleries, one each: 0..39, or 0,2,5");
+  add_study_options(program, arguments.study, "of the calibration scenes, one each: 0..39, or 0,2,5");
   program.add_option("--fields", arguments.fields, "fields with distractors, four drawn worlds each")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   program.footer(
       std::string(
           "Prints what vision measures beside its limits: whole balls by depth (9 cm radius, plain walls, 2\n"
-          "levels of noise, sizes exact and to 1 mm, in galleries as `stereobench calibrate` makes them),\n"
+          "levels of noise, sizes exact and to 1 mm, in calibration scenes as `stereobench calibrate` makes "
+          "them),\n"
           "painted balls by where they lie between pixels, balls among things that look like them, and "
           "balls\n"
           "that are hidden in part. +- is the 95 % interval; where it reaches across a limit, more --seeds\n"

@@ -20,7 +20,7 @@ std::size_t index_of(Side side) {
   return static_cast<std::size_t>(side);
 }
 
-bool is_straight(const CameraModel& camera, const Intrinsics& intrinsics) {
+bool is_rectified(const CameraModel& camera, const Intrinsics& intrinsics) {
   return camera.lens == Distortion{} && camera.rectified_from_camera.isIdentity(0.0) &&
          camera.intrinsics.focal_px == intrinsics.focal_px && camera.intrinsics.cx_px == intrinsics.cx_px &&
          camera.intrinsics.cy_px == intrinsics.cy_px;
@@ -51,7 +51,7 @@ Eigen::AlignedBox2d seen_by_both(const CameraPair& cameras, const std::array<Eig
   return all;
 }
 
-/// The same rig with its cameras put straight, lenses that do not distort, and pictures that hold a view.
+/// The same rig with its cameras rectified, lenses that do not distort, and pictures that hold a view.
 StereoRig rectified(StereoRig rig, const Eigen::AlignedBox2d& view) {
   Intrinsics& camera = rig.intrinsics;
   const Eigen::Array2d size(camera.width_px, camera.height_px);
@@ -78,7 +78,7 @@ Rectification::Rectification(const StereoRig& rig, const CameraPair& cameras)
   for (const Side side : kSides)
     seen_[index_of(side)] =
         *directions_seen(cameras[index_of(side)].lens, cameras[index_of(side)].intrinsics);
-  if (is_straight(cameras[0], rig.intrinsics) && is_straight(cameras[1], rig.intrinsics)) return;
+  if (is_rectified(cameras[0], rig.intrinsics) && is_rectified(cameras[1], rig.intrinsics)) return;
   rectified_ = rectified(rig, seen_by_both(cameras, seen_));
   for (const Side side : kSides) {
     cv::Mat places(rectified_.intrinsics.height_px, rectified_.intrinsics.width_px, CV_32FC2);

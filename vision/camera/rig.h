@@ -25,7 +25,7 @@ Eigen::Vector3d camera_point(const StereoRig& rig, const Eigen::Vector3d& point_
 Eigen::Vector3d camera_direction(const StereoRig& rig, const Eigen::Vector3d& direction_in_left_camera,
                                  Side side);
 
-/// Where a camera's picture shows a point: the pinhole projection after the lens has bent the light.
+/// Where a camera's picture shows a point: the pinhole projection after the lens has distorted it.
 /// @param point_in_camera metres, Z > 0
 /// @return pixels; may lie outside the image
 Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_in_camera);
@@ -39,8 +39,8 @@ Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_i
 /// @return empty where the lens folds its picture
 std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px);
 
-/// Where a rig without faults, its right camera straight and its lenses without distortion, would show what a
-/// pixel of a camera's picture shows.
+/// Where a rig without faults, its right camera not turned and its lenses without distortion, would show what
+/// a pixel of a camera's picture shows.
 /// @return empty where the lens folds its picture, or for what that rig has behind it
 std::optional<Eigen::Vector2d> rectified_point(const StereoRig& rig, const Eigen::Vector2d& taken_px,
                                                Side side);

@@ -29,10 +29,10 @@ Eigen::Matrix3d noise_by_fault_px2(const Intrinsics& camera, const MeasuredOutli
 }
 
 // Two outlines of one ball, as the cameras measured them.
-class Sight {
+class OutlinePair {
  public:
-  Sight(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
-        double disparity_variance_px2)
+  OutlinePair(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+              double disparity_variance_px2)
       : camera_(rig.intrinsics),
         to_right_(-rig.baseline_m, 0.0, 0.0, 0.0),
         left_(as_vector(left)),
@@ -127,17 +127,17 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
                          ? place_by_size(rig, left, right, ball_radius_m)
                          : triangulate_ball(rig, left.centre_px, right.centre_px, ball_radius_m);
   if (!start) return std::nullopt;
-  const Sight sight(rig, left, right, disparity_variance_px2);
+  const OutlinePair pair(rig, left, right, disparity_variance_px2);
   SizedBall ball(start->x(), start->y(), start->z(), ball_radius_m);
   Eigen::Matrix4d covariance;
   for (int step = 0; step < kSteps; ++step) {
     if (!is_ahead(ball)) return std::nullopt;
-    covariance = sight.improve(ball, {ball_radius_m, kLooseSd * ball_radius_m});
+    covariance = pair.improve(ball, {ball_radius_m, kLooseSd * ball_radius_m});
   }
   BallFit fit;
   if (!put(ball, covariance, fit)) return std::nullopt;
-  const Eigen::Vector3d left_residual = sight.left_residual(ball);
-  const Eigen::Vector3d right_residual = sight.right_residual(ball);
+  const Eigen::Vector3d left_residual = pair.left_residual(ball);
+  const Eigen::Vector3d right_residual = pair.right_residual(ball);
   fit.row_misfit_px = std::abs(left_residual.y() - right_residual.y());
   const double size_misfit_px =
       std::abs(ball.w() / ball_radius_m - 1.0) * std::max(left.radius_px, right.radius_px);
@@ -154,13 +154,13 @@ BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, cons
   const double told_sd_m = std::sqrt(size.radius_sd_m * size.radius_sd_m + off_m2);
   const BallSize believed = {size.radius_m,
                              std::clamp(told_sd_m, kExactSd * size.radius_m, kLooseSd * size.radius_m)};
-  const Sight sight(rig, left, right, disparity_variance_px2 + off_px2);
+  const OutlinePair pair(rig, left, right, disparity_variance_px2 + off_px2);
   SizedBall ball;
   ball << loose.ball_in_camera, loose.radius_m;
   Eigen::Matrix4d covariance;
   for (int step = 0; step < kFurtherSteps; ++step) {
     if (!is_ahead(ball)) return loose;
-    covariance = sight.improve(ball, believed);
+    covariance = pair.improve(ball, believed);
   }
   BallFit fit = loose;
   put(ball, covariance, fit);

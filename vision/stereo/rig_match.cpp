@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastArcShare = 1.0 / 3.0;   // of an outline in each camera, to be trusted
 constexpr double kMostReducedChiSquare = 6.0;  // beyond it arcs are of two things
 constexpr double kVague_px = 0.05;             // sd of a disparity that contradicting arcs may have
-constexpr double kRowsApart_px = 0.5;          // more than two outlines of one ball are in a straight rig
+constexpr double kRowsApart_px = 0.5;          // more than two outlines of one ball are in a rectified rig
 constexpr double kSeenTimes = 6.0;             // a ball, with the same error of its size each time
 constexpr int kMostMatches = 3;                // by a belief that changes
 constexpr double kSameFault = 2e-5;            // rad, and relative: rows move by 0.02 px at f = 1000 px

@@ -80,7 +80,7 @@ RigBelief usual_fault() {
   return belief;
 }
 
-Eigen::Vector2d RigBelief::straight_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const {
+Eigen::Vector2d RigBelief::rectified_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const {
   if (fault.head<3>().isZero(0.0)) return right_px;
   const StereoRig turned{.intrinsics = camera, .right_turn_rad = fault.head<3>()};
   return rectified_point(turned, right_px, Side::kRight).value_or(right_px);

@@ -11,7 +11,7 @@ namespace stereobench::vision {
 /// and by what share the baseline is longer.
 using RigFault = Eigen::Vector4d;
 
-/// One ball in both pictures, put straight as the rig is believed to be: what a fault moves.
+/// One ball in both pictures, rectified as the rig is believed to be: what a fault moves.
 struct BallApart {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero();   ///< centres of the outlines
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();  ///< without the turn that is believed
@@ -26,7 +26,7 @@ struct RigBelief {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 
   /// Where the right camera would see something if it were not turned.
-  Eigen::Vector2d straight_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const;
+  Eigen::Vector2d rectified_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const;
 
   /// By how many rows the left camera sees something further down than the right one does.
   double rows_apart_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) const;

@@ -25,7 +25,7 @@ struct Misfit {
   bool sizes_agree = true;
   BallFit ball;
   double disparity_variance_px2 = 0.0;
-  MeasuredOutline right;  // mended
+  MeasuredOutline right;  // repaired
   double total() const { return std::max(size, row); }
 };
 
@@ -43,7 +43,7 @@ std::optional<Misfit> misfit(const MeasuredOutline& left, MeasuredOutline right,
                              const ObserverSettings& settings, const RigBelief& belief) {
   if (left.colour != right.colour) return std::nullopt;
   Misfit result;
-  right = moved(right, belief.straight_px(rig.intrinsics, right.centre_px), rig.intrinsics);
+  right = moved(right, belief.rectified_px(rig.intrinsics, right.centre_px), rig.intrinsics);
   const double by_size_px = disparity_by_size_px(rig, left, right, settings.ball_radius_m);
   const Eigen::Vector2d variances = belief.variances_px2(rig.intrinsics, right.centre_px, by_size_px);
   result.disparity_variance_px2 = variances.y();

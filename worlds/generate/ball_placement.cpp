@@ -131,7 +131,7 @@ class Placement {
     const Sphere ball{{at.x(), at.y(), rules_.radius_m}, rules_.radius_m};
     return std::ranges::any_of(scenario_.path, [&](const PathStep& step) {
       const Eigen::Vector3d camera_m(step.pose.x_m, step.pose.y_m, scenario_.rig.height_m);
-      return !occluders_.meet(sight_volume(camera_m, ball, slack_m_));
+      return !occluders_.meet(visibility_volume(camera_m, ball, slack_m_));
     });
   }
 

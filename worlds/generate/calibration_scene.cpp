@@ -26,7 +26,7 @@ constexpr double kWallHeight_m = 6.0;
 
 class KeyedSampler {
  public:
-  explicit KeyedSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kGallery) {}
+  explicit KeyedSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kCalibrationScene) {}
 
   double between(double low, double high) { return low + (high - low) * stream_.uniform(); }
   int below(int count) { return static_cast<int>(stream_.uniform() * count); }
@@ -42,7 +42,7 @@ int looks_around(const vision::Intrinsics& camera) {
 
 /// A place whose centre both cameras have in their pictures.
 /// @return in the robot's frame; empty where the draw gave none
-std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const GalleryDepths& depths,
+std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const CalibrationDepths& depths,
                                              double radius_m, KeyedSampler& draws) {
   const double share = draws.between(0.0, 1.0);
   const double depth =
@@ -72,7 +72,7 @@ bool has_room(const Ball& ball, const std::vector<Ball>& others) {
   });
 }
 
-void add_balls(const Scenario& scenario, const GalleryDepths& depths, const slam::Pose& robot,
+void add_balls(const Scenario& scenario, const CalibrationDepths& depths, const slam::Pose& robot,
                double radius_m, KeyedSampler& draws, std::vector<Ball>& balls) {
   int missing = kBallsPerLook;
   for (int tries = 0; tries < kTries && missing > 0 && balls.size() < kMostBalls; ++tries) {
@@ -114,15 +114,16 @@ std::vector<Wall> walls_around(double distance_m, bool plain, KeyedSampler& draw
 
 }  // namespace
 
-GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
-                                double smallest_radius_px) {
+CalibrationDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
+                                    double smallest_radius_px) {
   const vision::Intrinsics& camera = rig.intrinsics;
   const double nearest =
       camera.focal_px * (2.0 * ball_radius_m + rig.baseline_m) / (kFullRow * camera.width_px);
   return {std::max(nearest, 2.0 * ball_radius_m), camera.focal_px * ball_radius_m / smallest_radius_px};
 }
 
-Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed) {
+Scenario calibration_scene(const Scenario& scenario, const CalibrationSceneSettings& settings,
+                           std::uint64_t seed) {
   KeyedSampler draws(seed);
   Scenario made = scenario;
   made.seeds = {seed};

@@ -8,20 +8,20 @@
 
 namespace stereobench::worlds {
 
-/// Depths that the balls of a gallery are drawn from.
-struct GalleryDepths {
+/// Depths that the balls of a calibration scene are drawn from.
+struct CalibrationDepths {
   double nearest_m = 0.0;  ///< where one outline and its shift between the cameras fill six tenths of a row
   double farthest_m = 0.0;
 };
 
 /// The depths at which a rig can measure balls at all.
 /// @param smallest_radius_px outlines below that are not measured
-GalleryDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
-                                double smallest_radius_px);
+CalibrationDepths measurable_depths(const vision::StereoRig& rig, double ball_radius_m,
+                                    double smallest_radius_px);
 
-/// What a gallery looks like.
-struct GallerySettings {
-  GalleryDepths depths;
+/// What a calibration scene looks like.
+struct CalibrationSceneSettings {
+  CalibrationDepths depths;
   bool plain = false;  ///< walls and floor without texture: what is measured then is the noise alone
 };
 
@@ -33,6 +33,7 @@ struct GallerySettings {
 /// move, so that the shutter is left out.
 /// @param scenario with a stereo sensor
 /// @param seed of the draws
-Scenario gallery(const Scenario& scenario, const GallerySettings& settings, std::uint64_t seed);
+Scenario calibration_scene(const Scenario& scenario, const CalibrationSceneSettings& settings,
+                           std::uint64_t seed);
 
 }  // namespace stereobench::worlds

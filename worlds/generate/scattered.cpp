@@ -32,7 +32,7 @@ double floor_radius_m(const MeshInstance& thing) {
 class Scattering {
  public:
   Scattering(const Scenario& scenario, World& world, KeyedSampler& draws)
-      : scenario_(scenario), world_(world), draws_(draws), sight_(scenario, world), occluders_(world) {}
+      : scenario_(scenario), world_(world), draws_(draws), visibility_(scenario, world), occluders_(world) {}
 
   void scatter(const Distractors& distractors) {
     for_each("distractors", distractors.scattered,
@@ -56,7 +56,7 @@ class Scattering {
         continue;
       }
       world_.meshes.push_back(std::move(thing));
-      sight_.put(sphere_of(world_.meshes.back()));
+      visibility_.put(sphere_of(world_.meshes.back()));
     }
   }
 
@@ -92,7 +92,7 @@ class Scattering {
       const slam::Pose& pose = scenario_.path[step].pose;
       thing.position_m.head<2>() = slam::locate(pose, {range_m, bearing_rad});
       if (is_clear(thing, rules, {pose.x_m, pose.y_m}) &&
-          sight_.allows(sphere_of(thing), scenario_.randomise.balls_in_view))
+          visibility_.allows(sphere_of(thing), scenario_.randomise.balls_in_view))
         return true;
       draws_.forget_from(before);
     }
@@ -134,7 +134,7 @@ class Scattering {
     const Eigen::Vector3d camera_m(from.x(), from.y(), scenario_.rig.height_m);
     return !occluders_.meet(upright_cylinder(thing.position_m.head<2>(), floor_radius_m(thing) + kGap_m,
                                              kGap_m, thing.scale.z())) &&
-           !occluders_.meet(sight_volume(camera_m, middle, 0.0));
+           !occluders_.meet(visibility_volume(camera_m, middle, 0.0));
   }
 
   bool is_clear_of_drive(const Eigen::Vector2d& at, double least_m) const {
@@ -151,7 +151,7 @@ class Scattering {
   const Scenario& scenario_;
   World& world_;
   KeyedSampler& draws_;
-  DriveVisibility sight_;
+  DriveVisibility visibility_;
   Occluders occluders_;
   std::vector<std::string> left_out_;
 };

@@ -122,10 +122,10 @@ void check_lens(const YamlValue& value, const vision::StereoRig& rig) {
   if (rig.distortion == vision::Distortion{}) return;
   const vision::Intrinsics pinhole = vision::pinhole_rig(rig).value().intrinsics;
   if (vision::can_be_drawn(pinhole)) return;
-  vision::Distortion bent = rig.distortion;
-  bent.pixel_aspect = 1.0;
+  vision::Distortion distorted = rig.distortion;
+  distorted.pixel_aspect = 1.0;
   const YamlMap map(value, rig_keys());
-  map.at(bent == vision::Distortion{} ? "pixel_aspect" : "distortion")
+  map.at(distorted == vision::Distortion{} ? "pixel_aspect" : "distortion")
       .refuse(fmt::format("expected fewer pixels, or a lens that looks less far aside: drawn straight, with "
                           "{} pixels for one, its picture has {} x {}, and {} each way is the most",
                           vision::kPinholeDensity, pinhole.width_px, pinhole.height_px,

@@ -92,7 +92,7 @@ bool meets(const ClearanceVolume& volume, const TriangleCorners& corners) {
 
 }  // namespace
 
-ClearanceVolume sight_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m) {
+ClearanceVolume visibility_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m) {
   const double core_m = (1.0 - kRim) * ball.radius_m;
   const double radius_m = core_m + slack_m;
   const double distance_m = (ball.centre_m - camera_m).norm();

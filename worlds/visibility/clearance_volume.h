@@ -28,7 +28,7 @@ struct ClearanceVolume {
 /// is nearer to the camera than its picture begins.
 /// @param slack_m the ball may lie that far aside, at the same height
 /// @param ball the camera is not in it, slack included
-ClearanceVolume sight_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m);
+ClearanceVolume visibility_volume(const Eigen::Vector3d& camera_m, const Sphere& ball, double slack_m);
 
 /// An upright cylinder.
 ClearanceVolume upright_cylinder(const Eigen::Vector2d& at_m, double radius_m, double low_m, double high_m);

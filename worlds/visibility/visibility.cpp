@@ -78,7 +78,7 @@ std::vector<bool> seen_whole(const CameraPose& camera, const World& world, const
     return std::ranges::none_of(cones, in_front) && std::ranges::none_of(shapes, before) &&
            std::ranges::none_of(
                world.walls, [&](const Wall& wall) { return hides(wall, camera, ball.centre_m, radius_m); }) &&
-           !occluders.meet(sight_volume(camera.centre_m, {ball.centre_m, ball.radius_m}, slack_m));
+           !occluders.meet(visibility_volume(camera.centre_m, {ball.centre_m, ball.radius_m}, slack_m));
   };
   std::vector<bool> seen;
   for (std::size_t i = 0; i < world.balls.size(); ++i) seen.push_back(is_seen(i));

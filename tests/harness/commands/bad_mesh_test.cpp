@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // The scenario's other text is another data set, but there is no frame of the first one. Mutation: a folder
 // that is taken before anything can be drawn.
-TEST(RenderCommand, TakesTheMendedScenarioWhereAMeshCouldNotBeRead) {
+TEST(RenderCommand, TakesTheRepairedScenarioWhereAMeshCouldNotBeRead) {
   const ScratchFolder scratch;
   const std::filesystem::path out = scratch.path() / "out";
   const auto render = [&](const std::string& mesh, const std::string& seeds) {
@@ -90,8 +90,8 @@ TEST(RenderCommand, TakesTheMendedScenarioWhereAMeshCouldNotBeRead) {
   EXPECT_EQ(render("bad", "0").exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(out)) << "empty folders";
   EXPECT_EQ(render("bad", "0..1").exit_code, 2);
-  const Outcome mended = render("good", "0");
-  EXPECT_EQ(mended.exit_code, 0) << mended.err;
+  const Outcome repaired = render("good", "0");
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.err;
   EXPECT_EQ(render("bad", "0").exit_code, 2) << "now there are frames";
 }
 

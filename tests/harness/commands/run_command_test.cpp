@@ -202,7 +202,7 @@ TEST(BallCircle, IsSeenToAFifthOfAMillimetre) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 
-// What is straightened is interpolated, and an edge between pixels looks like no other. Mutation: its errors
+// A rectified picture is interpolated, and an edge between pixels looks like no other. Mutation: its errors
 // are claimed to be those of pictures as taken (their squares are 4.3 times the claim).
 TEST(BallCircle, BehindALensIsSeenAsWellAsClaimed) {
   const ScratchFolder scratch;

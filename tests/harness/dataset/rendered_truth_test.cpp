@@ -66,12 +66,12 @@ TEST(RenderedTruth, FollowsTheCamerasAtTheTimesOfTheirExposures) {
   const slam::Pose next = drive.scenario.path[2].pose;
   const slam::Pose right = worlds::pose_near(drive.scenario.path, 1, 0.02);
   renderer::Renderer renderer(drive.scenario.world, drive.scenario.rig);
-  const renderer::StereoIdBuffers sight = renderer.id_buffers(left, right);
+  const renderer::StereoIdBuffers ids = renderer.id_buffers(left, right);
   const renderer::SceneGeometry scene(drive.scenario.world);
   const auto disparity =
-      renderer::disparity_px(renderer::correspond(scene, sight.left, sight.right), Side::kLeft);
+      renderer::disparity_px(renderer::correspond(scene, ids.left, ids.right), Side::kLeft);
   EXPECT_EQ(cv::norm(picture(folder, "left_disparity/000001.pfm"), disparity, cv::NORM_INF), 0.0);
-  const auto flow = renderer::correspond(scene, sight.left, renderer.id_buffers(next, next).left);
+  const auto flow = renderer::correspond(scene, ids.left, renderer.id_buffers(next, next).left);
   cv::Mat u;
   cv::extractChannel(picture(folder, "left_flow/000001.pfm"), u, 2);
   cv::Mat expected;

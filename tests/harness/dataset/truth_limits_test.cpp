@@ -79,7 +79,7 @@ TEST(LateTruth, IsThatOfWhenTheCamerasExposed) {
 }
 
 // Mutation: the cameras exchanged.
-TEST(TruthBehindALens, IsThatOfBentRays) {
+TEST(TruthBehindALens, IsThatOfDistortedRays) {
   worlds::Scenario scenario = turning();
   scenario.rig.distortion = {.k1 = -0.25, .k2 = 0.08};
   const renderer::StereoFrame frame =

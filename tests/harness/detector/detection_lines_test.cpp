@@ -109,15 +109,15 @@ TEST(DetectionLines, PixelsAloneAreTriangulatedAsOurOwnAre) {
 
 // Law: where a ball is does not depend on the faults that are known of a rig. Mutations: pixels as they are
 // taken, the right camera's turn left out.
-TEST(DetectionLines, PixelsOfARigWithFaultsArePutStraight) {
+TEST(DetectionLines, PixelsOfARigWithFaultsAreRectified) {
   BallGeometry faulty = kGeometry;
   faulty.rig.right_turn_rad = {0.01, -0.03, 0.02};
   faulty.rig.distortion = {.k1 = -0.2, .k2 = 0.03, .p1 = 0.001};
   slam::RandomStream random(9, slam::Stream::kWorld);
   for (int i = 0; i < 50; ++i) {
     const BallObservation ball = random_ball(random);
-    const auto taken = [&](const Eigen::Vector2d& straight_px, vision::Side side) {
-      const Eigen::Vector3d ray = vision::pixel_ray(faulty.rig.intrinsics, straight_px);
+    const auto taken = [&](const Eigen::Vector2d& rectified_px, vision::Side side) {
+      const Eigen::Vector3d ray = vision::pixel_ray(faulty.rig.intrinsics, rectified_px);
       return vision::image_point(faulty.rig, vision::camera_direction(faulty.rig, ray, side));
     };
     const Eigen::Vector2d left = taken(ball.left_px, vision::Side::kLeft);

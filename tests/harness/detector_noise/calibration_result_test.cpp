@@ -1,4 +1,4 @@
-// Which galleries the noise is fitted to, and which it is held against.
+// Which calibration scenes the noise is fitted to, and which it is held against.
 #include "harness/detector_noise/calibration_result.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ CalibrationTake take_of(double times, int whole, int parts) {
 
 // The errors of one half make the scale, those of the other are held against it.
 // Mutations: either half's samples in the other as well; parts of balls in the fit.
-TEST(CalibrationResult, IsOfGalleriesThatItWasNotFittedTo) {
+TEST(CalibrationResult, IsOfScenesThatItWasNotFittedTo) {
   const std::vector<CalibrationTake> takes = {take_of(2.0, 20, 10), take_of(4.0, 30, 7), take_of(2.0, 20, 10),
                                               take_of(4.0, 40, 5)};
   const CalibrationResult result = calibrate(takes, {5, 6, 7, 8}, 0.5, 2.0);

@@ -9,7 +9,7 @@ namespace stereobench::harness {
 namespace {
 
 // Mutation: leaving out what was measured in pixels.
-TEST(SerialiseTake, CarriesWhatAGalleryGave) {
+TEST(SerialiseTake, CarriesWhatACalibrationSceneGave) {
   CalibrationTake take;
   take.samples = {{.truth = {3.0, 0.1}, .depth_m = 2.5, .whole = false}};
   take.samples[0].disparity_error_px = std::numeric_limits<double>::quiet_NaN();

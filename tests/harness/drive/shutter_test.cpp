@@ -148,12 +148,12 @@ TEST(Shutter, OfARobotThatStandsIsAnInstant) {
 /// The longest way of a point that both of two looks see.
 double longest_shift_px(const worlds::Scenario& scenario, renderer::Renderer& renderer, double from_s,
                         double to_s) {
-  const auto sight = [&](double offset_s) {
+  const auto ids = [&](double offset_s) {
     const slam::Pose pose = worlds::pose_near(scenario.path, 2, offset_s);
     return renderer.id_buffers(pose, pose);
   };
   const renderer::SceneGeometry scene(scenario.world);
-  const renderer::StereoIdBuffers from = sight(from_s), to = sight(to_s);
+  const renderer::StereoIdBuffers from = ids(from_s), to = ids(to_s);
   double longest_px = 0.0;
   for (const auto& [a, b] : {std::pair(from.left, to.left), {from.right, to.right}}) {
     const renderer::Correspondence found = renderer::correspond(scene, a, b);
@@ -275,11 +275,11 @@ TEST(Rigs, ATurnedRightCameraIsMeasuredAsARangeThatIsWrong) {
   scenario.rig.right_turn_rad.y() = 0.0005;
   EXPECT_NEAR(mean_range_ratio(scenario), 1.0 - 2.2 * 0.0005 / 0.12, 0.003);
   scenario.believed_rig = scenario.rig;
-  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003) << "who knows of it puts it straight";
+  EXPECT_NEAR(mean_range_ratio(scenario), 1.0, 0.003) << "who knows of it rectifies it";
 }
 
 // At a direction of 0.1 a lens with k1 = -0.3 is 0.3 % off, and less where the other camera looks: that is a
-// disparity. Further out outlines are bent so much that their arcs contradict each other.
+// disparity. Further out outlines are distorted so much that their arcs contradict each other.
 TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
   worlds::Scenario scenario = bend();
   scenario.rig.distortion = {.k1 = -0.3, .k2 = 0.05, .p1 = 0.001};
@@ -291,7 +291,7 @@ TEST(Rigs, ALensIsUndoneByWhoKnowsOfIt) {
 }
 
 // What is 10 % shorter than it is wide is taken for nearer, and aside, by who does not know of it.
-// Mutation: the aspect left out of what is put straight.
+// Mutation: the aspect left out of what is rectified.
 TEST(Rigs, PixelsThatAreNotSquareAreMeasuredAsSquareOnesByWhoKnowsOfIt) {
   for (const double aspect : {0.8, 0.95, 1.2}) {
     worlds::Scenario scenario = bend();

@@ -14,8 +14,8 @@ namespace {
 constexpr std::int64_t kMilli = 1'000'000;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-Sighting seen_at(std::int64_t stamp_ns, int id = 1) {
-  Sighting sighting;
+LoggedSighting seen_at(std::int64_t stamp_ns, int id = 1) {
+  LoggedSighting sighting;
   sighting.stamp_ns = stamp_ns;
   sighting.measurement.landmark_id = id;
   return sighting;

@@ -37,7 +37,7 @@ RecordedStreams drive(const Drive& how, std::uint64_t seed) {
       const int id = static_cast<int>(ms / 3000 % 7);
       const Eigen::Vector2d place(6.0 * std::cos(id), 6.0 * std::sin(id));
       const Eigen::Vector2d seen = slam::predict_sighting(pose, place);
-      Sighting sighting{ms * kMilli, {}};
+      LoggedSighting sighting{ms * kMilli, {}};
       sighting.measurement.range_m = seen.x() + 0.1 * random.normal();
       sighting.measurement.bearing_rad = slam::wrap_angle(
           random.uniform() < how.outlier_share ? 6.0 * random.uniform()

@@ -10,11 +10,11 @@ namespace stereobench::harness {
 namespace {
 
 /// Three sightings an instant, each of its own landmark, at ten instants 0.1 s apart.
-std::vector<Sighting> different_sightings() {
+std::vector<LoggedSighting> different_sightings() {
   slam::RandomStream random(1, slam::Stream::kWorld);
-  std::vector<Sighting> sightings;
+  std::vector<LoggedSighting> sightings;
   for (int i = 0; i < 30; ++i) {
-    Sighting sighting{i / 3 * 100'000'000LL, {}};
+    LoggedSighting sighting{i / 3 * 100'000'000LL, {}};
     sighting.measurement = {.range_m = 1.0 + random.uniform(), .bearing_rad = random.normal()};
     sighting.measurement.landmark_id = i % 3;
     sightings.push_back(sighting);
@@ -25,8 +25,8 @@ std::vector<Sighting> different_sightings() {
 // Law: doubling a log and reading it is reading the log. Mutations: neighbours alone compared; any two of one
 // landmark at an instant dropped; every second one dropped.
 TEST(RepeatedSightings, ADoubledLogIsTheLog) {
-  const std::vector<Sighting> once = different_sightings();
-  std::vector<Sighting> doubled;
+  const std::vector<LoggedSighting> once = different_sightings();
+  std::vector<LoggedSighting> doubled;
   for (std::size_t i = 0; i < once.size(); i += 3)  // an instant's three, and the three again
     for (const std::size_t k : {0U, 1U, 2U, 0U, 1U, 2U}) doubled.push_back(once[i + k]);
   for (std::size_t i = 0; i < doubled.size(); ++i)
@@ -39,8 +39,8 @@ TEST(RepeatedSightings, ADoubledLogIsTheLog) {
 
 // Mutations: colours, bearings or stamps not compared.
 TEST(RepeatedSightings, WhatDiffersInAnythingStays) {
-  const Sighting first{0, {.range_m = 2.0, .bearing_rad = 0.1, .landmark_id = 4, .colour_class = 1}};
-  std::vector<Sighting> sightings(6, first);
+  const LoggedSighting first{0, {.range_m = 2.0, .bearing_rad = 0.1, .landmark_id = 4, .colour_class = 1}};
+  std::vector<LoggedSighting> sightings(6, first);
   sightings[1].measurement.range_m += 1e-12;
   sightings[2].measurement.bearing_rad = -0.1;
   sightings[3].measurement.landmark_id = 5;
@@ -54,9 +54,9 @@ TEST(RepeatedSightings, WhatDiffersInAnythingStays) {
 
 // Mutation: sightings without an identity taken for one landmark's.
 TEST(RepeatedSightings, WithoutIdentitiesNothingIsConcurrent) {
-  std::vector<Sighting> sightings = different_sightings();
+  std::vector<LoggedSighting> sightings = different_sightings();
   EXPECT_EQ(count_concurrent(sightings), 0);
-  for (Sighting& sighting : sightings) sighting.measurement.landmark_id = slam::kUnknown;
+  for (LoggedSighting& sighting : sightings) sighting.measurement.landmark_id = slam::kUnknown;
   EXPECT_EQ(count_concurrent(sightings), 0);
 }
 

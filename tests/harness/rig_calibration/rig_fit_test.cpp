@@ -111,10 +111,10 @@ TEST(RigFit, RefusesViewsThatSayTooLittle) {
   std::vector<Eigen::Isometry3d> parallel(5, Eigen::Isometry3d::Identity());
   for (std::size_t i = 0; i < parallel.size(); ++i)
     parallel[i].translation() = Eigen::Vector3d(-0.1 + 0.03 * static_cast<double>(i), -0.08, 0.7);
-  vision::StereoRig straight = rig;
-  straight.right_turn_rad.setZero();
-  straight.distortion = {};
-  const auto flat = test::seen_through(straight, kBoard, parallel, 0.1, 1);
+  vision::StereoRig rectified = rig;
+  rectified.right_turn_rad.setZero();
+  rectified.distortion = {};
+  const auto flat = test::seen_through(rectified, kBoard, parallel, 0.1, 1);
   EXPECT_THAT([&] { fit_rig(flat, settings); },
               ThrowsMessage<std::runtime_error>(HasSubstr("the views do not determine")));
 }

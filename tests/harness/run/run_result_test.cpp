@@ -158,9 +158,9 @@ TEST(RunResult, WhatVisionCannotSayIsADash) {
 }
 
 // Mutations: the last seed's counters alone; the table in every run; a filter without any among its lines.
-TEST(RunResult, WhatFiltersMendAndRefuseIsCountedAndShown) {
+TEST(RunResult, WhatFiltersRepairAndRefuseIsCountedAndShown) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
-  EXPECT_EQ(result_table(assemble("name", "none", drives)).find("mended"), std::string::npos);
+  EXPECT_EQ(result_table(assemble("name", "none", drives)).find("repaired"), std::string::npos);
   for (SeedDrive& drive : drives) drive.runs[1].last.counters = {9, 1, 2, 30, 4, 5};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result)["filters"];
@@ -169,7 +169,7 @@ TEST(RunResult, WhatFiltersMendAndRefuseIsCountedAndShown) {
             R"("joint_searches_cut":10})");
   EXPECT_EQ(json["dead_reckoning"]["counters"]["rejected_inputs"], 0);
   const auto lines = lines_of(result_table(result));
-  const std::size_t header = line_of(lines, "mended or refused");
+  const std::size_t header = line_of(lines, "repaired or refused");
   ASSERT_EQ(header + 3, lines.size()) << "a rule and one filter below it";
   EXPECT_TRUE(lines.back().starts_with("ufastslam "));
   EXPECT_NE(lines.back().find(" 60 "), std::string::npos);

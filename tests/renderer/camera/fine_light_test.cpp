@@ -16,8 +16,8 @@ namespace {
 
 class FineLight : public testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
-// Ids, depth and facets are the same bytes; light is the same to what eight bits round: half a level where
-// nothing is mixed, a little more where rounded light was mixed. Mutations: identities in steps of 256;
+// Ids, depth and primitives are the same bytes; light is the same to what eight bits round: half a level
+// where nothing is mixed, a little more where rounded light was mixed. Mutations: identities in steps of 256;
 // edges mixed as if of eight bits; light that is cut, not rounded.
 TEST_P(FineLight, IsTheSamePictureToTheRounding) {
   const auto [seed, has_lens] = GetParam();

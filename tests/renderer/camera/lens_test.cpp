@@ -46,8 +46,8 @@ cv::Moments light_of(const cv::Mat& picture) {
   return cv::moments(red);
 }
 
-/// The same of the outline: rays that touch the ball, each bent by the lens on its own.
-cv::Moments bent_outline(const vision::StereoRig& rig, const Eigen::Vector3d& ball) {
+/// The same of the outline: rays that touch the ball, each distorted by the lens on its own.
+cv::Moments distorted_outline(const vision::StereoRig& rig, const Eigen::Vector3d& ball) {
   constexpr int kPoints = 2000;
   const double sine = kBallRadius_m / ball.norm();
   const Eigen::Vector3d axis = ball.normalized();
@@ -65,14 +65,14 @@ cv::Moments bent_outline(const vision::StereoRig& rig, const Eigen::Vector3d& ba
 class LensTest : public testing::TestWithParam<vision::Distortion> {};
 
 // Mutation: half a pixel in places_seen.
-TEST_P(LensTest, ShowsBallsWhereBentRaysArrive) {
+TEST_P(LensTest, ShowsBallsWhereDistortedRaysArrive) {
   const vision::StereoRig rig = rig_with(GetParam());
   const double full = vision::kPalette[0].r;
   for (const double x : {-1.2, -0.4, 0.5, 1.2}) {
     for (const double y : {-0.9, 0.1, 0.8}) {
       const Eigen::Vector3d ball(x, y, 2.0);
       const cv::Moments seen = light_of(Renderer(ball_at(rig, ball), rig).render({}).left.colour);
-      const cv::Moments expected = bent_outline(rig, ball);
+      const cv::Moments expected = distorted_outline(rig, ball);
       EXPECT_NEAR(seen.m10 / seen.m00, expected.m10 / expected.m00, 0.01) << x << ' ' << y;
       EXPECT_NEAR(seen.m01 / seen.m00, expected.m01 / expected.m00, 0.01) << x << ' ' << y;
       EXPECT_NEAR(seen.m00 / full / expected.m00, 1.0, 0.005) << x << ' ' << y;

@@ -35,35 +35,35 @@ class Gather : public testing::TestWithParam<std::uint64_t> {};
 
 // Mutations: no rounding; the ways to the next column and row taken for each other.
 TEST_P(Gather, IsOpenCvsRemapAndMean) {
-  const cv::Mat straight = noise(CV_8UC3, GetParam());
+  const cv::Mat undistorted = noise(CV_8UC3, GetParam());
   const cv::Mat wanted = places(GetParam() + 100);
   cv::Mat pixels, fractions, dense, expected;
   cv::convertMaps(wanted, cv::noArray(), pixels, fractions, CV_16SC2);
-  cv::remap(straight, dense, pixels - cv::Scalar(0, kFirstRow), fractions, cv::INTER_LINEAR);
+  cv::remap(undistorted, dense, pixels - cv::Scalar(0, kFirstRow), fractions, cv::INTER_LINEAR);
   cv::resize(dense, expected, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_AREA);
-  cv::Mat bent(kHeight, kWidth, CV_8UC3);
+  cv::Mat distorted(kHeight, kWidth, CV_8UC3);
   for (int v = 0; v < kHeight; ++v) {
     const auto row = [&](int k) {
       return LightPlaces{pixels.ptr<cv::Vec2s>(2 * v + k), fractions.ptr<std::uint16_t>(2 * v + k)};
     };
-    gather_light({row(0), row(1)}, {straight, kFirstRow}, bent.ptr(v), kWidth);
+    gather_light({row(0), row(1)}, {undistorted, kFirstRow}, distorted.ptr(v), kWidth);
   }
-  EXPECT_EQ(cv::norm(bent, expected, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(distorted, expected, cv::NORM_INF), 0.0);
 }
 
 // The same of 16 bits, in double precision. Mutations: as above; weights of three places.
 TEST_P(Gather, OfSixteenBitsIsTheMeanOfFourPlaces) {
-  cv::Mat straight(97, 113, CV_16UC3);
+  cv::Mat undistorted(97, 113, CV_16UC3);
   cv::RNG random(GetParam());
-  random.fill(straight, cv::RNG::UNIFORM, -20000, 85000);
+  random.fill(undistorted, cv::RNG::UNIFORM, -20000, 85000);
   cv::Mat pixels, fractions;
   cv::convertMaps(places(GetParam() + 100), cv::noArray(), pixels, fractions, CV_16SC2);
-  cv::Mat bent(kHeight, kWidth, CV_16UC3);
+  cv::Mat distorted(kHeight, kWidth, CV_16UC3);
   for (int v = 0; v < kHeight; ++v) {
     const auto row = [&](int k) {
       return LightPlaces{pixels.ptr<cv::Vec2s>(2 * v + k), fractions.ptr<std::uint16_t>(2 * v + k)};
     };
-    gather_light({row(0), row(1)}, {straight, kFirstRow}, bent.ptr<std::uint16_t>(v), kWidth);
+    gather_light({row(0), row(1)}, {undistorted, kFirstRow}, distorted.ptr<std::uint16_t>(v), kWidth);
     for (int u = 0; u < kWidth; ++u) {
       cv::Vec3d sum;
       for (int k = 0; k < 4; ++k) {
@@ -71,26 +71,26 @@ TEST_P(Gather, OfSixteenBitsIsTheMeanOfFourPlaces) {
         const int fraction = fractions.at<std::uint16_t>(2 * v + k / 2, 2 * u + k % 2);
         const double right = fraction % 32 / 32.0, down = fraction / 32 / 32.0;
         const auto light = [&](int du, int dv) {
-          return cv::Vec3d(straight.at<cv::Vec3w>(at[1] - kFirstRow + dv, at[0] + du));
+          return cv::Vec3d(undistorted.at<cv::Vec3w>(at[1] - kFirstRow + dv, at[0] + du));
         };
         sum += (1 - down) * ((1 - right) * light(0, 0) + right * light(1, 0)) +
                down * ((1 - right) * light(0, 1) + right * light(1, 1));
       }
       for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(bent.at<cv::Vec3w>(v, u)[c], sum[c] / 4.0, 0.5) << u << ", " << v;
+        ASSERT_NEAR(distorted.at<cv::Vec3w>(v, u)[c], sum[c] / 4.0, 0.5) << u << ", " << v;
     }
   }
 }
 
 TEST_P(Gather, PicksThePixelsOfPlaces) {
-  const cv::Mat straight = noise(CV_32FC1, GetParam());
+  const cv::Mat undistorted = noise(CV_32FC1, GetParam());
   cv::Mat pixels, fractions;
   cv::convertMaps(places(GetParam()), cv::noArray(), pixels, fractions, CV_16SC2);
   std::vector<float> picked(kWidth);
-  pick(pixels.ptr<cv::Vec2s>(3), {straight, kFirstRow}, picked.data(), kWidth);
+  pick(pixels.ptr<cv::Vec2s>(3), {undistorted, kFirstRow}, picked.data(), kWidth);
   for (int u = 0; u < kWidth; ++u) {
     const cv::Vec2s& at = pixels.at<cv::Vec2s>(3, u);
-    ASSERT_EQ(picked[static_cast<std::size_t>(u)], straight.at<float>(at[1] - kFirstRow, at[0])) << u;
+    ASSERT_EQ(picked[static_cast<std::size_t>(u)], undistorted.at<float>(at[1] - kFirstRow, at[0])) << u;
   }
 }
 

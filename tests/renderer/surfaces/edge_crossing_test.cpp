@@ -65,15 +65,15 @@ vision::StereoRig rig_of_few_pixels() {
 
 /// How far the worst pixels are off, in levels of their worst channel.
 struct Worst {
-  double whole = 0.0, whole_of_ball = 0.0;  ///< of pixels all of which see one facet
+  double whole = 0.0, whole_of_ball = 0.0;  ///< of pixels all of which see one primitive
   double mixed = 0.0;                       ///< of the others, as far as a centre sees what they see
   long mixed_pixels = 0, far_off = 0;       ///< by more than eight levels
 };
 
 /// Whether all corners of a pixel see what its centre sees, and so do its finer pixels.
 bool is_whole(const test::RayCaster& caster, const test::FinerImage& fine, int u, int v) {
-  if (!fine.is_one_facet(u, v, 0)) return false;
-  if (fine.is_one_facet(u, v, 1)) return true;
+  if (!fine.is_one_primitive(u, v, 0)) return false;
+  if (fine.is_one_primitive(u, v, 1)) return true;
   const int seen = caster.look(u, v).surface;
   for (const double x : {-0.5, 0.5})
     for (const double y : {-0.5, 0.5})
@@ -121,10 +121,10 @@ void PrintTo(const Pairing& value, std::ostream* out) {
 
 class Crossings : public testing::TestWithParam<Pairing> {};
 
-// The floor and its horizon are behind all of them. Seen, where nothing is made of round facets: whole pixels
-// 0.0 to 1.0 (balls) and 8.0 (pixels beside the corner of a box), mixed ones 27 to 67, 0.2 to 1.9 % of them
-// by more than eight levels. A round mesh has facets that no centre sees between a pixel and the mesh's
-// outline: 100, 3 %.
+// The floor and its horizon are behind all of them. Seen, where nothing is made of round primitives: whole
+// pixels 0.0 to 1.0 (balls) and 8.0 (pixels beside the corner of a box), mixed ones 27 to 67, 0.2 to 1.9 % of
+// them by more than eight levels. A round mesh has primitives that no centre sees between a pixel and the
+// mesh's outline: 100, 3 %.
 TEST_P(Crossings, AreRightInTheWorstPixel) {
   const auto [front, behind] = GetParam();
   const vision::StereoRig rig = rig_of_few_pixels();

@@ -21,20 +21,20 @@
 namespace stereobench::renderer {
 namespace {
 
-/// Whether other facets are seen around a pixel.
-bool is_at_edge(const cv::Mat& facet, int u, int v) {
+/// Whether other primitives are seen around a pixel.
+bool is_at_edge(const cv::Mat& primitive, int u, int v) {
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {
-      if (facet.at<int>(v + dv, u + du) != facet.at<int>(v, u)) return true;
+      if (primitive.at<int>(v + dv, u + du) != primitive.at<int>(v, u)) return true;
     }
   }
   return false;
 }
 
-bool is_at_ball(const cv::Mat& facet, int u, int v) {
+bool is_at_ball(const cv::Mat& primitive, int u, int v) {
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {
-      if (is_ball(facet.at<int>(v + dv, u + du))) return true;
+      if (is_ball(primitive.at<int>(v + dv, u + du))) return true;
     }
   }
   return false;
@@ -64,16 +64,16 @@ worlds::World plain_room(std::uint64_t seed) {
 }
 
 /// Adds up what one camera's picture is off.
-void add_up(const cv::Mat& colour, const cv::Mat& facet, const test::FinerImage& fine, Errors& errors) {
+void add_up(const cv::Mat& colour, const cv::Mat& primitive, const test::FinerImage& fine, Errors& errors) {
   for (int v = 1; v < colour.rows - 1; ++v) {
     for (int u = 1; u < colour.cols - 1; ++u) {
       const cv::Vec3d truth = fine.mean_colour(u, v);
       const double jagged = off(fine.centre_colour(u, v), truth);
       const double smooth = off(colour.at<cv::Vec3b>(v, u), truth);
-      if (!is_at_edge(facet, u, v)) {
+      if (!is_at_edge(primitive, u, v)) {
         errors.elsewhere += smooth;
         ++errors.others;
-      } else if (is_at_ball(facet, u, v)) {
+      } else if (is_at_ball(primitive, u, v)) {
         errors.at_balls += smooth;
         ++errors.ball_edges;
       } else {
@@ -91,11 +91,11 @@ Errors compare(const worlds::World& world, const slam::Pose& pose,
                const vision::StereoRig& rig = test::small_rig()) {
   Renderer renderer(world, rig);
   const StereoFrame frame = renderer.render(pose);
-  const StereoIdBuffers sight = renderer.id_buffers(pose, pose);
+  const StereoIdBuffers ids = renderer.id_buffers(pose, pose);
   const auto [left, right] = test::finer_pair(world, rig, pose);
   Errors errors;
-  add_up(frame.left.colour, sight.left.facet, left, errors);
-  add_up(frame.right.colour, sight.right.facet, right, errors);
+  add_up(frame.left.colour, ids.left.primitive, left, errors);
+  add_up(frame.right.colour, ids.right.primitive, right, errors);
   errors.jagged /= static_cast<double>(errors.edges);
   errors.smooth /= static_cast<double>(errors.edges);
   errors.at_balls /= static_cast<double>(errors.ball_edges);
@@ -213,7 +213,7 @@ TEST_P(AlmostThroughCentres, AreMixedWhicheverSideIsSeen) {
 INSTANTIATE_TEST_SUITE_P(Offsets, AlmostThroughCentres,
                          testing::Values(-0.004, -0.002, -0.001, 0.0, 0.001, 0.002, 0.004));
 
-// Law: where all around is one facet nothing is touched, whatever edges are hidden behind it. A second
+// Law: where all around is one primitive nothing is touched, whatever edges are hidden behind it. A second
 // smoothing shows it.
 TEST_P(SmoothEdges, TouchNothingButEdges) {
   worlds::World world = test::random_room(GetParam());
@@ -222,15 +222,15 @@ TEST_P(SmoothEdges, TouchNothingButEdges) {
   Renderer renderer(world, rig);
   const slam::Pose pose{0.0, 0.0, 0.2};
   const RenderedImage once = renderer.render(pose).left;
-  const IdBuffer sight = renderer.id_buffers(pose, pose).left;
+  const IdBuffer ids = renderer.id_buffers(pose, pose).left;
   RenderedImage twice = once;
   twice.colour = once.colour.clone();
-  mix_edges(EdgeSmoother(world, place_meshes(world)).mixes(sight.view, twice), {}, twice);
+  mix_edges(EdgeSmoother(world, place_meshes(world)).mixes(ids.view, twice), {}, twice);
   int touched = 0, edges = 0;
   for (int v = 1; v < once.colour.rows - 1; ++v) {
     for (int u = 1; u < once.colour.cols - 1; ++u) {
       const bool changed = once.colour.at<cv::Vec3b>(v, u) != twice.colour.at<cv::Vec3b>(v, u);
-      (is_at_edge(sight.facet, u, v) ? edges : touched) += changed ? 1 : 0;
+      (is_at_edge(ids.primitive, u, v) ? edges : touched) += changed ? 1 : 0;
     }
   }
   EXPECT_EQ(touched, 0);

@@ -42,7 +42,7 @@ slam::Pose random_pose(slam::RandomStream& random) {
   return {0.8 * random.uniform() - 0.4, 0.8 * random.uniform() - 0.4, 0.8 * random.uniform() - 0.4};
 }
 
-// Meant to catch: the corner's colour left out of the shader; facets numbered from the first wall.
+// Meant to catch: the corner's colour left out of the shader; primitives numbered from the first wall.
 TEST(SurfaceTexture, OfOneColourIsThatPaint) {
   const Folder folder;
   const cv::Vec3b bgr(200, 127, 61);

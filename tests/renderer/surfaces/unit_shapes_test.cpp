@@ -81,15 +81,15 @@ TEST(UnitShapes, AreSurfacesOfTheirPaintAndNoBalls) {
   int on_box = 0, on_ball = 0;
   for (int v = 2; v < 298; ++v) {
     for (int u = 2; u < 398; ++u) {
-      const test::Sight sight = caster.look(u, v);
-      const int triangle = sight.surface - first;
+      const test::RayHit hit = caster.look(u, v);
+      const int triangle = hit.surface - first;
       if (triangle < 0 || triangle >= static_cast<int>(triangles.size())) continue;
       bool is_inside = true;
       for (const auto& [du, dv] : {std::pair{-1.5, 0.0}, {1.5, 0.0}, {0.0, -1.5}, {0.0, 1.5}})
-        is_inside = is_inside && caster.look(u + du, v + dv).surface == sight.surface;
+        is_inside = is_inside && caster.look(u + du, v + dv).surface == hit.surface;
       if (!is_inside) continue;
       EXPECT_EQ(frame.left.ball_id.at<std::uint8_t>(v, u), 0);
-      EXPECT_NEAR(double{frame.left.depth_m.at<float>(v, u)}, sight.depth_m, 4e-6 * sight.depth_m);
+      EXPECT_NEAR(double{frame.left.depth_m.at<float>(v, u)}, hit.depth_m, 4e-6 * hit.depth_m);
       const cv::Vec3b bgr = frame.left.colour.at<cv::Vec3b>(v, u);
       if (triangle >= static_cast<int>(of_box)) {
         ++on_ball;

@@ -1,5 +1,5 @@
-/// Facets, ranges, normals and shifts behind a lens, each pixel against the ray-caster along the ray that the
-/// lens bends to it.
+/// Primitives, ranges, normals and shifts behind a lens, each pixel against the ray-caster along the ray that
+/// the lens bends to it.
 
 #include "renderer/truth/distorted_ids.h"
 
@@ -24,32 +24,32 @@ namespace {
 using vision::Side;
 
 /// A room with a mesh, behind lenses that bend lines by many pixels; the right camera is out of place.
-struct BentRoom {
-  explicit BentRoom(std::uint64_t seed)
+struct DistortedRoom {
+  explicit DistortedRoom(std::uint64_t seed)
       : world(test::random_room(seed)), triangles(test::add_wedge(world)), scene(world) {
     pose = seed % 2 == 0 ? slam::Pose{0.0, 0.0, 0.2} : test::random_pose(seed);
     rig.right_turn_rad = {0.004, -0.007, 0.011};
     rig.distortion = seed % 3 == 0 ? vision::Distortion{.k1 = 0.12, .k2 = 0.02, .p2 = -0.002}
                                    : vision::Distortion{.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
-    const StereoIdBuffers straight = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
-    left = distorted_ids(scene, straight.left, rig);
-    right = distorted_ids(scene, straight.right, rig);
+    const StereoIdBuffers undistorted = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
+    left = distorted_ids(scene, undistorted.left, rig);
+    right = distorted_ids(scene, undistorted.right, rig);
   }
 
   test::RayCaster caster(Side side) const {
-    vision::StereoRig straight = rig;
-    straight.distortion = {};
-    test::RayCaster caster(world, straight, triangles);
+    vision::StereoRig undistorted = rig;
+    undistorted.distortion = {};
+    test::RayCaster caster(world, undistorted, triangles);
     caster.stand_at(pose, side);
     return caster;
   }
 
   /// Where the ray-caster's pinhole has what a pixel shows.
-  Eigen::Vector2d straight_place(double u, double v) const {
+  Eigen::Vector2d undistorted_place(double u, double v) const {
     return *vision::pinhole_point(rig, Eigen::Vector2d(u, v));
   }
-  test::Sight look(const test::RayCaster& caster, double u, double v) const {
-    const Eigen::Vector2d place = straight_place(u, v);
+  test::RayHit look(const test::RayCaster& caster, double u, double v) const {
+    const Eigen::Vector2d place = undistorted_place(u, v);
     return caster.look(place.x(), place.y());
   }
 
@@ -62,23 +62,22 @@ struct BentRoom {
 };
 
 /// The number of a triangle of the mesh is one of its surface's.
-int surface_of(const BentRoom& room, const test::RayCaster& caster, const test::Sight& ray) {
-  return std::min(caster.facet(ray.surface), first_mesh_facet(room.world));
+int surface_of(const DistortedRoom& room, const test::RayCaster& caster, const test::RayHit& ray) {
+  return std::min(caster.primitive(ray.surface), first_mesh_primitive(room.world));
 }
 
 class BehindALens : public testing::TestWithParam<std::uint64_t> {};
 
-// Mutations: a bent picture of straight rays; the last facet around that is met for the first.
+// Mutations: a distorted picture of undistorted rays; the last primitive around that is met for the first.
 TEST_P(BehindALens, EveryPixelHasWhatItsRayMeets) {
-  const BentRoom room(GetParam());
+  const DistortedRoom room(GetParam());
   int others = 0, wrong_ranges = 0, wrong_normals = 0;
-  for (const auto& [sight, side] :
-       {std::pair(&room.left, Side::kLeft), std::pair(&room.right, Side::kRight)}) {
+  for (const auto& [ids, side] : {std::pair(&room.left, Side::kLeft), std::pair(&room.right, Side::kRight)}) {
     const test::RayCaster caster = room.caster(side);
-    const PixelTruth truth = pixel_truth(room.scene, *sight);
+    const PixelTruth truth = pixel_truth(room.scene, *ids);
     for (int v = 0; v < truth.surface.rows; ++v) {
       for (int u = 0; u < truth.surface.cols; ++u) {
-        const test::Sight ray = room.look(caster, u, v);
+        const test::RayHit ray = room.look(caster, u, v);
         if (truth.surface.at<int>(v, u) != surface_of(room, caster, ray)) {
           ++others;
           continue;
@@ -98,16 +97,16 @@ TEST_P(BehindALens, EveryPixelHasWhatItsRayMeets) {
 
 // Mutation: places in the other picture without its lens.
 TEST_P(BehindALens, EveryPixelIsInTheOtherCameraWhereAnotherRaySaysItIs) {
-  const BentRoom room(GetParam());
+  const DistortedRoom room(GetParam());
   const Correspondence found = correspond(room.scene, room.left, room.right);
   const test::RayCaster from = room.caster(Side::kLeft), to = room.caster(Side::kRight);
   int wrong_shifts = 0, wrong_fates = 0, hidden = 0, outside = 0;
   for (int v = 0; v < found.occlusion.rows; ++v) {
     for (int u = 0; u < found.occlusion.cols; ++u) {
-      const test::Sight ray = room.look(from, u, v);
+      const test::RayHit ray = room.look(from, u, v);
       const auto occlusion = static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u));
-      const int facet = room.left.facet.at<int>(v, u);
-      if (std::min(facet, first_mesh_facet(room.world)) != surface_of(room, from, ray)) continue;
+      const int primitive = room.left.primitive.at<int>(v, u);
+      if (std::min(primitive, first_mesh_primitive(room.world)) != surface_of(room, from, ray)) continue;
       if (ray.surface == 0) {
         wrong_fates += occlusion == Occlusion::kNothing ? 0 : 1;
         continue;
@@ -135,16 +134,16 @@ TEST_P(BehindALens, EveryPixelIsInTheOtherCameraWhereAnotherRaySaysItIs) {
 
 INSTANTIATE_TEST_SUITE_P(Rooms, BehindALens, testing::Range(std::uint64_t{0}, std::uint64_t{4}));
 
-// Law: a lens that does not bend shows what a pinhole shows, but for the edges that the rasteriser has
+// Law: a lens that does not distort shows what a pinhole shows, but for the edges that the rasteriser has
 // snapped.
 TEST(DistortedIds, OfALensThatDoesNotBendIsThePinholes) {
   const worlds::World world = test::random_room(5);
   const slam::Pose pose = test::random_pose(5);
   const vision::StereoRig rig = test::small_rig();
-  const IdBuffer straight = Renderer(world, rig).id_buffers(pose, pose).left;
-  const IdBuffer bent = distorted_ids(SceneGeometry(world),
-                                      Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose).left, rig);
-  EXPECT_LE(cv::countNonZero(bent.facet != straight.facet), 5);
+  const IdBuffer undistorted = Renderer(world, rig).id_buffers(pose, pose).left;
+  const IdBuffer distorted = distorted_ids(
+      SceneGeometry(world), Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose).left, rig);
+  EXPECT_LE(cv::countNonZero(distorted.primitive != undistorted.primitive), 5);
 }
 
 /// Two walls before the sky, with a hair's breadth between them that a column of the rig's rays goes through,
@@ -166,17 +165,17 @@ TEST(DistortedIds, SeesNoSkyThroughACrackThatTheRasteriserCloses) {
   rig.pitch_down_rad = 0.0;
   const int column = 200;
   const worlds::World world = cracked_wall(rig, column);
-  const IdBuffer straight = Renderer(world, pinhole_rig_of(rig)).id_buffers({}, {}).left;
-  ASSERT_EQ(cv::countNonZero(straight.facet == kNoFacet), 0) << "it is not closed";
+  const IdBuffer undistorted = Renderer(world, pinhole_rig_of(rig)).id_buffers({}, {}).left;
+  ASSERT_EQ(cv::countNonZero(undistorted.primitive == kNoPrimitive), 0) << "it is not closed";
   const SceneGeometry scene(world);
-  const IdBuffer bent = distorted_ids(scene, straight, rig);
-  const PixelRays lines(bent.view);
+  const IdBuffer distorted = distorted_ids(scene, undistorted, rig);
+  const PixelRays lines(distorted.view);
   for (int row = 0; row < 160; ++row) {
     const Ray through = lines(column, row);
-    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet, through))) << "not into the crack";
-    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallFacet + 1, through))) << "not into the crack";
-    const int seen = bent.facet.at<int>(row, column);
-    EXPECT_TRUE(seen == kFirstWallFacet || seen == kFirstWallFacet + 1) << row << ": " << seen;
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallPrimitive, through))) << "not into the crack";
+    ASSERT_TRUE(std::isinf(scene.enter(kFirstWallPrimitive + 1, through))) << "not into the crack";
+    const int seen = distorted.primitive.at<int>(row, column);
+    EXPECT_TRUE(seen == kFirstWallPrimitive || seen == kFirstWallPrimitive + 1) << row << ": " << seen;
   }
 }
 
@@ -214,7 +213,7 @@ TEST(DistortedIds, HasNoPlaceForWhatTheLensWouldFold) {
 
 // Rows that are looked at alone are those of the whole picture, and so is what follows from them.
 // Mutation: views of the whole picture for some of its rows.
-TEST(Sight, OfSomeRowsIsTheWholeOnes) {
+TEST(IdBuffer, OfSomeRowsIsTheWholeOnes) {
   const worlds::World world = test::random_room(6);
   const slam::Pose pose = test::random_pose(6);
   Renderer renderer(world, test::small_rig());

@@ -1,10 +1,10 @@
-/// Facets, ranges, normals, disparity and flow of every pixel against the double-precision ray-caster.
+/// Primitives, ranges, normals, disparity and flow of every pixel against the double-precision ray-caster.
 ///
 /// Mutations seen red here: occluders of one pixel around the place instead of four; a ball that does not
 /// hide its own far side; walls without bounds, triangles as parallelograms; a right camera that is not
 /// turned, disparity of the other sign; normals away from the camera or in the world frame, depth for range;
 /// the ball's far root; half a pixel added to rays; triangles numbered one late, walls in the order they are
-/// drawn in; hidden called outside; no near plane; balls' facets without their depth.
+/// drawn in; hidden called outside; no near plane; balls' primitives without their depth.
 
 #include "renderer/truth/pixel_truth.h"
 
@@ -58,41 +58,42 @@ struct Tally {
   std::map<Occlusion, long> occlusions;
 };
 
-/// Whether a ray a hair beside the pixel's centre meets the facet: the rasteriser snaps corners to 1/256 px.
-bool is_beside(int facet, const test::RayCaster& caster, int u, int v) {
+/// Whether a ray a hair beside the pixel's centre meets the primitive: the rasteriser snaps corners to 1/256
+/// px.
+bool is_beside(int primitive, const test::RayCaster& caster, int u, int v) {
   constexpr double kSnap_px = 0.006;
   for (const double du : {-kSnap_px, 0.0, kSnap_px}) {
     for (const double dv : {-kSnap_px, 0.0, kSnap_px}) {
-      if (caster.facet(caster.look(u + du, v + dv).surface) == facet) return true;
+      if (caster.primitive(caster.look(u + du, v + dv).surface) == primitive) return true;
     }
   }
   return false;
 }
 
-/// Counts a pixel. @return whether the ray meets the facet that the renderer has there
-bool is_same_facet(const Room& room, int facet, const test::RayCaster& caster, const cv::Point& at,
-                   Tally& tally) {
-  const int truth = caster.facet(caster.look(at.x, at.y).surface);
-  const int first_mesh = first_mesh_facet(room.world);  // there is one mesh
+/// Counts a pixel. @return whether the ray meets the primitive that the renderer has there
+bool is_same_primitive(const Room& room, int primitive, const test::RayCaster& caster, const cv::Point& at,
+                       Tally& tally) {
+  const int truth = caster.primitive(caster.look(at.x, at.y).surface);
+  const int first_mesh = first_mesh_primitive(room.world);  // there is one mesh
   ++tally.pixels;
-  if (std::min(facet, first_mesh) != std::min(truth, first_mesh)) {
+  if (std::min(primitive, first_mesh) != std::min(truth, first_mesh)) {
     ++tally.other_surfaces;
-    tally.other_inside += facet < first_mesh && !is_beside(facet, caster, at.x, at.y) ? 1 : 0;
+    tally.other_inside += primitive < first_mesh && !is_beside(primitive, caster, at.x, at.y) ? 1 : 0;
   }
-  return facet == truth;
+  return primitive == truth;
 }
 
-void compare_truth(const Room& room, const IdBuffer& sight, const test::RayCaster& caster, Tally& tally) {
-  const PixelTruth truth = pixel_truth(SceneGeometry(room.world), sight);
+void compare_truth(const Room& room, const IdBuffer& ids, const test::RayCaster& caster, Tally& tally) {
+  const PixelTruth truth = pixel_truth(SceneGeometry(room.world), ids);
   for (int v = 0; v < truth.range_m.rows; ++v) {
     for (int u = 0; u < truth.range_m.cols; ++u) {
-      const int facet = sight.facet.at<int>(v, u);
-      if (!is_same_facet(room, facet, caster, {u, v}, tally)) continue;
-      const test::Sight ray = caster.look(u, v);
+      const int primitive = ids.primitive.at<int>(v, u);
+      if (!is_same_primitive(room, primitive, caster, {u, v}, tally)) continue;
+      const test::RayHit ray = caster.look(u, v);
       const double truth_m = ray.surface == 0 ? ray.depth_m : caster.in_camera(ray.point_m).norm();
       const double range_m = double{truth.range_m.at<float>(v, u)};
       const Eigen::Vector3d normal = Eigen::Vector3f(truth.normal.at<cv::Vec3f>(v, u).val).cast<double>();
-      EXPECT_EQ(truth.surface.at<int>(v, u), std::min(facet, first_mesh_facet(room.world)));
+      EXPECT_EQ(truth.surface.at<int>(v, u), std::min(primitive, first_mesh_primitive(room.world)));
       tally.wrong_ranges += range_m == truth_m || std::abs(range_m - truth_m) <= 1e-6 * truth_m ? 0 : 1;
       tally.wrong_normals += (normal - ray.normal).norm() <= 1e-4 ? 0 : 1;
     }
@@ -100,7 +101,7 @@ void compare_truth(const Room& room, const IdBuffer& sight, const test::RayCaste
 }
 
 /// A point's place in a camera's picture, and what becomes of it there by casting another ray.
-Occlusion followed(const test::Sight& ray, const test::RayCaster& to, const vision::Intrinsics& camera,
+Occlusion followed(const test::RayHit& ray, const test::RayCaster& to, const vision::Intrinsics& camera,
                    Eigen::Vector2d& place_px) {
   if (ray.surface == 0) return Occlusion::kNothing;
   const Eigen::Vector3d point = to.in_camera(ray.point_m);
@@ -113,14 +114,14 @@ Occlusion followed(const test::Sight& ray, const test::RayCaster& to, const visi
                                                                                 : Occlusion::kSeen;
 }
 
-void compare_fates(const Room& room, const IdBuffer& sight, const IdBuffer& other,
-                   const test::RayCaster& from, const test::RayCaster& to, Tally& tally) {
-  const Correspondence found = correspond(SceneGeometry(room.world), sight, other);
+void compare_fates(const Room& room, const IdBuffer& ids, const IdBuffer& other, const test::RayCaster& from,
+                   const test::RayCaster& to, Tally& tally) {
+  const Correspondence found = correspond(SceneGeometry(room.world), ids, other);
   for (int v = 0; v < found.occlusion.rows; ++v) {
     for (int u = 0; u < found.occlusion.cols; ++u) {
-      if (!is_same_facet(room, sight.facet.at<int>(v, u), from, {u, v}, tally)) continue;
+      if (!is_same_primitive(room, ids.primitive.at<int>(v, u), from, {u, v}, tally)) continue;
       Eigen::Vector2d place_px = Eigen::Vector2d::Zero();
-      const Occlusion occlusion = followed(from.look(u, v), to, sight.view.intrinsics, place_px);
+      const Occlusion occlusion = followed(from.look(u, v), to, ids.view.intrinsics, place_px);
       const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
       const Eigen::Vector2d off = shift - (place_px - Eigen::Vector2d(u, v));
       if (occlusion == Occlusion::kSeen || occlusion == Occlusion::kHidden)
@@ -136,10 +137,10 @@ class EveryPixel : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
   const Room room(GetParam());
-  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
+  const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   Tally tally;
-  compare_truth(room, sight.left, room.caster(room.pose, Side::kLeft), tally);
-  compare_truth(room, sight.right, room.caster(room.pose, Side::kRight), tally);
+  compare_truth(room, ids.left, room.caster(room.pose, Side::kLeft), tally);
+  compare_truth(room, ids.right, room.caster(room.pose, Side::kRight), tally);
   EXPECT_EQ(tally.wrong_ranges, 0);
   EXPECT_EQ(tally.wrong_normals, 0);
   EXPECT_EQ(tally.other_inside, 0);
@@ -147,11 +148,11 @@ TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
 
 TEST_P(EveryPixel, IsInTheOtherCameraWhereAnotherRaySaysItIs) {
   const Room room(GetParam());
-  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
+  const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   const auto left = room.caster(room.pose, Side::kLeft), right = room.caster(room.pose, Side::kRight);
   Tally tally;
-  compare_fates(room, sight.left, sight.right, left, right, tally);
-  compare_fates(room, sight.right, sight.left, right, left, tally);
+  compare_fates(room, ids.left, ids.right, left, right, tally);
+  compare_fates(room, ids.right, ids.left, right, left, tally);
   EXPECT_EQ(tally.wrong_shifts, 0);
   EXPECT_LE(tally.wrong_fates, 2);  // of 240,000
   EXPECT_GT(tally.occlusions[Occlusion::kHidden], 1000);
@@ -183,13 +184,13 @@ TEST(Surfaces, AreThoseThatRaysMeet) {
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
     Room room(seed);
     room.rig.intrinsics = {};
-    const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
+    const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
     for (const auto& [side, seen] :
-         {std::pair(Side::kLeft, &sight.left), std::pair(Side::kRight, &sight.right)}) {
+         {std::pair(Side::kLeft, &ids.left), std::pair(Side::kRight, &ids.right)}) {
       const test::RayCaster caster = room.caster(room.pose, side);
-      for (int v = 0; v < seen->facet.rows; ++v) {
-        for (int u = 0; u < seen->facet.cols; ++u) {
-          is_same_facet(room, seen->facet.at<int>(v, u), caster, {u, v}, tally);
+      for (int v = 0; v < seen->primitive.rows; ++v) {
+        for (int u = 0; u < seen->primitive.cols; ++u) {
+          is_same_primitive(room, seen->primitive.at<int>(v, u), caster, {u, v}, tally);
         }
       }
     }
@@ -212,11 +213,11 @@ TEST(Disparity, TimesDepthIsFocalLengthTimesBaseline) {
   Room room(2);
   room.rig.right_turn_rad.setZero();
   Renderer renderer(room.world, room.rig);
-  const StereoIdBuffers sight = renderer.id_buffers(room.pose, room.pose);
+  const StereoIdBuffers ids = renderer.id_buffers(room.pose, room.pose);
   const StereoFrame frame = renderer.render(room.pose);
   const SceneGeometry scene(room.world);
-  const cv::Mat left = disparity_px(correspond(scene, sight.left, sight.right), Side::kLeft);
-  const cv::Mat right = disparity_px(correspond(scene, sight.right, sight.left), Side::kRight);
+  const cv::Mat left = disparity_px(correspond(scene, ids.left, ids.right), Side::kLeft);
+  const cv::Mat right = disparity_px(correspond(scene, ids.right, ids.left), Side::kRight);
   const double fb = room.rig.intrinsics.focal_px * room.rig.baseline_m;
   int wrong = 0;
   for_each_pixel(left, [&](int u, int v) {
@@ -233,11 +234,11 @@ TEST(Disparity, TimesDepthIsFocalLengthTimesBaseline) {
 // Law: who does not move sees nothing move.
 TEST(Flow, OfNoMotionIsZero) {
   const Room room(4);
-  const StereoIdBuffers sight = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
-  const Correspondence still = correspond(SceneGeometry(room.world), sight.right, sight.right);
+  const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
+  const Correspondence still = correspond(SceneGeometry(room.world), ids.right, ids.right);
   int wrong = 0;
   for_each_pixel(still.occlusion, [&](int u, int v) {
-    const bool nothing = sight.right.facet.at<int>(v, u) == kNoFacet;
+    const bool nothing = ids.right.primitive.at<int>(v, u) == kNoPrimitive;
     const cv::Vec2f shift = still.shift_px.at<cv::Vec2f>(v, u);
     const Occlusion occlusion = static_cast<Occlusion>(still.occlusion.at<std::uint8_t>(v, u));
     wrong += nothing ? occlusion != Occlusion::kNothing
@@ -254,7 +255,7 @@ TEST(Flow, OfWhatIsBehindTheNextPoseHasNoPlace) {
   const Correspondence found =
       correspond(SceneGeometry(room.world), before, renderer.id_buffers(turned, turned).left);
   EXPECT_EQ(cv::countNonZero(found.occlusion == static_cast<int>(Occlusion::kOutside)),
-            cv::countNonZero(before.facet));
+            cv::countNonZero(before.primitive));
   EXPECT_EQ(cv::countNonZero(disparity_px(found, Side::kRight) == std::numeric_limits<float>::infinity()),
             400 * 300);
 }
@@ -279,9 +280,9 @@ TEST(Disparity, TakesColoursOfTheRightPictureToTheLeftOne) {
   for (worlds::Wall& wall : room.world.walls) wall.material = worlds::Material::kPlain;
   room.world.floor = worlds::Material::kPlain;
   Renderer renderer(room.world, room.rig);
-  const StereoIdBuffers sight = renderer.id_buffers(room.pose, room.pose);
+  const StereoIdBuffers ids = renderer.id_buffers(room.pose, room.pose);
   const StereoFrame frame = renderer.render(room.pose);
-  const Correspondence found = correspond(SceneGeometry(room.world), sight.left, sight.right);
+  const Correspondence found = correspond(SceneGeometry(room.world), ids.left, ids.right);
   long compared = 0, other_colours = 0;
   for_each_pixel(found.occlusion, [&](int u, int v) {
     if (static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u)) != Occlusion::kSeen) return;

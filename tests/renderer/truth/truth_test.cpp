@@ -50,7 +50,7 @@ bool seen_beside(const test::RayCaster& caster, const cv::Point& at, double dept
 
 void compare_pixel(const RenderedImage& frame, const test::RayCaster& caster, const cv::Point& at,
                    Tally& tally) {
-  const test::Sight truth = caster.look(at.x, at.y);
+  const test::RayHit truth = caster.look(at.x, at.y);
   const double depth_m = double{frame.depth_m.at<float>(at)};
   ++tally.pixels;
   if (frame.ball_id.at<std::uint8_t>(at) != truth.ball_id) {

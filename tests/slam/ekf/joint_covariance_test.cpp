@@ -120,9 +120,9 @@ TEST(JointCovariance, AVarianceBelowZeroBecomesZeroAndIsCounted) {
 
 // Law: what is passed over without a look at its root is what project_to_psd() would leave as it is, for
 // poses of rank two that have lost a little or got a little more. Mutation: a slack of 1e-5.
-TEST(JointCovariance, APoseIsMendedWhereAndOnlyWhereItsMatrixIs) {
+TEST(JointCovariance, APoseIsRepairedWhereAndOnlyWhereItsMatrixIs) {
   RandomStream random(3, Stream::kWorld);
-  int mended = 0;
+  int repaired = 0;
   for (int round = 0; round < 5000; ++round) {
     Eigen::Matrix3d root = Eigen::Matrix3d::Zero();
     for (double& entry : root.leftCols<2>().reshaped()) entry = random.normal();
@@ -138,15 +138,15 @@ TEST(JointCovariance, APoseIsMendedWhereAndOnlyWhereItsMatrixIs) {
     long expected = 0;
     project_to_psd<3>(pose, expected);
     ASSERT_EQ(repairs, expected) << change << "\n" << pose;
-    mended += static_cast<int>(expected);
+    repaired += static_cast<int>(expected);
   }
-  EXPECT_GT(mended, 500);
-  EXPECT_LT(mended, 4000);
+  EXPECT_GT(repaired, 500);
+  EXPECT_LT(repaired, 4000);
 }
 
 // Two coordinates that lose what they do not have in common: each keeps a variance, and together they have
-// less than none. Mutation: blocks that are not mended.
-TEST(JointCovariance, ABlockThatIsIndefiniteIsMendedAndCounted) {
+// less than none. Mutation: blocks that are not repaired.
+TEST(JointCovariance, ABlockThatIsIndefiniteIsRepairedAndCounted) {
   JointCovariance covariance;
   long repairs = 0;
   covariance.move_pose(Eigen::Vector2d::Zero(), Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal());

@@ -62,7 +62,7 @@ std::string fault_of(const Estimate& estimate, const Estimate& before, int parti
 
 class Stress : public ::testing::TestWithParam<std::tuple<std::string, int>> {};
 
-// Mutations: blocks of the joint covariance that are not mended; a sighting that cannot be and is not
+// Mutations: blocks of the joint covariance that are not repaired; a sighting that cannot be and is not
 // counted; with 1,000 seeds, a landmark refined by a sighting when neither is uncertain.
 TEST_P(Stress, NeitherThrowsNorLosesANumber) {
   const auto [name, particles] = GetParam();

@@ -57,7 +57,7 @@ TEST_P(GaussianLaws, RootIsUndoneWithinItsReach) {
   }
 }
 
-// What is left of a variance of 1 is rounding, and no more to be drawn from than to be mended.
+// What is left of a variance of 1 is rounding, and no more to be drawn from than to be repaired.
 TEST(PivotedRoot, PassesOverTheRoundingOfWhatItWasTakenFrom) {
   Eigen::Matrix2d left;
   left << 1e-17, 2e-17, 2e-17, 1e-17;
@@ -68,7 +68,7 @@ TEST(PivotedRoot, PassesOverTheRoundingOfWhatItWasTakenFrom) {
   EXPECT_EQ(repairs, 1);
 }
 
-TEST(SemidefiniteRoot, CountsWhatItHadToMend) {
+TEST(SemidefiniteRoot, CountsWhatItHadToRepair) {
   long repairs = 0;
   const Eigen::Matrix3d root = semidefinite_root<3>(Eigen::Vector3d(1.0, -0.5, 4.0).asDiagonal(), repairs);
   EXPECT_EQ(repairs, 1);
@@ -102,7 +102,7 @@ TEST_P(GaussianLaws, FactorGivesInverseAndDeterminant) {
   EXPECT_EQ(repairs, 0);
 }
 
-TEST(Factor2, MendsASingularMatrixAndCounts) {
+TEST(Factor2, RepairsASingularMatrixAndCounts) {
   long repairs = 0;
   Eigen::Matrix2d singular;
   singular << 1.0, 1.0, 1.0, 1.0;

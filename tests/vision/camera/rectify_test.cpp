@@ -1,4 +1,4 @@
-/// Pictures put straight. Mutations seen red here: a turn applied the other way round, to rays or to views; a
+/// Rectified pictures. Mutations seen red here: a turn applied the other way round, to rays or to views; a
 /// principal point that stays where it was in a larger picture; a view without the right camera's; a left
 /// camera that is turned.
 
@@ -35,7 +35,7 @@ TEST(Rectification, TakesPointsToWhereTheyWereTaken) {
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const Eigen::Vector3d in_camera = camera_point(rig, point, side);
       const Eigen::Vector2d taken = image_point(rig, in_camera);
-      const auto straight = pinhole_point(rig, taken);
+      const auto undistorted = pinhole_point(rig, taken);
       const bool in_view = is_inside(rig.intrinsics, taken) && straight &&
                            (*straight - project(rig.intrinsics, in_camera)).norm() < 1e-6;
       if (!in_view) continue;
@@ -50,19 +50,19 @@ TEST(Rectification, TakesPointsToWhereTheyWereTaken) {
 }
 
 // A picture whose levels say where each pixel is.
-// Law: without a lens that bends, a place beyond the picture is where the pinhole has it; with one, places
+// Law: without a lens that distorts, a place beyond the picture is where the pinhole has it; with one, places
 // leave the picture without a jump. Mutation: one place for all that is not seen.
 TEST(Rectification, GoesStraightOnBeyondThePicture) {
   StereoRig rig = faulty_rig();
-  const Rectification bent(rig);
+  const Rectification distorted(rig);
   rig.distortion = {};
-  const Rectification straight(rig);
+  const Rectification undistorted(rig);
   for (int i = -400; i < 800; ++i) {
     const Eigen::Vector2d at(i, 0.4 * i), next(i + 1.0, 0.4 * i);
-    const Eigen::Vector3d ray = pixel_ray(straight.rig().intrinsics, at);
+    const Eigen::Vector3d ray = pixel_ray(undistorted.rig().intrinsics, at);
     const CameraModel right = cameras_of(rig)[1];
-    EXPECT_LT((straight.taken_px(at, Side::kRight) - image_point(right, ray)).norm(), 1e-9) << i;
-    const double step_px = bent.taken_px(next, Side::kRight).x() - bent.taken_px(at, Side::kRight).x();
+    EXPECT_LT((undistorted.taken_px(at, Side::kRight) - image_point(right, ray)).norm(), 1e-9) << i;
+    const double step_px = distorted.taken_px(next, Side::kRight).x() - bent.taken_px(at, Side::kRight).x();
     EXPECT_GT(step_px, 0.0) << i;
     EXPECT_LT(step_px, 2.0) << i;
   }
@@ -109,9 +109,9 @@ CameraPair different_cameras() {
   return cameras;
 }
 
-// Law: two different cameras are put straight by their own lenses. A point that both see is on one row.
+// Law: two different cameras are rectified by their own lenses. A point that both see is on one row.
 // Mutation: one camera's lens for both.
-TEST(Rectification, PutsTwoDifferentCamerasStraight) {
+TEST(Rectification, RectifiesTwoDifferentCameras) {
   StereoRig rig;
   rig.intrinsics = {320, 240, 256.0, 158.0, 120.5};
   const CameraPair cameras = different_cameras();

@@ -1,4 +1,4 @@
-// Galleries: what cameras are calibrated in.
+// Calibration scenes: what cameras are calibrated in.
 #include "worlds/generate/calibration_scene.h"
 
 #include <algorithm>
@@ -29,11 +29,11 @@ Eigen::Vector3d in_left_camera(const Scenario& made, const slam::Pose& pose, con
 // Every ball is there to be seen from one of the looks, above the floor, apart from all others; and every
 // look shows some. Mutations: a look's heading left out, or half a radian off; the right camera's view, the
 // floor or the room between balls not asked for.
-TEST(Gallery, ShowsEachBallToBothCamerasInSomeLook) {
+TEST(CalibrationScene, ShowsEachBallToBothCamerasInSomeLook) {
   const Scenario scenario = cameras();
-  const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
+  const CalibrationDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scenario made = gallery(scenario, {depths}, seed);
+    const Scenario made = calibration_scene(scenario, {depths}, seed);
     ASSERT_EQ(made.path.size(), 6U);
     ASSERT_GT(made.world.balls.size(), 40U);
     std::array<int, 6> shown{};
@@ -63,13 +63,13 @@ TEST(Gallery, ShowsEachBallToBothCamerasInSomeLook) {
 
 // Of n balls whose logarithms of depth are uniform a quarter lies in each quarter, to 4 sqrt(3 n / 16); what
 // does not fit between others, or would lie below the floor, takes some of the near ones away.
-TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
+TEST(CalibrationScene, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
   const Scenario scenario = cameras();
-  const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
+  const CalibrationDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
   std::array<int, 4> quarters{};
   int balls = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Scenario made = gallery(scenario, {depths}, seed);
+    const Scenario made = calibration_scene(scenario, {depths}, seed);
     for (const Ball& ball : made.world.balls) {
       const double depth = ball.centre_m.head<2>().norm();
       const double share =
@@ -82,17 +82,17 @@ TEST(Gallery, SpreadsBallsEvenlyOverTheLogarithmOfDepth) {
     EXPECT_NEAR(quarter, balls / 4.0, 0.2 * balls / 4.0 + 4.0 * std::sqrt(3.0 * balls / 16.0));
 }
 
-TEST(Gallery, IsTheSameForTheSameSeedAndAnotherForAnother) {
+TEST(CalibrationScene, IsTheSameForTheSameSeedAndAnotherForAnother) {
   const Scenario scenario = cameras();
-  const GalleryDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
-  const World a = gallery(scenario, {depths}, 3).world;
-  const World b = gallery(scenario, {depths}, 3).world;
-  const World c = gallery(scenario, {depths}, 4).world;
+  const CalibrationDepths depths = measurable_depths(scenario.rig, 0.06, 5.0);
+  const World a = calibration_scene(scenario, {depths}, 3).world;
+  const World b = calibration_scene(scenario, {depths}, 3).world;
+  const World c = calibration_scene(scenario, {depths}, 4).world;
   ASSERT_EQ(a.balls.size(), b.balls.size());
   for (std::size_t i = 0; i < a.balls.size(); ++i) EXPECT_EQ(a.balls[i].centre_m, b.balls[i].centre_m);
   EXPECT_NE(a.balls[0].centre_m, c.balls[0].centre_m);
   EXPECT_NE(a.light.towards_light, c.light.towards_light);
-  const World plain = gallery(scenario, {depths, true}, 3).world;
+  const World plain = calibration_scene(scenario, {depths, true}, 3).world;
   EXPECT_EQ(plain.floor, Material::kPlain);
   EXPECT_EQ(plain.light.towards_light, a.light.towards_light);
   EXPECT_EQ(plain.balls.back().centre_m, a.balls.back().centre_m);

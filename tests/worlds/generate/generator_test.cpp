@@ -195,7 +195,7 @@ TEST(Generator, SaysWhatIsImpossible) {
 
 // Held against the disc-and-segment check of the shipped scenarios' tests, which is stricter at borders, and
 // for which a ball that is cut by the border hides nothing. Mutation tried: walls that hide nothing.
-TEST(Sight, SeesWhatTheOtherCheckSees) {
+TEST(BallsInView, SeesWhatTheOtherCheckSees) {
   Scenario scenario = read_scenario(std::string(STEREOBENCH_SOURCE_DIR) + "/assets/scenarios/corridor.yaml");
   give_occluders(scenario.world, obj_solid);
   const Views views = views_of(scenario, scenario.world, 17.7);

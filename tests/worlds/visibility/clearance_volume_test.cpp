@@ -31,7 +31,7 @@ std::vector<Vector3d> points_of(const TriangleCorners& corners) {
 }
 
 /// How far a point is beside what a camera looks through to see a ball but its rim: below zero it hides some.
-double beside_sight_m(const Vector3d& camera_m, const Sphere& ball, const Vector3d& point) {
+double beside_volume_m(const Vector3d& camera_m, const Sphere& ball, const Vector3d& point) {
   const Vector3d sight = (ball.centre_m - camera_m).normalized();
   const double distance_m = (ball.centre_m - camera_m).norm();
   const double half_angle = std::asin((1.0 - kRim) * ball.radius_m / distance_m);
@@ -60,19 +60,19 @@ Scene random_scene(std::uint64_t seed, int triangles) {
   return scene;
 }
 
-TEST(SightVolume, IsMetByWhatHasAPointBetweenTheCameraAndTheBall) {
+TEST(VisibilityVolume, IsMetByWhatHasAPointBetweenTheCameraAndTheBall) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     const Scene scene = random_scene(seed, 1 + static_cast<int>(seed % 8 == 0));
     double beside_m = 1e9, apart_m = 1e9;
     for (const TriangleCorners& corners : scene.triangles) {
       for (const Vector3d& point : points_of(corners)) {
-        beside_m = std::min(beside_m, beside_sight_m(scene.camera_m, scene.ball, point));
+        beside_m = std::min(beside_m, beside_volume_m(scene.camera_m, scene.ball, point));
         apart_m = std::min(apart_m, (point - scene.ball.centre_m).norm() - scene.ball.radius_m);
       }
     }
     const bool is_met =
-        meets(sight_volume(scene.camera_m, scene.ball, 0.0), TriangleBvh(scene.triangles), kHere);
+        meets(visibility_volume(scene.camera_m, scene.ball, 0.0), TriangleBvh(scene.triangles), kHere);
     if (beside_m < -1e-3) {
       EXPECT_TRUE(is_met) << seed << ": " << beside_m;
     }
@@ -85,10 +85,10 @@ TEST(SightVolume, IsMetByWhatHasAPointBetweenTheCameraAndTheBall) {
   EXPECT_LT(met, 1200);
 }
 
-TEST(SightVolume, IsMetByManyIfByOne) {
+TEST(VisibilityVolume, IsMetByManyIfByOne) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Scene scene = random_scene(seed, 12);
-    const ClearanceVolume volume = sight_volume(scene.camera_m, scene.ball, 0.02);
+    const ClearanceVolume volume = visibility_volume(scene.camera_m, scene.ball, 0.02);
     const bool by_one = std::ranges::any_of(scene.triangles, [&](const TriangleCorners& corners) {
       return meets(volume, TriangleBvh({corners}), kHere);
     });
@@ -96,23 +96,24 @@ TEST(SightVolume, IsMetByManyIfByOne) {
   }
 }
 
-TEST(SightVolume, MovedAndTurnedWithEverythingElseItIsMetAsBefore) {
+TEST(VisibilityVolume, MovedAndTurnedWithEverythingElseItIsMetAsBefore) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Scene scene = random_scene(seed, 2);
     const double slack_m = seed % 2 == 0 ? 0.0 : 0.03;
     const TriangleBvh tree(scene.triangles);
-    const bool before = meets(sight_volume(scene.camera_m, scene.ball, slack_m), tree, kHere);
+    const bool before = meets(visibility_volume(scene.camera_m, scene.ball, slack_m), tree, kHere);
     slam::RandomStream draws(seed, slam::Stream::kWorld, 78);
     Eigen::Affine3d moved = Eigen::Affine3d::Identity();
     moved.translate(random_in_box(draws, 10.0))
         .rotate(Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()));  // what is low stays low
     scene.ball.centre_m = moved * scene.ball.centre_m;
-    EXPECT_EQ(meets(sight_volume(moved * scene.camera_m, scene.ball, slack_m), tree, moved), before) << seed;
+    EXPECT_EQ(meets(visibility_volume(moved * scene.camera_m, scene.ball, slack_m), tree, moved), before)
+        << seed;
   }
 }
 
 // Whatever is hidden of a ball that lies a little aside is hidden of one that may lie there.
-TEST(SightVolume, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
+TEST(VisibilityVolume, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
   constexpr double kSlack_m = 0.04;
   int met = 0;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
@@ -123,12 +124,12 @@ TEST(SightVolume, WithSlackIsMetByWhatHidesTheBallAnywhereWithinIt) {
         Eigen::AngleAxisd(7.0 * draws.uniform(), Vector3d::UnitZ()) * Vector3d(kSlack_m, 0.0, 0.0);
     for (const TriangleCorners& corners : scene.triangles) {
       const TriangleBvh tree({corners});
-      if (!meets(sight_volume(scene.camera_m, aside, 0.0), tree, kHere)) continue;
+      if (!meets(visibility_volume(scene.camera_m, aside, 0.0), tree, kHere)) continue;
       if (std::ranges::any_of(points_of(corners), [&](const Vector3d& point) {
             return (point - scene.ball.centre_m).norm() < scene.ball.radius_m + kSlack_m + 0.01;
           }))
         continue;  // nobody puts a ball there
-      EXPECT_TRUE(meets(sight_volume(scene.camera_m, scene.ball, kSlack_m), tree, kHere)) << seed;
+      EXPECT_TRUE(meets(visibility_volume(scene.camera_m, scene.ball, kSlack_m), tree, kHere)) << seed;
       ++met;
     }
   }
@@ -140,13 +141,13 @@ TriangleBvh floor_at(double z_m) {
                       {Vector3d(-50, -50, z_m), Vector3d(50, 50, z_m), Vector3d(-50, 50, z_m)}});
 }
 
-TEST(SightVolume, AFloorHidesNothingOfABallOnItUnlessItSinks) {
+TEST(VisibilityVolume, AFloorHidesNothingOfABallOnItUnlessItSinks) {
   for (int i = 0; i < 600; ++i) {
     const double radius_m = 0.05 + 0.05 * (i % 3);
     const Vector3d camera_m(-0.7 - 0.05 * i, 0.3, 0.02 + 0.1 * (i % 17));
     const Sphere ball{{0.0, 0.0, radius_m}, radius_m};
     for (const double slack_m : {0.0, 0.03}) {
-      const ClearanceVolume volume = sight_volume(camera_m, ball, slack_m);
+      const ClearanceVolume volume = visibility_volume(camera_m, ball, slack_m);
       EXPECT_FALSE(meets(volume, floor_at(0.0), kHere)) << i;
       EXPECT_FALSE(meets(volume, floor_at(std::min(0.9 * kRim * radius_m, camera_m.z() - 0.001)), kHere))
           << i;
@@ -174,7 +175,7 @@ std::vector<TriangleCorners> wall_around(const Vector3d& point, slam::RandomStre
   return triangles;
 }
 
-TEST(SightVolume, NothingIsSeenThroughTheCracksBetweenTriangles) {
+TEST(VisibilityVolume, NothingIsSeenThroughTheCracksBetweenTriangles) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     slam::RandomStream draws(seed, slam::Stream::kWorld, 80);
     const Vector3d point = random_in_box(draws, 1.0) + Vector3d(3.0, 0.0, 10.0);
@@ -186,24 +187,24 @@ TEST(SightVolume, NothingIsSeenThroughTheCracksBetweenTriangles) {
     for (const double share : {0.0, draws.uniform(), draws.uniform()}) {
       const Vector3d aim = point + share * (other - point);
       const Sphere far{camera_m + 3.0 * (aim - camera_m), 1e-9};
-      EXPECT_TRUE(meets(sight_volume(camera_m, far, 0.0), tree, kHere)) << seed << " at " << share;
+      EXPECT_TRUE(meets(visibility_volume(camera_m, far, 0.0), tree, kHere)) << seed << " at " << share;
     }
   }
 }
 
-TEST(SightVolume, WhatIsWithinTheBallHidesNothingAndWhatSticksOutDoes) {
+TEST(VisibilityVolume, WhatIsWithinTheBallHidesNothingAndWhatSticksOutDoes) {
   const Sphere ball{{3.0, 0.0, 0.5}, 0.2};
   const Vector3d camera_m(0.0, 0.0, 0.5);
   const auto rod = [](double from_x, double to_x) {
     return TriangleBvh({{Vector3d(from_x, 0.0, 0.5), Vector3d(to_x, 0.01, 0.5), Vector3d(to_x, -0.01, 0.5)}});
   };
-  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(2.85, 3.1), kHere));
-  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.0), rod(2.75, 3.1), kHere));
-  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
-  EXPECT_FALSE(meets(sight_volume(camera_m, ball, 0.0), rod(-0.5, 0.005), kHere))
+  EXPECT_FALSE(meets(visibility_volume(camera_m, ball, 0.0), rod(2.85, 3.1), kHere));
+  EXPECT_TRUE(meets(visibility_volume(camera_m, ball, 0.0), rod(2.75, 3.1), kHere));
+  EXPECT_FALSE(meets(visibility_volume(camera_m, ball, 0.0), rod(3.25, 3.4), kHere)) << "behind it";
+  EXPECT_FALSE(meets(visibility_volume(camera_m, ball, 0.0), rod(-0.5, 0.005), kHere))
       << "nearer than pictures begin";
-  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.0), rod(-0.5, 0.02), kHere));
-  EXPECT_TRUE(meets(sight_volume(camera_m, ball, 0.06), rod(2.85, 3.1), kHere))
+  EXPECT_TRUE(meets(visibility_volume(camera_m, ball, 0.0), rod(-0.5, 0.02), kHere));
+  EXPECT_TRUE(meets(visibility_volume(camera_m, ball, 0.06), rod(2.85, 3.1), kHere))
       << "the ball may lie behind it";
 }
 

@@ -1,5 +1,5 @@
-/// Truth of columns whose facets are seen at a slant, or are thinner than a pixel: matches agree with ranges,
-/// and what is closed stays closed.
+/// Truth of columns whose primitives are seen at a slant, or are thinner than a pixel: matches agree with
+/// ranges, and what is closed stays closed.
 #include <algorithm>
 #include <cmath>
 
@@ -46,13 +46,13 @@ struct ColumnRoom {
     const slam::Pose pose{0.2 * random.uniform(), 0.2 * random.uniform(), 0.3 * random.uniform() - 0.15};
     if (has_lens) {
       rig.distortion = {.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
-      const StereoIdBuffers straight = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
-      left = distorted_ids(scene, straight.left, rig);
-      right = distorted_ids(scene, straight.right, rig);
+      const StereoIdBuffers undistorted = Renderer(world, pinhole_rig_of(rig)).id_buffers(pose, pose);
+      left = distorted_ids(scene, undistorted.left, rig);
+      right = distorted_ids(scene, undistorted.right, rig);
     } else {
-      const StereoIdBuffers sight = Renderer(world, rig).id_buffers(pose, pose);
-      left = sight.left;
-      right = sight.right;
+      const StereoIdBuffers ids = Renderer(world, rig).id_buffers(pose, pose);
+      left = ids.left;
+      right = ids.right;
     }
   }
 
@@ -76,11 +76,12 @@ struct ColumnRoom {
   IdBuffer left, right;
 };
 
-class ThinFacets : public testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
+class ThinPrimitives : public testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
 // A pixel's ray and range say where its point is, and that where the other camera sees it. Red before: shifts
-// of another point, the facet's nearest one, where the ray passes by its facet (up to px behind a lens).
-TEST_P(ThinFacets, ShiftsAreThoseOfThePixelsOwnRange) {
+// of another point, the primitive's nearest one, where the ray passes by its primitive (up to px behind a
+// lens).
+TEST_P(ThinPrimitives, ShiftsAreThoseOfThePixelsOwnRange) {
   const auto [seed, has_lens] = GetParam();
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
@@ -106,23 +107,23 @@ TEST_P(ThinFacets, ShiftsAreThoseOfThePixelsOwnRange) {
 }
 
 // Of pixels that see a wall or the floor, those that count as seen have a line to the other camera that no
-// facet of a column cuts: all facets are asked. Red before: facets that none of four pixels sees.
-TEST_P(ThinFacets, HideWhatIsBehindClosedMeshes) {
+// primitive of a column cuts: all primitives are asked. Red before: primitives that none of four pixels sees.
+TEST_P(ThinPrimitives, HideWhatIsBehindClosedMeshes) {
   const auto [seed, has_lens] = GetParam();
   const ColumnRoom room(seed, has_lens);
   const Correspondence found = correspond(room.scene, room.left, room.right);
   const PixelRays lines(room.left.view);
   const Eigen::Vector3d camera_m = room.right.view.centre_in_world();
-  const int first = first_mesh_facet(room.world);
+  const int first = first_mesh_primitive(room.world);
   const int last = first + 2 * (400 + 180 + 960 + 3000) + 398 + 58 + 22 + 98;
   int open = 0, hidden = 0;
   for (int v = 0; v < found.occlusion.rows; v += 12) {
     for (int u = 0; u < found.occlusion.cols; ++u) {
-      const int facet = room.left.facet.at<int>(v, u);
+      const int primitive = room.left.primitive.at<int>(v, u);
       const auto occlusion = static_cast<Occlusion>(found.occlusion.at<std::uint8_t>(v, u));
       hidden += occlusion == Occlusion::kHidden ? 1 : 0;
-      if (facet >= first || occlusion != Occlusion::kSeen) continue;
-      const Eigen::Vector3d point = room.scene.seen(facet, lines(u, v)).on_facet;
+      if (primitive >= first || occlusion != Occlusion::kSeen) continue;
+      const Eigen::Vector3d point = room.scene.seen(primitive, lines(u, v)).on_primitive;
       const Ray line{camera_m, point - camera_m};
       bool cut = false;
       for (int other = first; other < last && !cut; ++other) cut = room.scene.enter(other, line) < 1.0 - 1e-9;
@@ -133,7 +134,7 @@ TEST_P(ThinFacets, HideWhatIsBehindClosedMeshes) {
   EXPECT_GT(hidden, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, ThinFacets,
+INSTANTIATE_TEST_SUITE_P(Rooms, ThinPrimitives,
                          testing::Combine(testing::Range(std::uint64_t{0}, std::uint64_t{2}),
                                           testing::Bool()));
 

@@ -1,4 +1,4 @@
-#include "harness/detector_noise/galleries.h"
+#include "harness/detector_noise/calibration_scenes.h"
 
 #include "harness/detector_noise/serialise.h"
 #include "harness/process/process_pool.h"
@@ -6,13 +6,13 @@
 
 namespace stereobench::harness {
 
-std::vector<CalibrationTake> take_galleries(const worlds::Scenario& scenario,
-                                            const worlds::GallerySettings& settings,
-                                            const std::vector<std::uint64_t>& seeds,
-                                            renderer::Backend backend, int jobs) {
+std::vector<CalibrationTake> take_calibration_scenes(const worlds::Scenario& scenario,
+                                                     const worlds::CalibrationSceneSettings& settings,
+                                                     const std::vector<std::uint64_t>& seeds,
+                                                     renderer::Backend backend, int jobs) {
   Progress progress("calibrate " + scenario.name, static_cast<double>(seeds.size()));
   const auto take = [&](std::size_t index, const std::function<void(double)>&) {
-    return to_bytes(take_samples(worlds::gallery(scenario, settings, seeds[index]), backend));
+    return to_bytes(take_samples(worlds::calibration_scene(scenario, settings, seeds[index]), backend));
   };
   std::vector<CalibrationTake> takes;
   for (const std::string& bytes :

@@ -1,4 +1,4 @@
-#include "harness/scoring/sighted_landmark.h"
+#include "harness/scoring/measured_landmark.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,8 @@
 
 namespace stereobench::harness {
 
-std::optional<std::size_t> sighted_landmark(const LogStep& step, std::size_t index,
-                                            std::span<const LandmarkTruth> landmarks) {
+std::optional<std::size_t> measured_landmark(const LogStep& step, std::size_t index,
+                                             std::span<const LandmarkTruth> landmarks) {
   const slam::RangeBearing& sighting = step.measurements.at(index);
   std::optional<std::size_t> nearest;
   if (step.true_landmarks.size() == step.measurements.size()) {
