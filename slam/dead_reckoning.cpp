@@ -9,12 +9,7 @@ DeadReckoning::DeadReckoning(const FilterConfig& config, const Pose& start)
     : noise_(config.odometry_noise), belief_{start, Eigen::Matrix3d::Zero()} {}
 
 void DeadReckoning::predict(const Control& control) {
-  if (!is_valid(control)) {
-    ++counters_.rejected_inputs;
-    return;
-  }
-  const Eigen::Vector2d control_sd = standard_deviations(control, noise_);
-  belief_ = Linearised().move(belief_, control, control_sd, counters_.covariance_repairs);
+  move(belief_, Linearised(), control, noise_, counters_);
 }
 
 void DeadReckoning::update(std::span<const RangeBearing> sightings) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace stereobench::slam {
 
@@ -21,6 +22,14 @@ void assign(std::vector<Candidate>& candidates, bool near_excludes, std::span<Ta
       target.outcome = Outcome::kIgnore;  // until a free candidate turns up further down
     }
   }
+}
+
+void order_by_age(std::span<const Target> targets, std::vector<std::size_t>& order) {
+  order.clear();
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (targets[k].outcome == Outcome::kUse) order.push_back(k);
+  }
+  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(targets[k].landmark, k); });
 }
 
 }  // namespace stereobench::slam

@@ -1,6 +1,7 @@
 /// Which landmark of its colour a sighting belongs to, when colours repeat.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -28,5 +29,8 @@ struct Candidate {
 /// @param targets by sighting, kAdd where a decision is wanted; becomes kUse with its landmark, kAdd or
 /// kIgnore
 void assign(std::vector<Candidate>& candidates, bool near_excludes, std::span<Target> targets);
+
+/// @param order receives the sightings that correct the pose, those of the oldest landmarks first
+void order_by_age(std::span<const Target> targets, std::vector<std::size_t>& order);
 
 }  // namespace stereobench::slam

@@ -1,8 +1,8 @@
 /// What to make of a sighting that lies beyond the gate of its landmark.
 #pragma once
 
+#include "slam/association/landmark.h"
 #include "slam/association/sighting.h"
-#include "slam/association/track_record.h"
 
 namespace stereobench::slam {
 

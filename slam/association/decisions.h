@@ -1,6 +1,7 @@
 /// What a filter decided about the sightings of its last update, for those who know the truth.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "slam/association/sighting.h"
@@ -19,5 +20,17 @@ struct Decisions {
   std::vector<Decision> sightings;  ///< those that could be used, in their order
   std::vector<int> mapped;          ///< origins of the landmarks it has after the update
 };
+
+/// @param origin_of (const Sighting&, const Target&): of the landmark that a target points at
+template <class OriginOf>
+std::vector<Decision> decisions_of(std::span<const Sighting> frame, std::span<const Target> targets,
+                                   const OriginOf& origin_of) {
+  std::vector<Decision> decisions;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const int origin = targets[k].landmark >= 0 ? origin_of(frame[k], targets[k]) : kUnknown;
+    decisions.push_back({frame[k].number, targets[k].outcome, origin});
+  }
+  return decisions;
+}
 
 }  // namespace stereobench::slam

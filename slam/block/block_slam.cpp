@@ -42,12 +42,7 @@ void BlockSlam<Model>::Hypothesis::descend_from(const Hypothesis& other) {
 
 template <class Model>
 void BlockSlam<Model>::predict(const Control& control) {
-  if (!is_valid(control)) {
-    ++counters_.rejected_inputs;
-    return;
-  }
-  const Eigen::Vector2d control_sd = standard_deviations(control, config_.odometry_noise);
-  motion_ = model_.move(motion_, control, control_sd, counters_.covariance_repairs);
+  move(motion_, model_, control, config_.odometry_noise, counters_);
 }
 
 template <class Model>
@@ -197,11 +192,9 @@ template <class Model>
 void BlockSlam<Model>::note_decisions(std::span<const Sighting> frame) {
   const std::span<const Target> targets =
       std::span(targets_).subspan(heaviest() * frame.size(), frame.size());
-  for (std::size_t k = 0; k < frame.size(); ++k) {
-    const int slot = frame[k].slot;
-    const int origin = is_mapped(slot) ? origins_[static_cast<std::size_t>(slot)] : kUnknown;
-    decided_.push_back({frame[k].number, targets[k].outcome, origin});
-  }
+  decided_ = decisions_of(frame, targets, [&](const Sighting& sighting, const Target&) {
+    return origins_[static_cast<std::size_t>(sighting.slot)];
+  });
   std::ranges::sort(decided_, {}, &Decision::sighting);
 }
 

@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "slam/association/association.h"
-#include "slam/association/contradiction.h"
 #include "slam/association/decisions.h"
-#include "slam/association/existence.h"
 #include "slam/association/frame_reader.h"
+#include "slam/association/map_management.h"
+#include "slam/association/policy.h"
 #include "slam/ekf/joint_belief.h"
 #include "slam/filter_config.h"
 #include "slam/models/linearised.h"
@@ -40,14 +39,9 @@ class EkfSlam {
   Decisions last_decisions() const;
 
  private:
-  /// What is known of a landmark besides its place.
   struct Mapped {
     int slot = kUnknown;
-    int colour_class = kUnknown;
-    TrackRecord record;
-    int origin = kUnknown;  ///< the sighting that founded it
-    float log_odds = 0.0F;  ///< that it exists
-    bool claimed = false;   ///< by a sighting of the frame in progress
+    LandmarkStatus status;
   };
   /// A frame beside what becomes of it.
   struct Decided {
@@ -55,24 +49,18 @@ class EkfSlam {
     std::vector<Target> targets;
     std::vector<std::size_t> order;  ///< of the sightings that correct the pose: oldest landmarks first
   };
+  struct View;
 
-  Decided associate(std::span<const Sighting> frame);
-  void find_candidates(const Sighting& sighting, int index, std::vector<Candidate>& candidates);
-  void associate_jointly(std::span<const Sighting> frame, std::vector<Candidate>& candidates);
-  void note_decisions(const Decided& decided);
+  Landmark landmark(std::size_t j) const;
+  Decided decide(std::span<const Sighting> frame);
   void correct_one_by_one(Decided& decided);
   Outcome use(int landmark, const Sighting& sighting, bool corroborated);
   std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
-  Outcome add(const Sighting& sighting);
-  bool may_be_mapped(const Sighting& sighting, const LandmarkBelief& found);
-  int place_for_new() const;
-  void weaken_unseen();
 
   FilterConfig config_;
-  double gate_;
-  double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
-  Existence existence_;
+  AssociationPolicy policy_;
+  MapManagement management_;
   Linearised model_;
   FrameReader reader_;
   JointBelief belief_;  ///< at the last update

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/fastslam/drawn_particle.h"
 #include "slam/fastslam/mixture.h"
 #include "slam/fastslam/resampling.h"
 #include "slam/math/gaussian.h"
@@ -32,12 +33,7 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
 
 template <class Model>
 void FastSlam<Model>::predict(const Control& control) {
-  if (!is_valid(control)) {
-    ++counters_.rejected_inputs;
-    return;
-  }
-  const Eigen::Vector2d control_sd = standard_deviations(control, config_.odometry_noise);
-  motion_ = model_.move(motion_, control, control_sd, counters_.covariance_repairs);
+  move(motion_, model_, control, config_.odometry_noise, counters_);
 }
 
 template <class Model>
@@ -117,12 +113,9 @@ void FastSlam<Model>::reweigh() {
 template <class Model>
 void FastSlam<Model>::note_decisions(std::span<const Sighting> frame) {
   decider_ = static_cast<std::size_t>(std::ranges::max_element(log_weights_) - log_weights_.begin());
-  for (std::size_t k = 0; k < frame.size(); ++k) {
-    const Target& target = targets_of(decider_)[k];
-    const bool held = target.landmark >= 0;
-    const int origin = held ? landmark_of(particles_[decider_], frame[k], target).origin : kUnknown;
-    decided_.push_back({frame[k].number, target.outcome, origin});
-  }
+  decided_ = decisions_of(frame, targets_of(decider_), [&](const Sighting& sighting, const Target& target) {
+    return landmark_of(particles_[decider_], sighting, target).status.origin;
+  });
 }
 
 template <class Model>
@@ -162,54 +155,12 @@ Eigen::Vector3d FastSlam<Model>::normals() {
 template <class Model>
 void FastSlam<Model>::update_map(std::size_t particle, std::span<const Sighting> frame) {
   const std::span<Target> targets = targets_of(particle);
-  Particle& mine = particles_[particle];
+  DrawnParticle<Model> mine{particles_[particle], model_, management_.existence(),
+                            counters_.covariance_repairs};
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].landmark >= 0 && targets[k].outcome != Outcome::kIgnore) learn(mine, frame[k], targets[k]);
+    if (targets[k].landmark >= 0 && targets[k].outcome != Outcome::kIgnore) mine.learn(frame[k], targets[k]);
   }
-  management_.survey(mine, frame, targets);
-  for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].outcome == Outcome::kAdd) targets[k].outcome = add(mine, frame[k]);
-  }
-  management_.weaken_unseen(mine);
-}
-
-template <class Model>
-void FastSlam<Model>::learn(Particle& particle, const Sighting& sighting, const Target& target) {
-  Landmark landmark = landmark_of(particle, sighting, target);
-  long& repairs = counters_.covariance_repairs;
-  if (target.outcome == Outcome::kRefuse) {
-    landmark.record.contradict();
-  } else if (target.outcome == Outcome::kMove) {
-    landmark = {model_.found(particle.pose, sighting.observation, repairs), landmark.colour_class};
-    landmark.origin = sighting.number;
-    landmark.log_odds = management_.existence().founded();
-  } else if (target.outcome == Outcome::kUse || target.outcome == Outcome::kConfirm) {
-    landmark.belief = model_.refine(landmark.belief, particle.pose, sighting.observation, repairs);
-    landmark.record.agree();
-    landmark.log_odds = management_.existence().seen(landmark.log_odds, sighting.observation);
-  }
-  map_of(particle, sighting).replace(static_cast<std::size_t>(target.landmark), landmark);
-}
-
-/// @return kAdd, or kIgnore for what is no new landmark
-template <class Model>
-Outcome FastSlam<Model>::add(Particle& particle, const Sighting& sighting) {
-  long& repairs = counters_.covariance_repairs;
-  const auto slot = static_cast<std::size_t>(sighting.slot);
-  if (sighting.slot != kUnknown && slot < particle.known.size()) {  // seen twice in the frame that found it
-    learn(particle, sighting, {Outcome::kUse, sighting.slot});
-    return Outcome::kAdd;
-  }
-  const LandmarkBelief found = model_.found(particle.pose, sighting.observation, repairs);
-  if (sighting.slot != kUnknown) {
-    Landmark landmark{found, sighting.colour_class};
-    landmark.origin = sighting.number;
-    particle.known.push_back(landmark);
-  } else if (!management_.add(particle, sighting, found)) {
-    ++counters_.gated_measurements;  // no other landmark of this colour can be here
-    return Outcome::kIgnore;
-  }
-  return Outcome::kAdd;
+  management_.update(mine, frame, targets, counters_.gated_measurements);
 }
 
 template <class Model>
@@ -220,15 +171,16 @@ Estimate FastSlam<Model>::estimate() const {
   for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
     const LandmarkBelief mixed = mixed_landmark(particles_, weights_, slot);
     const RangeBearing& first = reader_.first_sighting(slot);
-    estimate.landmarks.push_back(
-        {first.landmark_id, first.colour_class, mixed.mean, mixed.covariance, reported.known[slot].origin});
+    estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance,
+                                  reported.known[slot].status.origin});
   }
   for (std::size_t i = 0; i < reported.classed.size(); ++i) {
     const Landmark& own = reported.classed[i];
-    if (!Existence::is_believed(own.log_odds)) continue;
+    if (!Existence::is_believed(own.status.log_odds)) continue;
     const LandmarkBelief mixed =
         mixed_landmark_near(particles_, weights_, own, 0.5 * config_.colour_spacing_m);
-    estimate.landmarks.push_back({kUnknown, own.colour_class, mixed.mean, mixed.covariance, own.origin});
+    estimate.landmarks.push_back(
+        {kUnknown, own.status.colour_class, mixed.mean, mixed.covariance, own.status.origin});
   }
   return estimate;
 }
@@ -238,10 +190,10 @@ Decisions FastSlam<Model>::last_decisions() const {
   Decisions decisions{decided_, {}};
   const Particle& particle = particles_[decider_];
   for (std::size_t slot = 0; slot < particle.known.size(); ++slot)
-    decisions.mapped.push_back(particle.known[slot].origin);
+    decisions.mapped.push_back(particle.known[slot].status.origin);
   for (std::size_t i = 0; i < particle.classed.size(); ++i) {
-    const Landmark& landmark = particle.classed[i];
-    if (!Existence::is_dead(landmark.log_odds)) decisions.mapped.push_back(landmark.origin);
+    const LandmarkStatus& status = particle.classed[i].status;
+    if (!Existence::is_dead(status.log_odds)) decisions.mapped.push_back(status.origin);
   }
   return decisions;
 }

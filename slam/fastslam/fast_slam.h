@@ -7,7 +7,7 @@
 
 #include "slam/association/decisions.h"
 #include "slam/association/frame_reader.h"
-#include "slam/fastslam/map_management.h"
+#include "slam/association/map_management.h"
 #include "slam/fastslam/particle.h"
 #include "slam/fastslam/pose_correction.h"
 #include "slam/fastslam/predictive_mixture.h"
@@ -71,8 +71,6 @@ class FastSlam {
   void draw_poses();
   Eigen::Vector3d normals();
   void update_map(std::size_t particle, std::span<const Sighting> frame);
-  void learn(Particle& particle, const Sighting& sighting, const Target& target);
-  Outcome add(Particle& particle, const Sighting& sighting);
 
   FilterConfig config_;
   Proposal proposal_;

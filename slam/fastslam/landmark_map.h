@@ -5,28 +5,9 @@
 #include <cstddef>
 #include <utility>
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
-#include "slam/association/track_record.h"
-#include "slam/models/belief.h"
+#include "slam/association/landmark.h"
 
 namespace stereobench::slam {
-
-/// A landmark in one particle's map.
-struct Landmark {
-  LandmarkBelief belief;
-  int colour_class = kUnknown;
-  TrackRecord record;
-  int origin = kUnknown;  ///< the sighting that founded it
-  float log_odds = 0.0F;  ///< that it exists at all
-};
-
-/// What a group of landmarks keeps within.
-struct LandmarkBounds {
-  Eigen::AlignedBox2d places_m;      ///< of the means; empty for no landmark
-  double largest_variance_m2 = 0.0;  ///< no landmark is more uncertain in any direction (trace of covariance)
-};
 
 /// Landmarks by index, in a tree of eight branches a node whose nodes several maps can own together.
 ///

@@ -15,8 +15,8 @@ const Landmark* nearest(const LandmarkMap& map, const Landmark& own, double with
   map.visit([&](const LandmarkBounds& bounds) { return bounds.places_m.exteriorDistance(place) <= within_m; },
             [&](std::size_t, const Landmark& landmark) {
               const double distance = (landmark.belief.mean - place).norm();
-              if (landmark.colour_class != own.colour_class || distance > within_m) return;
-              if (Existence::is_dead(landmark.log_odds)) return;
+              if (landmark.status.colour_class != own.status.colour_class || distance > within_m) return;
+              if (Existence::is_dead(landmark.status.log_odds)) return;
               best = &landmark;
               within_m = distance;
             });

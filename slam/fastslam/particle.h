@@ -33,6 +33,11 @@ inline LandmarkMap& map_of(Particle& particle, const Sighting& sighting) {
   return sighting.slot == kUnknown ? particle.classed : particle.known;
 }
 
+/// The landmark of an identity, or kUnknown when the particle has not met it.
+inline int slot_in(const Particle& particle, int slot) {
+  return static_cast<std::size_t>(slot) < particle.known.size() ? slot : kUnknown;
+}
+
 /// The landmark in a particle's map that a target points at.
 inline const Landmark& landmark_of(const Particle& particle, const Sighting& sighting, const Target& target) {
   return map_of(particle, sighting)[static_cast<std::size_t>(target.landmark)];

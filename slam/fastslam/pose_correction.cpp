@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "slam/association/contradiction.h"
-#include "slam/association/joint_compatibility.h"
-#include "slam/fastslam/landmark_search.h"
+#include "slam/association/frame_association.h"
 #include "slam/math/elementary.h"
 #include "slam/math/gaussian.h"
 #include "slam/models/measurement.h"
@@ -41,6 +41,52 @@ struct Innovation {
   double squared_length;
 };
 
+/// A particle's map beside its predicted pose, as the rule of association reads them.
+template <class Model>
+struct PredictedParticle {
+  const Particle& particle;
+  const PoseBelief& predicted;
+  const Model& model;
+  long& repairs;
+
+  const PoseBelief& pose() const { return predicted; }
+  int landmark_of(int slot) const { return slot_in(particle, slot); }
+
+  template <class MayMatter, class Visit>
+  void visit(const MayMatter& may_matter, const Visit& visit) const {
+    particle.classed.visit(may_matter, visit);
+  }
+
+  Misfit misfit(std::size_t, const Landmark& landmark, const Observation& observation) const {
+    const Innovation innovation(model.expect(predicted, landmark.belief, observation, repairs), observation,
+                                repairs);
+    return {innovation.squared_length, -2.0 * innovation.log_likelihood()};
+  }
+
+  /// Given a particle's path its landmarks are independent, so that the pose alone ties their sightings
+  /// together.
+  JointInnovations innovations(std::span<const Candidate> candidates, std::span<const Sighting> frame) const {
+    const Eigen::Matrix3d root = semidefinite_root<3>(predicted.covariance, repairs);
+    std::vector<Pairing> pairings;
+    std::vector<Eigen::Matrix<double, 2, 3>> by_error;  // of the pose, in its standard deviations
+    for (const Candidate& pair : candidates) {
+      const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
+      const LandmarkBelief& landmark = particle.classed[static_cast<std::size_t>(pair.landmark)].belief;
+      const LinearSighting linear = linearise_sighting(predicted.mean, landmark.mean);
+      const auto& [expected, by_landmark] = linear;
+      by_error.push_back(linear.by_pose() * root);
+      pairings.push_back({sighting_residual(observation.range_bearing, expected),
+                          by_error.back() * by_error.back().transpose() +
+                              by_landmark * landmark.covariance * by_landmark.transpose() +
+                              noise_at(observation, expected)});
+    }
+    const auto tie = [by_error](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
+      return by_error[a] * by_error[b].transpose();
+    };
+    return {std::move(pairings), tie};
+  }
+};
+
 ExpectedSighting expectation(const PredictedMeasurement& predicted, double log_likelihood) {
   return {true, predicted.expected, predicted.covariance, log_likelihood};
 }
@@ -61,11 +107,7 @@ template <class Model>
 PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates updates)
     : model_(config.unscented),
       updates_(updates),
-      gate_probability_(config.gate_probability),
-      gate_(chi_square_2_quantile(config.gate_probability)),
-      near_m_(0.5 * config.colour_spacing_m),
-      association_(config.association),
-      existence_(config.sector),
+      policy_(config),
       refit_(config.refit),
       report_(config.report_updates) {}
 
@@ -73,8 +115,10 @@ template <class Model>
 Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
                                          std::span<const Sighting> frame, std::span<Target> targets,
                                          FilterCounters& counters) {
-  associate(particle, predicted, frame, targets, counters);
-  order_by_age(targets);
+  const PredictedParticle<Model> belief{particle, predicted, model_, counters.covariance_repairs};
+  associate(policy_, belief, frame, targets, counters.joint_searches_cut);
+  doubt(particle, frame, targets);
+  order_by_age(targets, order_);
   if (report_) expected_.assign(frame.size(), {});
   Posterior posterior{predicted};
   const long gated_before = counters.gated_measurements;
@@ -116,7 +160,8 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
     const LandmarkBelief& landmark = landmark_of(particle, frame[k], targets[k]).belief;
     const Observation& observation = frame[k].observation;
     const Innovation innovation(model_.expect(drawn, landmark, observation, repairs), observation, repairs);
-    const double squared_length = targets[k].outcome == Outcome::kUse ? innovation.squared_length : gate_;
+    const double squared_length =
+        targets[k].outcome == Outcome::kUse ? innovation.squared_length : policy_.gate;
     const double log_likelihood = -0.5 * (squared_length + innovation.factor.log_det_2_pi());
     if (report_) expected_[k] = expectation(innovation.expected, log_likelihood);
     sum += log_likelihood;
@@ -124,53 +169,16 @@ double PoseCorrection<Model>::log_likelihood(const Particle& particle, const Pos
   return sum;
 }
 
+/// Landmarks that may be clutter are not trusted to correct the pose.
 template <class Model>
-void PoseCorrection<Model>::associate(const Particle& particle, const PoseBelief& predicted,
-                                      std::span<const Sighting> frame, std::span<Target> targets,
-                                      FilterCounters& counters) {
-  candidates_.clear();
+void PoseCorrection<Model>::doubt(const Particle& particle, std::span<const Sighting> frame,
+                                  std::span<Target> targets) const {
+  if (!policy_.existence.is_tracked()) return;
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    targets[k] = {};
-    if (frame[k].slot == kUnknown) {
-      find_candidates(particle, predicted, frame[k], static_cast<int>(k), counters);
-    } else if (static_cast<std::size_t>(frame[k].slot) < particle.known.size()) {
-      targets[k] = {Outcome::kUse, frame[k].slot};
-    }
-  }
-  if (association_ == Association::kJoint && !(near_m_ > 0.0) && compete(candidates_))
-    associate_jointly(particle, predicted, frame, counters);
-  if (candidates_.empty()) return;
-  assign(candidates_, near_m_ > 0.0, targets);
-  for (std::size_t k = 0; existence_.is_tracked() && k < frame.size(); ++k) {
     if (frame[k].slot != kUnknown || targets[k].outcome != Outcome::kUse) continue;
-    if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).log_odds))
+    if (!Existence::is_believed(landmark_of(particle, frame[k], targets[k]).status.log_odds))
       targets[k].outcome = Outcome::kConfirm;
   }
-}
-
-/// Drops the candidates that do not go with the rest of the frame. Given a particle's path its landmarks are
-/// independent, so that the pose alone ties their sightings together.
-template <class Model>
-void PoseCorrection<Model>::associate_jointly(const Particle& particle, const PoseBelief& predicted,
-                                              std::span<const Sighting> frame, FilterCounters& counters) {
-  const Eigen::Matrix3d root = semidefinite_root<3>(predicted.covariance, counters.covariance_repairs);
-  std::vector<Pairing> pairings;
-  std::vector<Eigen::Matrix<double, 2, 3>> by_error;  // of the pose, in its standard deviations
-  for (const Candidate& pair : candidates_) {
-    const Observation& observation = frame[static_cast<std::size_t>(pair.sighting)].observation;
-    const LandmarkBelief& landmark = particle.classed[static_cast<std::size_t>(pair.landmark)].belief;
-    const LinearSighting linear = linearise_sighting(predicted.mean, landmark.mean);
-    const auto& [expected, by_landmark] = linear;
-    by_error.push_back(linear.by_pose() * root);
-    pairings.push_back({sighting_residual(observation.range_bearing, expected),
-                        by_error.back() * by_error.back().transpose() +
-                            by_landmark * landmark.covariance * by_landmark.transpose() +
-                            noise_at(observation, expected)});
-  }
-  const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
-    return by_error[a] * by_error[b].transpose();
-  };
-  keep_joint(candidates_, pairings, tie, gate_probability_, counters.joint_searches_cut);
 }
 
 /// The log density of the sightings that were given to no landmark that is believed in; those with an
@@ -178,32 +186,16 @@ void PoseCorrection<Model>::associate_jointly(const Particle& particle, const Po
 template <class Model>
 double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame,
                                                  std::span<const Target> targets) const {
-  if (!existence_.is_tracked()) return 0.0;
+  if (!policy_.existence.is_tracked()) return 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < frame.size(); ++k) {
     const Outcome outcome = targets[k].outcome;
     const bool of_none =
         outcome == Outcome::kAdd || outcome == Outcome::kIgnore || outcome == Outcome::kConfirm;
-    if (of_none && frame[k].slot == kUnknown) sum -= 0.5 * existence_.cost_of_new(frame[k].observation);
+    if (of_none && frame[k].slot == kUnknown)
+      sum -= 0.5 * policy_.existence.cost_of_new(frame[k].observation);
   }
   return sum;
-}
-
-template <class Model>
-void PoseCorrection<Model>::find_candidates(const Particle& particle, const PoseBelief& predicted,
-                                            const Sighting& sighting, int index, FilterCounters& counters) {
-  const Observation& observation = sighting.observation;
-  const SightingPlace place(predicted, observation, {gate_, near_m_});
-  const double cost_of_new = existence_.cost_of_new(observation);
-  visit_alike(particle.classed, sighting, place, [&](std::size_t j, const Landmark& landmark) {
-    long& repairs = counters.covariance_repairs;
-    const Innovation innovation(model_.expect(predicted, landmark.belief, observation, repairs), observation,
-                                repairs);
-    const double cost = -2.0 * innovation.log_likelihood();
-    const bool gated = !(innovation.squared_length <= gate_ && cost <= cost_of_new);
-    if (gated && !((place.mean_m() - landmark.belief.mean).norm() < near_m_)) return;
-    candidates_.push_back({index, static_cast<int>(j), cost, gated});
-  });
 }
 
 /// @param refusing the posterior that refuses some of the matches
@@ -212,28 +204,17 @@ template <class Model>
 std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& predicted,
                                                            const Posterior& refusing, long& repairs) const {
   const double limit =
-      approximate_chi_square_quantile(gate_probability_, 2.0 * static_cast<double>(matches_.size()));
+      approximate_chi_square_quantile(policy_.gate_probability, 2.0 * static_cast<double>(matches_.size()));
   const Eigen::Matrix3d covariance = predicted.covariance + bend_covariance(predicted);
   const FrameFit bent = fit_frame({predicted.mean, covariance}, matches_, repairs);
   if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
   if (matches_.size() < 2) return std::nullopt;  // nobody else says so
   FrameFit slipped = fit_frame({predicted.mean, kSlip * kSlip * covariance}, matches_, repairs);
   slipped.posterior.log_likelihood +=
-      logarithm_of_one_plus(-gate_probability_);  // so rarely is the odometry that wrong
+      logarithm_of_one_plus(-policy_.gate_probability);  // so rarely is the odometry that wrong
   if (!(slipped.prior_cost + slipped.sighting_cost <= limit)) return std::nullopt;
   if (!(slipped.posterior.log_likelihood > refusing.log_likelihood)) return std::nullopt;
   return slipped.posterior;
-}
-
-template <class Model>
-void PoseCorrection<Model>::order_by_age(std::span<const Target> targets) {
-  order_.clear();
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    if (targets[k].outcome == Outcome::kUse) order_.push_back(k);
-  }
-  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(targets[a].landmark, a) < std::pair(targets[b].landmark, b);
-  });
 }
 
 /// Uses the sightings that the prediction does not refuse, and leaves the others in late_.
@@ -249,7 +230,7 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
     const Observation& observation = frame[k].observation;
     const Innovation innovation(model_.expect(posterior.pose, landmark, observation, repairs), observation,
                                 repairs);
-    if (innovation.squared_length <= gate_) {
+    if (innovation.squared_length <= policy_.gate) {
       expectations_.push_back({innovation.expected, innovation.residual});
       if (report_) expected_[k] = expectation(innovation.expected, innovation.log_likelihood());
     } else {
@@ -268,14 +249,14 @@ Outcome PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sig
   const Innovation innovation(model_.expect(posterior.pose, landmark.belief, observation, repairs),
                               observation, repairs);
   if (wanted.expected != nullptr) *wanted.expected = expectation(innovation.expected, 0.0);
-  if (innovation.squared_length <= gate_) {
+  if (innovation.squared_length <= policy_.gate) {
     const bool teaches = repairs == before;  // else all is certain
     if (wanted.pose && teaches) apply(innovation, posterior);
     return Outcome::kUse;
   }
   ++counters.gated_measurements;
-  const bool certain = sighting.slot == kUnknown && near_m_ > 0.0;
-  const Outcome outcome = judge_contradiction(landmark.record, certain, posterior.corroborated);
+  const Outcome outcome =
+      judge_contradiction(landmark.status.record, policy_.is_certain(sighting), posterior.corroborated);
   if (outcome == Outcome::kUse) {
     posterior.relocalised = true;
     posterior.pose.covariance += drift_covariance(posterior.pose.mean, landmark.belief.mean, observation);
@@ -283,7 +264,7 @@ Outcome PoseCorrection<Model>::use(const Landmark& landmark, const Sighting& sig
                      repairs),
           posterior);
   } else {
-    posterior.log_likelihood -= 0.5 * (gate_ + innovation.factor.log_det_2_pi());
+    posterior.log_likelihood -= 0.5 * (policy_.gate + innovation.factor.log_det_2_pi());
   }
   return outcome;
 }

@@ -5,13 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "slam/association/association.h"
-#include "slam/association/existence.h"
+#include "slam/association/policy.h"
 #include "slam/fastslam/frame_fit.h"
 #include "slam/fastslam/frame_update.h"
 #include "slam/fastslam/particle.h"
 #include "slam/fastslam/predictive_mixture.h"
-#include "slam/filter_config.h"
 #include "slam/models/linearised.h"
 #include "slam/models/unscented.h"
 
@@ -85,16 +83,10 @@ class PoseCorrection {
     bool pose = true;                      ///< whether anything reads the pose that the sighting leaves
   };
 
-  void associate(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
-                 std::span<Target> targets, FilterCounters& counters);
-  void find_candidates(const Particle& particle, const PoseBelief& predicted, const Sighting& sighting,
-                       int index, FilterCounters& counters);
-  void associate_jointly(const Particle& particle, const PoseBelief& predicted,
-                         std::span<const Sighting> frame, FilterCounters& counters);
+  void doubt(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets) const;
   double log_density_of_new(std::span<const Sighting> frame, std::span<const Target> targets) const;
   std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
                                       long& repairs) const;
-  void order_by_age(std::span<const Target> targets);
   void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
                    Posterior& posterior, FilterCounters& counters);
   Outcome use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
@@ -102,15 +94,10 @@ class PoseCorrection {
 
   Model model_;
   Updates updates_;
-  double gate_probability_;
-  double gate_;
-  double near_m_;  ///< within this distance there is one landmark of a colour; 0 = not known
-  Association association_;
-  Existence existence_;
+  AssociationPolicy policy_;
   bool refit_;
   bool report_;
   std::vector<ExpectedSighting> expected_;
-  std::vector<Candidate> candidates_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> late_;  ///< of order_, what is still to be used one after the other
   std::vector<Expectation> expectations_;

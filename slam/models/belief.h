@@ -81,4 +81,18 @@ PoseBelief follow(const Pose& world_from_start, SineCosine heading, const PoseBe
 /// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now);
 
+/// Moves a belief by one control; one that is not valid is ignored and counted.
+///
+/// @param model of moments, with move()
+template <class Model>
+void move(PoseBelief& belief, const Model& model, const Control& control, const OdometryNoise& noise,
+          FilterCounters& counters) {
+  if (!is_valid(control)) {
+    ++counters.rejected_inputs;
+    return;
+  }
+  const Eigen::Vector2d control_sd = standard_deviations(control, noise);
+  belief = model.move(belief, control, control_sd, counters.covariance_repairs);
+}
+
 }  // namespace stereobench::slam

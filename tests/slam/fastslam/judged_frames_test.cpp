@@ -24,7 +24,7 @@ struct Scene {
       const auto uses = static_cast<std::uint16_t>(10.0 * random.uniform());
       const auto contradictions = static_cast<std::uint16_t>(6.0 * random.uniform());
       particle.known.push_back(
-          {{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, {uses, contradictions}});
+          {{place, 1e-4 * Eigen::Matrix2d::Identity()}, {kUnknown, {uses, contradictions}}});
       const double reach = random.uniform() < 0.3 ? 0.3 : 0.01;
       const Eigen::Vector2d error(reach * random.normal(), reach * random.normal());
       const Eigen::Vector2d seen = predict_sighting(predicted.mean, place) + error;

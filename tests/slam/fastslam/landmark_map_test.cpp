@@ -13,7 +13,7 @@ namespace {
 Landmark at(double x, double y, int colour = 0, double variance = 0.01) {
   Landmark landmark;
   landmark.belief = {{x, y}, variance * Eigen::Matrix2d::Identity()};
-  landmark.colour_class = colour;
+  landmark.status.colour_class = colour;
   return landmark;
 }
 

@@ -1,10 +1,10 @@
 // What a particle's map takes in, and what it lets go.
-#include "slam/fastslam/map_management.h"
+#include "slam/association/map_management.h"
 
 #include <gtest/gtest.h>
 
+#include "slam/fastslam/drawn_particle.h"
 #include "slam/math/random.h"
-#include "slam/models/linearised.h"
 
 namespace stereobench::slam {
 namespace {
@@ -20,15 +20,25 @@ Sighting seen(double range_m, double bearing_rad, int number) {
   return sighting;
 }
 
+// What becomes of the sightings of a frame.
+std::vector<Target> update(MapManagement& management, Particle& particle, const std::vector<Sighting>& frame,
+                           std::vector<Target> targets = {}) {
+  long counted = 0;
+  targets.resize(frame.size());
+  const Linearised model;
+  DrawnParticle<Linearised> drawn{particle, model, management.existence(), counted};
+  management.update(drawn, frame, targets, counted);
+  return targets;
+}
+
 bool add(MapManagement& management, Particle& particle, const Sighting& sighting) {
-  long repairs = 0;
-  return management.add(particle, sighting, Linearised().found(particle.pose, sighting.observation, repairs));
+  return update(management, particle, {sighting}).front().outcome == Outcome::kAdd;
 }
 
 std::size_t alive(const Particle& particle) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < particle.classed.size(); ++i)
-    count += Existence::is_dead(particle.classed[i].log_odds) ? 0U : 1U;
+    count += Existence::is_dead(particle.classed[i].status.log_odds) ? 0U : 1U;
   return count;
 }
 
@@ -38,10 +48,10 @@ TEST(MapManagement, TheClutterOfOnePlaceDoesNotFillTheMap) {
   Particle particle;
   RandomStream random(1, Stream::kClutter);
   for (int look = 0; look < 500; ++look) {
-    management.survey(particle, {}, {});
+    std::vector<Sighting> frame;
     for (int i = 0; i < 2; ++i)
-      add(management, particle, seen(20.0 * random.uniform(), 3.0 * random.uniform() - 1.5, 2 * look + i));
-    management.weaken_unseen(particle);
+      frame.push_back(seen(20.0 * random.uniform(), 3.0 * random.uniform() - 1.5, 2 * look + i));
+    update(management, particle, frame);
   }
   EXPECT_LT(particle.classed.size(), 60u) << "of a thousand";
   EXPECT_LT(alive(particle), 50u);
@@ -51,17 +61,15 @@ TEST(MapManagement, TheClutterOfOnePlaceDoesNotFillTheMap) {
 TEST(MapManagement, OnlyWhatShouldHaveBeenSeenLosesOdds) {
   MapManagement management(config_with_sector());
   Particle particle;
-  for (const auto& [range_m, bearing_rad] : {std::pair(5.0, 0.0), {5.0, 1.0}, {5.0, 3.0}, {30.0, 0.0}})
-    ASSERT_TRUE(add(management, particle, seen(range_m, bearing_rad, 0)));
-  const float before = particle.classed[0].log_odds;
-  const std::vector<Sighting> frame = {seen(5.0, 0.0, 4)};
-  const std::vector<Target> targets = {{Outcome::kUse, 0}};
-  management.survey(particle, frame, targets);
-  management.weaken_unseen(particle);
-  EXPECT_EQ(particle.classed[0].log_odds, before) << "was seen";
-  EXPECT_LT(particle.classed[1].log_odds, before) << "was not";
-  EXPECT_EQ(particle.classed[2].log_odds, before) << "is behind";
-  EXPECT_EQ(particle.classed[3].log_odds, before) << "is beyond the range";
+  update(management, particle, {seen(5.0, 0.0, 0), seen(5.0, 1.0, 1), seen(5.0, 3.0, 2), seen(30.0, 0.0, 3)});
+  ASSERT_EQ(particle.classed.size(), 4u);
+  const auto log_odds = [&](std::size_t j) { return particle.classed[j].status.log_odds; };
+  const float before = log_odds(0);
+  update(management, particle, {seen(5.0, 0.0, 4)}, {{Outcome::kUse, 0}});
+  EXPECT_EQ(log_odds(0), before) << "was seen";
+  EXPECT_LT(log_odds(1), before) << "was not";
+  EXPECT_EQ(log_odds(2), before) << "is behind";
+  EXPECT_EQ(log_odds(3), before) << "is beyond the range";
 }
 
 // From the corrected pose a sighting beside a landmark that nobody else claims may be that one; beside a
@@ -70,18 +78,16 @@ TEST(MapManagement, WhatMayBeMappedIsNotNew) {
   MapManagement management(config_with_sector());
   Particle particle;
   ASSERT_TRUE(add(management, particle, seen(5.0, 0.0, 0)));
-  const float before = particle.classed[0].log_odds;
-  management.survey(particle, {}, {});
-  EXPECT_FALSE(add(management, particle, seen(5.3, 0.0, 1)));
-  EXPECT_TRUE(add(management, particle, seen(9.0, 0.0, 2)));
-  management.weaken_unseen(particle);
-  EXPECT_EQ(particle.classed[0].log_odds, before) << "neither seen nor missed";
-  const std::vector<Sighting> frame = {seen(5.0, 0.0, 3), seen(5.3, 0.0, 4)};
-  const std::vector<Target> targets = {{Outcome::kUse, 0}, {Outcome::kAdd}};
-  management.survey(particle, frame, targets);
-  EXPECT_TRUE(add(management, particle, frame[1]));
+  const float before = particle.classed[0].status.log_odds;
+  const std::vector<Target> alone = update(management, particle, {seen(5.3, 0.0, 1), seen(9.0, 0.0, 2)});
+  EXPECT_EQ(alone[0].outcome, Outcome::kIgnore);
+  EXPECT_EQ(alone[1].outcome, Outcome::kAdd);
+  EXPECT_EQ(particle.classed[0].status.log_odds, before) << "neither seen nor missed";
+  const std::vector<Target> beside =
+      update(management, particle, {seen(5.0, 0.0, 3), seen(5.3, 0.0, 4)}, {{Outcome::kUse, 0}});
+  EXPECT_EQ(beside[1].outcome, Outcome::kAdd);
   EXPECT_EQ(particle.classed.size(), 3u);
-  EXPECT_EQ(particle.classed[2].origin, 4);
+  EXPECT_EQ(particle.classed[2].status.origin, 4);
 }
 
 // Mutation: dead landmarks still stand in the way of new ones.
@@ -92,14 +98,10 @@ TEST(MapManagement, TheDeadAreInNobodysWay) {
     MapManagement management(config);
     Particle particle;
     ASSERT_TRUE(add(management, particle, seen(5.0, 0.0, 0)));
-    while (alive(particle) > 0) {
-      management.survey(particle, {}, {});
-      management.weaken_unseen(particle);
-    }
-    management.survey(particle, {}, {});
+    while (alive(particle) > 0) update(management, particle, {});
     EXPECT_TRUE(add(management, particle, seen(5.0, 0.0, 7)));
     ASSERT_EQ(particle.classed.size(), 1u);
-    EXPECT_EQ(particle.classed[0].origin, 7);
+    EXPECT_EQ(particle.classed[0].status.origin, 7);
   }
 }
 

@@ -23,10 +23,10 @@ class Corrections : public ::testing::Test {
   FilterCounters counters_;
 
   void know(const Eigen::Vector2d& place, std::uint16_t uses = 5) {
-    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, kUnknown, {uses, 0}});
+    particle_.known.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, {kUnknown, {uses, 0}}});
   }
   void know_well(const Eigen::Vector2d& place) {
-    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, kUnknown, {5, 0}});
+    particle_.known.push_back({{place, 1e-6 * Eigen::Matrix2d::Identity()}, {kUnknown, {5, 0}}});
   }
   void change(std::size_t slot, const std::function<void(Landmark&)>& by) {
     Landmark landmark = particle_.known[slot];
@@ -34,7 +34,7 @@ class Corrections : public ::testing::Test {
     particle_.known.replace(slot, landmark);
   }
   void know_colour(const Eigen::Vector2d& place, int colour) {
-    particle_.classed.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, colour, 5, 0});
+    particle_.classed.push_back({{place, 1e-4 * Eigen::Matrix2d::Identity()}, {colour, {5, 0}}});
   }
   // What is seen of a place from the predicted pose, with an error in range and bearing.
   Sighting see(const Eigen::Vector2d& place, int slot,
@@ -252,7 +252,8 @@ TYPED_TEST(Corrections, TheSearchOfALargeMapMissesNothing) {
       const Eigen::Vector2d off = sighting_residual(seen, innovation.expected);
       const double squared = off.dot(innovation.covariance.inverse() * off);
       const double cost = squared + std::log(innovation.covariance.determinant());
-      if (landmark.colour_class != sighting.colour_class || !(squared <= 18.4206807439524) || cost >= least)
+      if (landmark.status.colour_class != sighting.colour_class || !(squared <= 18.4206807439524) ||
+          cost >= least)
         continue;
       least = cost;
       expected = {Outcome::kUse, static_cast<int>(j)};
@@ -275,7 +276,7 @@ TYPED_TEST(Corrections, AGateOfOneRefusesNothing) {
 TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVouchedFor) {
   this->know({3.0, 1.0});
   this->know({3.0, -1.0});
-  this->change(1, [](Landmark& landmark) { landmark.record.refusals = 10; });
+  this->change(1, [](Landmark& landmark) { landmark.status.record.refusals = 10; });
   this->correct({this->see({3.0, 1.0}, 0), this->see({3.0, -1.0}, 1, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
   EXPECT_EQ(this->targets_[1].outcome, Outcome::kMove);
@@ -283,11 +284,11 @@ TYPED_TEST(Corrections, APersistentContradictionMovesTheLandmarkWhenThePoseIsVou
 
 TYPED_TEST(Corrections, APersistentContradictionPullsThePoseWhenTheLandmarkIsConfirmed) {
   this->know({3.0, 1.0});
-  this->change(0, [](Landmark& landmark) { landmark.record.refusals = 10; });
+  this->change(0, [](Landmark& landmark) { landmark.status.record.refusals = 10; });
   const Posterior relocalised = this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].outcome, Outcome::kUse);
   EXPECT_GT(boxminus(relocalised.pose.mean, this->predicted_.mean).norm(), 0.5);
-  this->change(0, [](Landmark& landmark) { landmark.record.uses = 1; });
+  this->change(0, [](Landmark& landmark) { landmark.status.record.uses = 1; });
   this->correct({this->see({3.0, 1.0}, 0, {1.0, 0.0})});
   EXPECT_EQ(this->targets_[0].outcome, Outcome::kMove);
 }

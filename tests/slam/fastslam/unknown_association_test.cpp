@@ -172,7 +172,7 @@ TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
   for (const float log_odds : {0.0F, 10.0F}) {
     Particle particle;
     Landmark landmark{{{4.0, 0.0}, 0.01 * Eigen::Matrix2d::Identity()}};
-    landmark.log_odds = log_odds;
+    landmark.status.log_odds = log_odds;
     particle.classed.push_back(landmark);
     std::vector<Target> targets(1);
     FilterCounters counters;

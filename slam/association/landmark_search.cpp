@@ -1,4 +1,4 @@
-#include "slam/fastslam/landmark_search.h"
+#include "slam/association/landmark_search.h"
 
 #include <algorithm>
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "slam/association/existence.h"
-#include "slam/fastslam/particle.h"
+#include "slam/association/landmark.h"
+#include "slam/association/sighting.h"
 
 namespace stereobench::slam {
 
@@ -31,16 +32,16 @@ class SightingPlace {
 };
 
 /// Visits the landmarks without an identity that a sighting may be of: of its colour, and not dead.
+/// @param map has visit(may_matter, visit), as LandmarkMap
 /// @param place of the sighting
 /// @param visit (std::size_t index, const Landmark&)
-template <class Visit>
-void visit_alike(const LandmarkMap& map, const Sighting& sighting, const SightingPlace& place,
-                 const Visit& visit) {
+template <class Map, class Visit>
+void visit_alike(const Map& map, const Sighting& sighting, const SightingPlace& place, const Visit& visit) {
   map.visit([&](const LandmarkBounds& bounds) { return place.may_hold(bounds); },
             [&](std::size_t j, const Landmark& landmark) {
-              if (landmark.colour_class != sighting.colour_class || Existence::is_dead(landmark.log_odds))
-                return;
-              visit(j, landmark);
+              const LandmarkStatus& status = landmark.status;
+              if (status.colour_class == sighting.colour_class && !Existence::is_dead(status.log_odds))
+                visit(j, landmark);
             });
 }
 
