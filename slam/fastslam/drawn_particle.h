@@ -17,7 +17,7 @@ struct DrawnParticle {
   Particle& particle;
   const Model& model;
   const Existence& existence;
-  long& repairs;  ///< counts covariances that had to be mended
+  long& repairs;  ///< counts covariances that had to be repaired
 
   PoseBelief pose() const { return {particle.pose}; }
   int landmark_of(int slot) const { return slot_in(particle, slot); }
@@ -28,10 +28,10 @@ struct DrawnParticle {
   }
 
   Misfit misfit(std::size_t, const Landmark& landmark, const Observation& observation) const {
-    long mended = 0;  // for a comparison only
+    long repaired = 0;  // for a comparison only
     const PredictedMeasurement seen =
-        Linearised().expect(particle.pose, landmark.belief, observation, mended);
-    const Factor2 factor(seen.covariance, mended);
+        Linearised().expect(particle.pose, landmark.belief, observation, repaired);
+    const Factor2 factor(seen.covariance, repaired);
     const double squared_length =
         factor.squared_length(sighting_residual(observation.range_bearing, seen.expected));
     return {squared_length, squared_length + factor.log_det_2_pi()};
