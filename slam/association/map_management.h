@@ -43,6 +43,7 @@ class MapManagement {
   ///   - `int add(int slot, const Landmark&, std::vector<int>& vacant)`: returns where it was put, at the end
   ///     or in a vacant place, which is then taken from the list
   ///   - `set_log_odds(std::size_t j, float)`
+  ///   - `kClaimsLookalikes`: whether a second such sighting of a frame, of the same landmark, is new
   /// @param targets kAdd becomes kIgnore for what is no new landmark
   template <class Map>
   void update(Map& map, std::span<const Sighting> frame, std::span<Target> targets, long& gated);
@@ -128,6 +129,7 @@ bool MapManagement::may_be_mapped(const Map& map, const Sighting& sighting, cons
   if (policy_.near_excludes()) return has_neighbour(map, sighting.colour_class, place);
   const int other = lookalike(map, sighting);
   std::erase_if(unseen_, [&](const auto& unseen) { return static_cast<int>(unseen.first) == other; });
+  if (other >= 0 && Map::kClaimsLookalikes) claimed_.push_back(other);
   return other >= 0;
 }
 

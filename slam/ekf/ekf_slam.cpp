@@ -11,6 +11,7 @@ namespace stereobench::slam {
 
 /// The belief and its landmarks, as the rules of association and of the map read and write them.
 struct EkfSlam::View {
+  static constexpr bool kClaimsLookalikes = true;
   EkfSlam& filter;
 
   PoseBelief pose() const { return {filter.belief_.pose, filter.belief_.covariance.pose()}; }

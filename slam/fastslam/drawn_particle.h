@@ -14,6 +14,7 @@ namespace stereobench::slam {
 /// A particle's map as MapManagement reads and writes it.
 template <class Model>
 struct DrawnParticle {
+  static constexpr bool kClaimsLookalikes = false;
   Particle& particle;
   const Model& model;
   const Existence& existence;
