@@ -2,26 +2,46 @@
 
 namespace stereobench::worlds {
 
-const KeyGroup& gate_keys() {
-  constexpr Interval kLimit = {-1e12, 1e12};
-  static const KeyGroup keys = {
-      .keys = {
+namespace {
+
+constexpr Interval kLimit = {-1e12, 1e12};
+
+std::function<void(const YamlValue&, Gate&)> limit(Gate::Relation relation) {
+  return [relation](const YamlValue& value, Gate& gate) {
+    gate.relation = relation;
+    gate.limit = value.number(kLimit);
+  };
+}
+
+std::function<YAML::Node(const Gate&)> written_limit(Gate::Relation relation) {
+  return [relation](const Gate& gate) {
+    return gate.relation == relation ? written(Key{}, gate.limit) : YAML::Node();
+  };
+}
+
+void check_gate(const YamlMap& map, Gate&) {
+  if (map.find("at_most") && map.find("at_least")) map.value().refuse("expected either at_most or at_least");
+}
+
+}  // namespace
+
+const Fields<Gate>& gate_keys() {
+  static const Fields<Gate> keys(
+      {
           text("metric",
                "Keys of a number in run.json, joined by dots, e.g. vision.recall; "
                "`stereobench metrics` lists them.")
-              .needed(),
-          number("at_most", kLimit, "Largest value that passes.").needed_unless("at_least"),
-          number("at_least", kLimit, "Smallest value that passes.").otherwise_says("at_most"),
-      }};
+              .needed()
+              .fills(&Gate::metric),
+          number("at_most", kLimit, "Largest value that passes.")
+              .needed_unless("at_least")
+              .by<Gate>(limit(Gate::Relation::kAtMost), written_limit(Gate::Relation::kAtMost)),
+          number("at_least", kLimit, "Smallest value that passes.")
+              .otherwise_says("at_most")
+              .by<Gate>(limit(Gate::Relation::kAtLeast), written_limit(Gate::Relation::kAtLeast)),
+      },
+      check_gate);
   return keys;
-}
-
-Gate read_gate(const YamlValue& value) {
-  const YamlMap map(value, gate_keys());
-  if (map.find("at_most") && map.find("at_least")) value.refuse("expected either at_most or at_least");
-  const bool at_most = map.find("at_most").has_value();
-  return {map.at("metric").text(), at_most ? Gate::Relation::kAtMost : Gate::Relation::kAtLeast,
-          map.number(at_most ? "at_most" : "at_least")};
 }
 
 }  // namespace stereobench::worlds

@@ -19,110 +19,100 @@ void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInst
   mesh.scale.z() = height_m / mesh.unit_m;
 }
 
-/// A file that exists, or a shape of our own.
-void read_form(const YamlValue& value, const YamlMap& map, const std::filesystem::path& folder,
-               MeshInstance& mesh) {
-  const auto shape = map.find("shape");
-  if (shape && map.find("file")) value.refuse("expected either file or shape");
-  if (shape) {
-    mesh.shape = static_cast<MeshShape>(1 + map.choice("shape"));
-    mesh.material = Material::kPaint;
-    return;
-  }
-  const YamlValue file = map.at("file");
-  const std::filesystem::path path = std::filesystem::absolute(folder / file.text()).lexically_normal();
-  if (!std::filesystem::is_regular_file(path)) file.fail("expected a mesh file that exists");
-  mesh.file = path.string();
+void read_file(const YamlValue& file, MeshInstance& mesh) {
+  if (!std::filesystem::is_regular_file(file.path())) file.fail("expected a mesh file that exists");
+  mesh.file = file.path().string();
+}
+
+void read_shape(const YamlValue& value, MeshInstance& mesh) {
+  mesh.shape = static_cast<MeshShape>(1 + value.choice(kShapeNames));
+  mesh.material = Material::kPaint;
+}
+
+YAML::Node written_shape(const MeshInstance& mesh) {
+  if (mesh.shape == MeshShape::kFile) return {};
+  return YAML::Node(std::string(kShapeNames[static_cast<std::size_t>(mesh.shape) - 1]));
 }
 
 /// Shapes have no file whose colours could be taken.
-Material read_material(const YamlValue& value, MeshShape shape) {
-  const std::size_t known = kMaterialNames.size() - (shape == MeshShape::kFile ? 0 : 1);
-  return static_cast<Material>(value.choice(std::span(kMaterialNames).first(known)));
+void read_material(const YamlValue& value, MeshInstance& mesh) {
+  const std::size_t known = kMaterialNames.size() - (mesh.shape == MeshShape::kFile ? 0 : 1);
+  mesh.material = static_cast<Material>(value.choice(std::span(kMaterialNames).first(known)));
+}
+
+void check_mesh(const YamlMap& map, MeshInstance&) {
+  if (map.find("shape") && map.find("file")) map.value().refuse("expected either file or shape");
+  if (map.find("under_ball") && map.find("at_m")) map.value().refuse("expected either at_m or under_ball");
 }
 
 }  // namespace
 
-const KeyGroup& mesh_keys() {
-  static const KeyGroup keys = {
-      .keys = {
+const Fields<MeshInstance>& mesh_keys() {
+  static const Fields<MeshInstance> keys(
+      {
           text("file", "Mesh file (obj, dae, gltf, glb, stl, fbx), relative to the scenario's folder.")
-              .needed_unless("shape"),
+              .needed_unless("shape")
+              .by<MeshInstance>(read_file),
           choice("shape", {kShapeNames.begin(), kShapeNames.end()},
                  "A shape of unit size in place of a file.")
-              .otherwise_says("file"),
-          number("unit_m", {1e-6, 1e3}, "Length of the file's unit, in metres.").otherwise("1"),
-          choice("up", {"z", "y"}, "Which of the file's axes points up.").otherwise("z"),
+              .otherwise_says("file")
+              .by<MeshInstance>(read_shape, written_shape),
+          number("unit_m", {1e-6, 1e3}, "Length of the file's unit, in metres.")
+              .written_if_changed()
+              .fills(&MeshInstance::unit_m),
+          choice("up", {"z", "y"}, "Which of the file's axes points up.")
+              .written_if_changed()
+              .fills(&MeshInstance::up),
           number("at_m", kPlace_m, "Where its origin stands in the world: x, y, z in metres.")
-              .vector(3)
-              .needed_unless("under_ball"),
+              .needed_unless("under_ball")
+              .fills(&MeshInstance::position_m),
           whole("under_ball", 0, 253,
                 "Index of the ball that it carries: it reaches from the floor up to it.")
               .otherwise_says("at_m"),
           number("heading_deg", kTurn_deg, "Turn about the vertical axis, in degrees, after pitch and roll.")
-              .otherwise("0"),
-          number("pitch_deg", kTurn_deg, "Turn about the y axis, in degrees, after roll.").otherwise("0"),
-          number("roll_deg", kTurn_deg, "Turn about the x axis, in degrees.").otherwise("0"),
+              .times(slam::kRadPerDegree)
+              .fills(&MeshInstance::heading_rad),
+          number("pitch_deg", kTurn_deg, "Turn about the y axis, in degrees, after roll.")
+              .times(slam::kRadPerDegree)
+              .written_if_changed()
+              .fills(&MeshInstance::pitch_rad),
+          number("roll_deg", kTurn_deg, "Turn about the x axis, in degrees.")
+              .times(slam::kRadPerDegree)
+              .written_if_changed()
+              .fills(&MeshInstance::roll_rad),
           number("scale", {1e-3, 1e3}, "Factor on its size, or one for each axis.")
               .or_vector(3)
-              .otherwise("[1, 1, 1]"),
+              .fills(&MeshInstance::scale),
           choice("material", {kMaterialNames.begin(), kMaterialNames.end()},
                  "What it is made of; `file` takes the file's own colours and textures.")
-              .otherwise_says("wood; paint for a shape"),
+              .otherwise_says("wood; paint for a shape")
+              .fills(&MeshInstance::material)
+              .reading(read_material),
           number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
-              .vector(3)
-              .otherwise("[1, 1, 1]"),
-      }};
+              .fills(&MeshInstance::tint_rgb),
+      },
+      check_mesh);
   return keys;
 }
 
-MeshInstance read_mesh(const YamlValue& value, const std::filesystem::path& folder,
-                       const std::vector<Ball>& balls) {
-  const YamlMap map(value, mesh_keys());
-  MeshInstance mesh;
-  read_form(value, map, folder, mesh);
-  mesh.unit_m = map.number("unit_m", mesh.unit_m);
-  mesh.up = read_choice(map, "up", mesh.up);
-  mesh.heading_rad = map.number("heading_deg", 0.0) * slam::kRadPerDegree;
-  mesh.pitch_rad = map.number("pitch_deg", 0.0) * slam::kRadPerDegree;
-  mesh.roll_rad = map.number("roll_deg", 0.0) * slam::kRadPerDegree;
-  mesh.scale = read_vector<3>(map, "scale", mesh.scale);
-  const auto ball = map.find("under_ball");
-  if (ball && map.find("at_m")) value.refuse("expected either at_m or under_ball");
-  if (ball)
-    stand_under(*ball, balls, mesh);
-  else
-    mesh.position_m = read_vector<3>(map, "at_m");
-  if (const auto material = map.find("material")) mesh.material = read_material(*material, mesh.shape);
-  mesh.tint_rgb = read_vector<3>(map, "tint_rgb", mesh.tint_rgb);
+MeshInstance read_mesh(const YamlValue& value, const std::vector<Ball>& balls) {
+  MeshInstance mesh = mesh_keys().read(value);
+  if (const auto ball = YamlMap(value, mesh_keys()).find("under_ball")) stand_under(*ball, balls, mesh);
   return mesh;
 }
 
-const KeyGroup& mesh_limit_keys() {
-  static const KeyGroup keys = {
-      .keys = {
-          whole("triangles", 1, 100000000, "Triangles of a file, and of all instances in the world together.")
-              .otherwise("2000000"),
-          whole("file_mib", 1, 65536, "Size of a mesh file, in MiB.").otherwise("64"),
-          number("seconds", {1e-3, 3600.0}, "Time to read a file, in seconds.").otherwise("4"),
-          whole("memory_mib", 1, 1048576, "Memory to read a file, in MiB.").otherwise("1024"),
-          whole("texture_px", 1, 32768, "Longer side of a texture, in pixels.").otherwise("4096"),
-          whole("texture_mib", 1, 512, "All textures of the world together, as they are drawn, in MiB.")
-              .otherwise("256"),
-      }};
+const Fields<MeshLimits>& mesh_limit_keys() {
+  static const Fields<MeshLimits> keys({
+      whole("triangles", 1, 100000000, "Triangles of a file, and of all instances in the world together.")
+          .fills(&MeshLimits::triangles),
+      whole("file_mib", 1, 65536, "Size of a mesh file, in MiB.").fills(&MeshLimits::file_mib),
+      number("seconds", {1e-3, 3600.0}, "Time to read a file, in seconds.").fills(&MeshLimits::seconds),
+      whole("memory_mib", 1, 1048576, "Memory to read a file, in MiB.").fills(&MeshLimits::memory_mib),
+      whole("texture_px", 1, 32768, "Longer side of a texture, in pixels.").fills(&MeshLimits::texture_px),
+      whole("texture_mib", 1, 512, "All textures of the world together, as they are drawn, in MiB.")
+          .fills(&MeshLimits::texture_mib),
+  });
   return keys;
-}
-
-MeshLimits read_mesh_limits(const YamlValue& value) {
-  const YamlMap map(value, mesh_limit_keys());
-  MeshLimits limits;
-  limits.triangles = map.whole("triangles", limits.triangles);
-  limits.file_mib = map.whole("file_mib", limits.file_mib);
-  limits.seconds = map.number("seconds", limits.seconds);
-  limits.memory_mib = map.whole("memory_mib", limits.memory_mib);
-  limits.texture_px = map.whole("texture_px", limits.texture_px);
-  limits.texture_mib = map.whole("texture_mib", limits.texture_mib);
-  return limits;
 }
 
 }  // namespace stereobench::worlds

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -26,24 +25,6 @@ Key material(std::string_view name, std::string_view says) {
   return choice(name, {kMaterialNames.begin(), kMaterialNames.begin() + kOurMaterials}, says);
 }
 
-struct TextureKeys {
-  std::string_view texture;
-  std::string_view material;  ///< whose place it takes
-};
-
-/// A surface is of a material, or shows a picture.
-void read_surface(const YamlMap& map, const TextureKeys& keys, const std::filesystem::path& folder,
-                  Material& material, SurfaceTexture& texture) {
-  const auto value = map.find(keys.texture);
-  if (!value) {
-    material = read_choice(map, keys.material, material);
-    return;
-  }
-  if (map.find(keys.material)) value->refuse(fmt::format("expected no {} beside it", keys.material));
-  material = Material::kFile;
-  texture = read_surface_texture(*value, folder);
-}
-
 /// The materials, and that there is none.
 std::vector<std::string_view> floor_names() {
   std::vector<std::string_view> names(kMaterialNames.begin(), kMaterialNames.begin() + kOurMaterials);
@@ -51,151 +32,177 @@ std::vector<std::string_view> floor_names() {
   return names;
 }
 
-/// A floor of some material, one that shows a picture, or none.
-void read_floor(const YamlMap& map, const std::filesystem::path& folder, World& world) {
-  const auto floor = map.find("floor");
-  world.has_floor = !floor || floor->scalar() != kNoFloor;
-  if (const auto tint = map.find("floor_tint_rgb"); tint && !world.has_floor)
-    tint->refuse("expected none where `floor: none` leaves nothing to tint");
-  if (world.has_floor || map.find("floor_texture"))
-    read_surface(map, {"floor_texture", "floor"}, folder, world.floor, world.floor_texture);
-  world.floor_tint_rgb = read_vector<3>(map, "floor_tint_rgb", world.floor_tint_rgb);
-}
-
-Ball read_ball(const YamlValue& value, double usual_radius_m) {
-  const YamlMap map(value, ball_keys());
-  Ball ball;
-  ball.has_usual_radius = !map.find("radius_m");
-  ball.radius_m = map.number("radius_m", usual_radius_m);
-  ball.centre_m = read_vector<3>(map, "at_m");
-  ball.colour = map.whole("colour");
-  if (map.find("paint_rgb")) ball.paint_rgb = read_vector<3>(map, "paint_rgb");
-  if (ball.centre_m.z() < ball.radius_m) {
-    map.at("at_m").fail(fmt::format("expected a height of at least the radius {:g}", ball.radius_m));
-  }
-  return ball;
-}
-
-std::vector<Ball> read_balls(const YamlMap& world) {
-  const double usual_radius_m = read_ball_radius_m(world);
-  std::vector<Ball> balls;
-  for (const YamlValue& value : world.list("balls")) balls.push_back(read_ball(value, usual_radius_m));
-  return balls;
-}
-
 /// How large balls are made, and how exactly. Where lists of balls say another size, it is that of the first.
-void read_ball_size(const YamlMap& map, World& world) {
+void check_ball_size(const YamlMap& map, World& world) {
   const double usual_radius_m = read_ball_radius_m(map);
-  world.ball_radius_sd_m = map.number("ball_radius_sd_m", 0.0);
   if (world.ball_radius_sd_m > kMostTolerance * usual_radius_m)
     map.at("ball_radius_sd_m")
         .refuse(
             fmt::format("expected at most a tenth of ball_radius_m, {:g}", kMostTolerance * usual_radius_m));
   const double off_m = world.balls.empty() ? 0.0 : std::abs(world.balls.front().radius_m - usual_radius_m);
+  world.usual_radius_m.reset();
   if (off_m <= kMostRadiusSds * world.ball_radius_sd_m) world.usual_radius_m = usual_radius_m;
 }
 
+/// A surface is of a material, or shows a picture.
+/// @param texture the key whose picture takes the place of the key `material`
+void check_surface(const YamlMap& map, std::string_view texture, std::string_view material) {
+  if (const auto value = map.find(texture); value && map.find(material))
+    value->refuse(fmt::format("expected no {} beside it", material));
+}
+
+YAML::Node written_texture(Material material, const SurfaceTexture& texture) {
+  return material == Material::kFile ? surface_texture_keys().write(texture) : YAML::Node();
+}
+
+void read_radius(const YamlValue& value, Ball& ball) {
+  ball.radius_m = value.number(kRadius_m);
+  ball.has_usual_radius = false;
+}
+
+YAML::Node written_radius(const Ball& ball) {
+  return ball.has_usual_radius ? YAML::Node() : written(Key{}, ball.radius_m);
+}
+
+void check_ball(const YamlMap& map, Ball& ball) {
+  if (ball.centre_m.z() < ball.radius_m)
+    map.at("at_m").fail(fmt::format("expected a height of at least the radius {:g}", ball.radius_m));
+}
+
+std::vector<Ball> read_balls(const YamlMap& world) {
+  const Ball usual{.radius_m = read_ball_radius_m(world), .has_usual_radius = true};
+  std::vector<Ball> balls;
+  if (const auto list = world.find("balls"))
+    for (const YamlValue& value : list->list(1, kMostBalls))
+      ball_keys().read_into(value, balls.emplace_back(usual));
+  return balls;
+}
+
+void check_wall(const YamlMap& map, WallLine& line) {
+  for (std::size_t i = 1; i < line.corners_m.size(); ++i)
+    if (line.corners_m[i] == line.corners_m[i - 1])
+      map.at("corners_m").list(2, kMostWalls)[i].refuse("expected another corner than the one before");
+  check_surface(map, "texture", "material");
+}
+
 /// One line of corners is a wall from each corner to the next.
-void append_walls(const YamlValue& value, const std::filesystem::path& folder, std::vector<Wall>& walls) {
-  const YamlMap map(value, wall_keys());
-  std::vector<Eigen::Vector2d> corners_m;
-  for (const YamlValue& corner : map.list("corners_m")) {
-    corners_m.push_back(read_vector<2>(corner, kPlace_m));
-    const std::size_t n = corners_m.size();
-    if (n > 1 && corners_m[n - 1] == corners_m[n - 2])
-      corner.refuse("expected another corner than the one before");
-  }
-  if (map.flag("closed", false)) corners_m.push_back(corners_m.front());
-  Wall wall;
-  wall.height_m = map.number("height_m", wall.height_m);
-  wall.tint_rgb = read_vector<3>(map, "tint_rgb", wall.tint_rgb);
-  read_surface(map, {"texture", "material"}, folder, wall.material, wall.texture);
+void append_walls(const WallLine& line, std::vector<Wall>& walls) {
+  std::vector<Eigen::Vector2d> corners_m = line.corners_m;
+  if (line.closed) corners_m.push_back(corners_m.front());
   for (std::size_t i = 0; i + 1 < corners_m.size(); ++i) {
-    wall.from_m = corners_m[i];
-    wall.to_m = corners_m[i + 1];
-    walls.push_back(wall);
+    walls.push_back(line.wall);
+    walls.back().from_m = corners_m[i];
+    walls.back().to_m = corners_m[i + 1];
   }
 }
 
-Light read_light(const YamlValue& value) {
-  const YamlMap map(value, light_keys());
-  Light light;
-  light.towards_light = read_vector<3>(map, "towards_light", light.towards_light);
+void check_light(const YamlMap& map, Light& light) {
   if (light.towards_light.norm() < 1e-6)
     map.at("towards_light").refuse("expected a direction (got a vector of length 0)");
-  light.ambient = map.number("ambient", light.ambient);
-  light.diffuse = map.number("diffuse", light.diffuse);
-  return light;
 }
 
-TextureSearch read_texture_search(const YamlMap& world, const std::filesystem::path& folder) {
-  TextureSearch search;
-  for (const YamlValue& value : world.list("texture_folders")) {
-    const std::filesystem::path path = std::filesystem::absolute(folder / value.text()).lexically_normal();
-    if (!std::filesystem::is_directory(path)) value.fail("expected a folder that exists");
-    search.folders.push_back(path.string());
+void read_texture_folders(const YamlValue& list, World& world) {
+  for (const YamlValue& value : list.list(1, kMostFolders)) {
+    if (!std::filesystem::is_directory(value.path())) value.fail("expected a folder that exists");
+    world.texture_search.folders.push_back(value.path().string());
   }
-  search.missing = read_choice(world, "missing_texture", search.missing);
-  return search;
+}
+
+/// A floor of some material, or none.
+void read_floor(const YamlValue& value, World& world) {
+  world.has_floor = value.scalar() != kNoFloor;
+  if (world.has_floor) world.floor = static_cast<Material>(value.choice(floor_names()));
+}
+
+YAML::Node written_floor(const World& world) {
+  if (!world.has_floor) return YAML::Node(std::string(kNoFloor));
+  if (world.floor == Material::kFile) return {};
+  return YAML::Node(std::string(kMaterialNames[static_cast<std::size_t>(world.floor)]));
+}
+
+void check_world(const YamlMap& map, World& world) {
+  if (const auto tint = map.find("floor_tint_rgb"); tint && !world.has_floor)
+    tint->refuse("expected none where `floor: none` leaves nothing to tint");
+  check_surface(map, "floor_texture", "floor");
 }
 
 }  // namespace
 
-const KeyGroup& ball_keys() {
-  static const KeyGroup keys = {
-      .keys = {
+const Fields<Ball>& ball_keys() {
+  static const Fields<Ball> keys(
+      {
           whole("colour", 0, static_cast<int>(vision::kPalette.size()) - 1, "Index into the palette.")
-              .needed(),
-          number("at_m", kPlace_m, "Its centre in the world: x, y, z in metres.").vector(3).needed(),
-          number("radius_m", kRadius_m, "Its radius, in metres.").otherwise_as("world.ball_radius_m"),
+              .needed()
+              .fills(&Ball::colour),
+          number("at_m", kPlace_m, "Its centre in the world: x, y, z in metres.")
+              .needed()
+              .fills(&Ball::centre_m),
+          number("radius_m", kRadius_m, "Its radius, in metres.")
+              .otherwise_as("world.ball_radius_m")
+              .by<Ball>(read_radius, written_radius),
           number("paint_rgb", kShare,
                  "Its red, green and blue under full light, where they are not the palette's.")
-              .vector(3)
-              .otherwise_says("the palette's colour"),
-      }};
+              .otherwise_says("the palette's colour")
+              .fills(&Ball::paint_rgb),
+      },
+      check_ball);
   return keys;
 }
 
-const KeyGroup& wall_keys() {
-  static const KeyGroup keys = {
-      .keys = {
+const Fields<WallLine>& wall_keys() {
+  static const Fields<WallLine> keys(
+      {
           number("corners_m", kPlace_m, "A wall stands from each corner to the next: x, y in metres.")
               .list(2, kMostWalls, 2)
-              .needed(),
-          flag("closed", "Whether a wall leads from the last corner to the first.").otherwise("false"),
-          number("height_m", kSize_m, "Height, in metres.").otherwise("2.5"),
-          material("material", "What it is made of.").otherwise("plaster"),
+              .needed()
+              .fills(&WallLine::corners_m),
+          flag("closed", "Whether a wall leads from the last corner to the first.")
+              .written_if_changed()
+              .fills(&WallLine::closed),
+          number("height_m", kSize_m, "Height, in metres.").fills(&WallLine::wall, &Wall::height_m),
+          material("material", "What it is made of.").fills(&WallLine::wall, &Wall::material),
           number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
-              .vector(3)
-              .otherwise("[1, 1, 1]"),
-          group("texture", surface_texture_keys(), "A picture in place of the material."),
-      }};
+              .written_if_changed()
+              .fills(&WallLine::wall, &Wall::tint_rgb),
+          group("texture", surface_texture_keys(), "A picture in place of the material.")
+              .by<WallLine>(
+                  [](const YamlValue& value, WallLine& line) {
+                    line.wall.material = Material::kFile;
+                    surface_texture_keys().read_into(value, line.wall.texture);
+                  },
+                  [](const WallLine& line) {
+                    return written_texture(line.wall.material, line.wall.texture);
+                  }),
+      },
+      check_wall);
   return keys;
 }
 
-const KeyGroup& light_keys() {
-  static const KeyGroup keys = {
-      .keys = {
+const Fields<Light>& light_keys() {
+  static const Fields<Light> keys(
+      {
           number("towards_light", kPlace_m, "Direction towards the light: x, y, z of any length.")
-              .vector(3)
-              .otherwise("[0.3, 0.2, 0.9]"),
-          number("ambient", kShare, "Light that comes from everywhere.").otherwise("0.45"),
-          number("diffuse", kShare, "Light that falls at a right angle.").otherwise("0.55"),
-      }};
+              .fills(&Light::towards_light),
+          number("ambient", kShare, "Light that comes from everywhere.").fills(&Light::ambient),
+          number("diffuse", kShare, "Light that falls at a right angle.").fills(&Light::diffuse),
+      },
+      check_light);
   return keys;
 }
 
-const KeyGroup& world_keys() {
-  static const KeyGroup keys = {
-      .keys = {
+const Fields<World>& world_keys() {
+  static const Fields<World> keys(
+      {
           group("generator", generator_keys(), "Makes balls and walls in place of lists of them.")
               .otherwise_says("balls"),
           number("ball_radius_m", kRadius_m, "Radius of balls that do not say theirs, in metres.")
-              .otherwise("0.05"),
+              .by<World>([](const YamlValue& value,
+                            World& world) { world.usual_radius_m = value.number(kRadius_m); },
+                         [](const World& world) { return written(Key{}, world.ball_radius_m()); }),
           number("ball_radius_sd_m", kTolerance_m,
                  "Tolerance of manufacture: standard deviation of the radii of balls that do not say theirs, "
                  "in metres; 0 is exactly known.")
-              .otherwise("0"),
+              .fills(&World::ball_radius_sd_m),
           group("balls", ball_keys(), "The landmarks; a ball's place in the list is its identity.")
               .list(1, kMostBalls)
               .needed_unless("generator"),
@@ -203,49 +210,55 @@ const KeyGroup& world_keys() {
               .list(0, kMostWalls),
           group("meshes", mesh_keys(), "Things from mesh files, boxes and balls that are no landmarks.")
               .list(0, kMostWalls),
-          group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost."),
+          group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost.").fills(&World::mesh_limits),
           text("texture_folders",
                "Folders, relative to the scenario's, in which textures of mesh files may also lie.")
               .list(1, kMostFolders)
-              .otherwise_says("beside the mesh file and in its ../materials/textures alone"),
+              .otherwise_says("beside the mesh file and in its ../materials/textures alone")
+              .by<World>(read_texture_folders),
           choice("missing_texture", {"error", "grey"},
                  "What becomes of a mesh whose texture is nowhere: an error, or grey in its place.")
-              .otherwise("error"),
+              .fills(&World::texture_search, &TextureSearch::missing),
           choice("floor", floor_names(), "What the floor is made of; none: nothing is seen in its place.")
-              .otherwise("tiles"),
+              .by<World>(read_floor, written_floor),
           number("floor_tint_rgb", kTint, "Factors on the floor's red, green and blue.")
-              .vector(3)
-              .otherwise("[1, 1, 1]"),
-          group("floor_texture", surface_texture_keys(), "A picture in place of `floor`."),
-          group("light", light_keys(), "Sunlight without shadows."),
-          number("sky_rgb", kShare, "Colour of what is nothing: red, green, blue.")
-              .vector(3)
-              .otherwise("[0.75, 0.78, 0.8]"),
-      }};
+              .fills(&World::floor_tint_rgb),
+          group("floor_texture", surface_texture_keys(), "A picture in place of `floor`.")
+              .by<World>(
+                  [](const YamlValue& value, World& world) {
+                    world.floor = Material::kFile;
+                    surface_texture_keys().read_into(value, world.floor_texture);
+                  },
+                  [](const World& world) { return written_texture(world.floor, world.floor_texture); }),
+          group("light", light_keys(), "Sunlight without shadows.").fills(&World::light),
+          number("sky_rgb", kShare, "Colour of what is nothing: red, green, blue.").fills(&World::sky_rgb),
+      },
+      check_world);
   return keys;
 }
 
 double read_ball_radius_m(const YamlMap& world) {
-  return world.number("ball_radius_m", Ball{}.radius_m);
+  const auto radius = world.find("ball_radius_m");
+  return radius ? radius->number(kRadius_m) : Ball{}.radius_m;
 }
 
-World read_world(const YamlMap& map, const std::filesystem::path& folder) {
+World read_world(const YamlValue& value) {
   World world;
+  const YamlMap map(value, world_keys());
   if (const auto generator = map.find("generator")) {
     if (map.find("balls") || map.find("walls"))
       generator->refuse("expected no lists of balls and walls beside it: it makes them");
   } else {
     world.balls = read_balls(map);
   }
-  read_ball_size(map, world);
-  for (const YamlValue& wall : map.list("walls")) append_walls(wall, folder, world.walls);
-  for (const YamlValue& mesh : map.list("meshes"))
-    world.meshes.push_back(read_mesh(mesh, folder, world.balls));
-  if (const auto limits = map.find("mesh_limits")) world.mesh_limits = read_mesh_limits(*limits);
-  world.texture_search = read_texture_search(map, folder);
-  read_floor(map, folder, world);
-  if (const auto light = map.find("light")) world.light = read_light(*light);
-  world.sky_rgb = read_vector<3>(map, "sky_rgb", world.sky_rgb);
+  world_keys().read_into(value, world);
+  check_ball_size(map, world);
+  if (const auto walls = map.find("walls"))
+    for (const YamlValue& line : walls->list(0, kMostWalls))
+      append_walls(wall_keys().read(line), world.walls);
+  if (const auto meshes = map.find("meshes"))
+    for (const YamlValue& mesh : meshes->list(0, kMostWalls))
+      world.meshes.push_back(read_mesh(mesh, world.balls));
   return world;
 }
 

@@ -1,11 +1,7 @@
 #include "worlds/scenario/write_scenario.h"
 
-#include <span>
-
-#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include "slam/math/angles.h"
 #include "worlds/scenario/generator.h"
 #include "worlds/scenario/scenario.h"
 #include "worlds/scenario/scenario_parts.h"
@@ -13,94 +9,33 @@
 namespace stereobench::worlds {
 namespace {
 
-/// A number as the fewest digits that are read back as it.
-std::string digits(double number) {
-  return fmt::format("{}", number);
-}
-
-template <typename Vector>
-YAML::Node list_of(const Vector& vector) {
-  YAML::Node list;
-  for (Eigen::Index i = 0; i < vector.size(); ++i) list.push_back(digits(vector[i]));
-  list.SetStyle(YAML::EmitterStyle::Flow);
-  return list;
-}
-
-std::string name_of(Material material) {
-  return std::string(kMaterialNames[static_cast<std::size_t>(material)]);
-}
-
-bool is_tinted(const Eigen::Vector3d& tint_rgb) {
-  return tint_rgb != Eigen::Vector3d::Ones();
-}
-
-YAML::Node lines_of(const SurfaceTexture& texture) {
-  YAML::Node node;
-  node["file"] = texture.file;
-  node["tile_m"] = digits(texture.tile_m);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
-}
-
-/// @param is_made whether its radius is what it is, and not to be drawn
-YAML::Node lines_of(const Ball& ball, bool is_made) {
-  YAML::Node node;
-  node["colour"] = ball.colour;
-  node["at_m"] = list_of(ball.centre_m);
-  if (is_made) node["radius_m"] = digits(ball.radius_m);
-  if (ball.paint_rgb) node["paint_rgb"] = list_of(*ball.paint_rgb);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
-}
-
 YAML::Node lines_of(const Wall& wall) {
-  YAML::Node node;
-  node["corners_m"].push_back(list_of(wall.from_m));
-  node["corners_m"].push_back(list_of(wall.to_m));
-  node["height_m"] = digits(wall.height_m);
-  if (wall.material == Material::kFile)
-    node["texture"] = lines_of(wall.texture);
-  else
-    node["material"] = name_of(wall.material);
-  if (is_tinted(wall.tint_rgb)) node["tint_rgb"] = list_of(wall.tint_rgb);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
+  return wall_keys().write({.corners_m = {wall.from_m, wall.to_m}, .wall = wall});
 }
 
-/// A shape that stands upright, as things that are scattered do.
-YAML::Node lines_of(const MeshInstance& mesh) {
-  YAML::Node node;
-  node["shape"] = std::string(kShapeNames[static_cast<std::size_t>(mesh.shape) - 1]);
-  node["at_m"] = list_of(mesh.position_m);
-  node["heading_deg"] = digits(mesh.heading_rad / slam::kRadPerDegree);
-  node["scale"] = list_of(mesh.scale);
-  node["material"] = name_of(mesh.material);
-  node["tint_rgb"] = list_of(mesh.tint_rgb);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
-}
-
-template <typename Things>
-YAML::Node list_of_lines(const Things& things) {
+YAML::Node list_of_walls(const World& world) {
   YAML::Node list(YAML::NodeType::Sequence);
-  for (const auto& thing : things) list.push_back(lines_of(thing));
+  for (const Wall& wall : world.walls) list.push_back(lines_of(wall));
   return list;
 }
 
+/// The radius of a ball is said unless it is to be drawn.
 YAML::Node list_of_balls(const World& world) {
   YAML::Node list(YAML::NodeType::Sequence);
-  for (const Ball& ball : world.balls)
-    list.push_back(lines_of(ball, !ball.has_usual_radius || world.ball_radius_sd_m == 0.0));
+  for (Ball ball : world.balls) {
+    ball.has_usual_radius = ball.has_usual_radius && world.ball_radius_sd_m != 0.0;
+    list.push_back(ball_keys().write(ball));
+  }
   return list;
 }
 
 void write_tour(const Layout& layout, YAML::Node path) {
   path["kind"] = "polyline";
   YAML::Node points;
-  for (const Eigen::Vector2d& point : layout.tour_m) points.push_back(list_of(point));
+  for (const Eigen::Vector2d& point : layout.tour_m) points.push_back(written(Key{}, point));
   path["points_m"] = points;
   path["closed"] = layout.closed;
-  if (!path["corner_radius_m"]) path["corner_radius_m"] = digits(layout.corner_radius_m);
+  if (!path["corner_radius_m"]) path["corner_radius_m"] = written(Key{}, layout.corner_radius_m);
 }
 
 /// The generator that a scenario's text names, made again.
@@ -114,30 +49,22 @@ void write_generated(const YamlDocument& document, const World& world, YAML::Nod
   YAML::Node path = document.root["path"];
   if (path["kind"].as<std::string>() == "tour") write_tour(layout_of(document), path);
   lines.remove("generator");
-  if (!world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
+  if (!world.walls.empty()) lines["walls"] = list_of_walls(world);
   lines["balls"] = list_of_balls(world);
 }
 
 /// Says what a seed has made of the world. @param meshes how many of its meshes have lines already
 void write_drawn(const Randomisation& randomise, const World& world, std::size_t meshes, YAML::Node lines) {
   lines["balls"] = list_of_balls(world);
-  if (randomise.walls && !world.walls.empty()) lines["walls"] = list_of_lines(world.walls);
+  if (randomise.walls && !world.walls.empty()) lines["walls"] = list_of_walls(world);
   if (randomise.floor) {
     lines.remove("floor");
     lines.remove("floor_texture");
-    if (world.floor == Material::kFile)
-      lines["floor_texture"] = lines_of(world.floor_texture);
-    else
-      lines["floor"] = name_of(world.floor);
-    lines["floor_tint_rgb"] = list_of(world.floor_tint_rgb);
+    world_keys().write_into(lines, world, {"floor", "floor_texture", "floor_tint_rgb"});
   }
-  if (randomise.light) {
-    lines["light"]["towards_light"] = list_of(world.light.towards_light);
-    lines["light"]["ambient"] = digits(world.light.ambient);
-    lines["light"]["diffuse"] = digits(world.light.diffuse);
-  }
+  if (randomise.light) light_keys().write_into(lines["light"], world.light);
   for (std::size_t i = meshes; i < world.meshes.size(); ++i)
-    lines["meshes"].push_back(lines_of(world.meshes[i]));
+    lines["meshes"].push_back(mesh_keys().write(world.meshes[i]));
 }
 
 void name_file_from_anywhere(const std::filesystem::path& folder, YAML::Node named) {

@@ -78,12 +78,6 @@ Key Key::only_for(std::vector<std::string_view> some_kinds) const {
   return key;
 }
 
-Key Key::otherwise(std::string_view value) const {
-  Key key = *this;
-  key.fallback = value;
-  return key;
-}
-
 Key Key::otherwise_says(std::string_view words) const {
   Key key = *this;
   key.fallback_says = words;
@@ -93,6 +87,24 @@ Key Key::otherwise_says(std::string_view words) const {
 Key Key::otherwise_as(std::string_view path) const {
   Key key = *this;
   key.same_as = path;
+  return key;
+}
+
+Key Key::written_if_changed() const {
+  Key key = *this;
+  key.omits_default = true;
+  return key;
+}
+
+Key Key::times(double factor) const {
+  Key key = *this;
+  key.unit = factor;
+  return key;
+}
+
+Key Key::starting_at(int enumerator) const {
+  Key key = *this;
+  key.first = enumerator;
   return key;
 }
 

@@ -1,13 +1,19 @@
 /// What the keys of a scenario file are.
 ///
-/// Each key is declared once, beside the code that reads it. Readers take ranges, names and lengths from the
-/// declaration; complaints about unknown and missing keys and the JSON Schema are made of it.
+/// Each key is declared once, with the member of a struct that it fills (fields.h). Readers and writers walk
+/// the table; complaints about unknown and missing keys, the JSON Schema and the reference page are made of
+/// it.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace YAML {
+class Node;
+}
 
 namespace stereobench::worlds {
 
@@ -20,6 +26,9 @@ struct Interval {
 enum class ValueKind { kNumber, kWhole, kText, kFlag, kChoice, kGroup };
 
 struct KeyGroup;
+class YamlValue;
+template <class Struct>
+struct Field;
 
 /// How many values a key takes: one, a list of them, or either.
 struct Lengths {
@@ -35,7 +44,9 @@ struct Key {
   ValueKind kind = ValueKind::kNumber;
   std::string says;                     ///< one sentence: what it is
   Interval within = {};                 ///< of kNumber and kWhole
+  double unit = 1.0;                    ///< of kNumber: the value of 1 in the member's unit
   std::vector<std::string_view> names;  ///< of kChoice
+  int first = 0;                        ///< of kChoice: the enumerator that the first name stands for
   std::string_view pattern;             ///< of kText: a regular expression, or empty
   const KeyGroup* group = nullptr;      ///< of kGroup
   Lengths lengths;
@@ -45,18 +56,31 @@ struct Key {
   std::string_view alternative;                ///< the key that may stand in place of this required one
   std::string fallback;                        ///< its value where it is left out, as YAML
   std::string fallback_says;                   ///< the same in words, where it is no constant
-  std::string_view same_as;                    ///< path of the key whose value it has where it is left out
+  std::string same_as;                         ///< path of the key whose value it has where it is left out
+  bool omits_default = false;                  ///< is written only where its value is not the default
 
   Key needed() const;                                              ///< required, whatever the kind
   Key needed_unless(std::string_view other) const;                 ///< required where `other` is left out
   Key needed_for(std::vector<std::string_view> some_kinds) const;  ///< required for these kinds
   Key only_for(std::vector<std::string_view> some_kinds) const;    ///< unknown to other kinds
-  Key otherwise(std::string_view value) const;                     ///< a constant default, as YAML
   Key otherwise_says(std::string_view words) const;                ///< a default that depends on other things
   Key otherwise_as(std::string_view path) const;                   ///< the value of another key
+  Key written_if_changed() const;                                  ///< left out of what is written, else
+  Key times(double factor) const;                                  ///< its member holds factor x the number
+  Key starting_at(int enumerator) const;                           ///< that its first name stands for
   Key vector(std::size_t length) const;                            ///< a list of exactly so many
   Key or_vector(std::size_t length) const;                         ///< one value, or a list of so many
   Key list(std::size_t least, std::size_t most, std::size_t inner = 0) const;
+
+  /// The member of a struct that holds the value, whose initialiser is the default.
+  /// @param inner the way on, where the member is a struct: `fills(&Rig::camera, &Camera::focal_px)`
+  template <class Struct, class Outer, class... Inner>
+  Field<Struct> fills(Outer Struct::*outer, Inner... inner) const;
+  /// A value that is no plain member: how it is read, and how it is written.
+  /// @param write a null node where the key is to be left out; without it, it always is
+  template <class Struct>
+  Field<Struct> by(std::function<void(const YamlValue&, Struct&)> read,
+                   std::function<YAML::Node(const Struct&)> write = {}) const;
 };
 
 Key number(std::string_view name, const Interval& within, std::string_view says);
@@ -68,6 +92,11 @@ Key group(std::string_view name, const KeyGroup& keys, std::string_view says);
 
 /// The keys that stand together below one key.
 struct KeyGroup {
+  KeyGroup() = default;
+  KeyGroup(const KeyGroup&) = delete;  // keys above refer to it
+  KeyGroup& operator=(const KeyGroup&) = delete;
+  virtual ~KeyGroup() = default;
+
   std::string_view kind_key;  ///< the key whose value is the group's kind; empty: there are no kinds
   std::vector<Key> keys;
 

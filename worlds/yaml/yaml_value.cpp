@@ -61,6 +61,10 @@ std::string YamlValue::text() const {
   return node_.Scalar();
 }
 
+std::filesystem::path YamlValue::path() const {
+  return std::filesystem::absolute(folder() / text()).lexically_normal();
+}
+
 bool YamlValue::flag() const {
   if (!is_plain_scalar(node_) || (node_.Scalar() != "true" && node_.Scalar() != "false")) {
     fail("expected true or false");

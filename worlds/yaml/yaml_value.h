@@ -26,6 +26,10 @@ class YamlValue {
   int integer(int least, int most) const;
   /// Text that is not empty.
   std::string text() const;
+  /// The folder of the document.
+  std::filesystem::path folder() const { return document_->file.parent_path(); }
+  /// The file or folder that text names, relative to the document's folder: absolute.
+  std::filesystem::path path() const;
   /// `true` or `false`.
   bool flag() const;
   /// The index of the one of `names` that is written here.
@@ -60,17 +64,16 @@ class YamlValue {
   YAML::Mark mark_;
 };
 
-/// A group of keys, read as it is declared: ranges, names and lengths are those of the declaration.
+/// A group of keys.
 ///
 /// `check_keys` has made sure that no key is unknown, repeated or missing. Asking for a key that is not
-/// declared, or with another default than the declared one, throws a std::logic_error.
+/// declared throws a std::logic_error.
 class YamlMap {
  public:
   YamlMap(const YamlValue& value, const KeyGroup& group);
 
-  /// What is declared of a key.
-  const Key& declared(std::string_view key) const;
-
+  /// The group itself.
+  const YamlValue& value() const { return value_; }
   /// All keys that are written, in their order.
   std::vector<std::pair<std::string, YamlValue>> entries() const;
 
@@ -79,23 +82,7 @@ class YamlMap {
   /// The value of a key that must be there.
   YamlValue at(std::string_view key) const;
 
-  /// A number: required, or `fallback` where the key is left out.
-  double number(std::string_view key, std::optional<double> fallback = {}) const;
-  /// A whole number, likewise.
-  int whole(std::string_view key, std::optional<int> fallback = {}) const;
-  /// `true` or `false`.
-  bool flag(std::string_view key, bool fallback) const;
-  /// The place of the written name among the declared ones.
-  std::size_t choice(std::string_view key, std::optional<std::size_t> fallback = {}) const;
-  /// The numbers of a list, or of a single number as often as there may be entries.
-  std::vector<double> numbers(std::string_view key, std::vector<double> fallback = {}) const;
-  /// The places of written names among the declared ones, each once.
-  std::vector<std::size_t> choices(std::string_view key, std::vector<std::size_t> fallback = {}) const;
-  /// The entries of a list of the declared length; none where the key is left out.
-  std::vector<YamlValue> list(std::string_view key) const;
-
  private:
-  std::optional<YamlValue> find_needed(std::string_view key, bool has_fallback) const;
   YamlValue value_;
   const KeyGroup* group_;
 };

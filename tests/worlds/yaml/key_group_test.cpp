@@ -114,9 +114,8 @@ TEST(DeclaredKeys, AreAllRead) {
   EXPECT_GT(keys, 200U);
 }
 
-// What people are told of a default: each key that may be left out says what it is then. That constants are
-// what readers take is checked at every reading (YamlMap), here with all groups there and as small as may be.
-// Mutations: a default changed in one place alone; one that is not declared.
+// What people are told of a default: each key that may be left out says what it is then. Constants are those
+// that members start with (fields_test.cpp). Mutation: a key that says nothing.
 TEST(DeclaredKeys, SayWhatTheyAreWhenLeftOut) {
   const ScenarioFolder folder;
   std::string text = small_scenario_with("  floor: bricks\n", "");
@@ -129,7 +128,7 @@ TEST(DeclaredKeys, SayWhatTheyAreWhenLeftOut) {
           << path_of(context, key->name);
       EXPECT_THAT(key->says, EndsWith(".")) << path_of(context, key->name);
     }
-    EXPECT_NO_THROW({  // a std::logic_error where reader and declaration differ
+    EXPECT_NO_THROW({  // a std::logic_error where a reader asks for what is not declared
       complaints_about(file, overrides_of(context, minimal(*context.group, context.kind)));
     }) << context.path;
   }
