@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace YAML {
@@ -59,18 +60,34 @@ struct Key {
   std::string same_as;                         ///< path of the key whose value it has where it is left out
   bool omits_default = false;                  ///< is written only where its value is not the default
 
-  Key needed() const;                                              ///< required, whatever the kind
-  Key needed_unless(std::string_view other) const;                 ///< required where `other` is left out
-  Key needed_for(std::vector<std::string_view> some_kinds) const;  ///< required for these kinds
-  Key only_for(std::vector<std::string_view> some_kinds) const;    ///< unknown to other kinds
-  Key otherwise_says(std::string_view words) const;                ///< a default that depends on other things
-  Key otherwise_as(std::string_view path) const;                   ///< the value of another key
-  Key written_if_changed() const;                                  ///< left out of what is written, else
-  Key times(double factor) const;                                  ///< its member holds factor x the number
-  Key starting_at(int enumerator) const;                           ///< that its first name stands for
-  Key vector(std::size_t length) const;                            ///< a list of exactly so many
-  Key or_vector(std::size_t length) const;                         ///< one value, or a list of so many
-  Key list(std::size_t least, std::size_t most, std::size_t inner = 0) const;
+  using Kinds = std::vector<std::string_view>;
+
+  /// Required, whatever the kind.
+  Key needed() const { return with(&Key::required, true); }
+  /// Required where `other` is left out.
+  Key needed_unless(std::string_view other) const { return needed().with(&Key::alternative, other); }
+  /// Required for these kinds.
+  Key needed_for(const Kinds& some_kinds) const { return with(&Key::required_for, some_kinds); }
+  /// Unknown to other kinds.
+  Key only_for(const Kinds& some_kinds) const { return with(&Key::kinds, some_kinds); }
+  /// A default that depends on other things, in words.
+  Key otherwise_says(const std::string& words) const { return with(&Key::fallback_says, words); }
+  /// The value of another key.
+  Key otherwise_as(const std::string& path) const { return with(&Key::same_as, path); }
+  /// Left out of what is written where its value is the default.
+  Key written_if_changed() const { return with(&Key::omits_default, true); }
+  /// Its member holds factor x the number.
+  Key times(double factor) const { return with(&Key::unit, factor); }
+  /// A list of exactly so many.
+  Key vector(std::size_t length) const { return list(length, length); }
+  /// One value, or a list of so many.
+  Key or_vector(std::size_t length) const { return with(&Key::lengths, {true, length, length, 0}); }
+  /// @param inner not 0: each entry is a list of so many
+  Key list(std::size_t least, std::size_t most, std::size_t inner = 0) const {
+    return with(&Key::lengths, {false, least, most, inner});
+  }
+  /// The enumerator that the first name stands for.
+  Key starting_at(int enumerator) const { return with(&Key::first, enumerator); }
 
   /// The member of a struct that holds the value, whose initialiser is the default.
   /// @param inner the way on, where the member is a struct: `fills(&Rig::camera, &Camera::focal_px)`
@@ -81,6 +98,14 @@ struct Key {
   template <class Struct>
   Field<Struct> by(std::function<void(const YamlValue&, Struct&)> read,
                    std::function<YAML::Node(const Struct&)> write = {}) const;
+
+  /// The same key with one thing changed.
+  template <class Value>
+  Key with(Value Key::*what, const std::type_identity_t<Value>& value) const {
+    Key key = *this;
+    key.*what = value;
+    return key;
+  }
 };
 
 Key number(std::string_view name, const Interval& within, std::string_view says);
