@@ -36,8 +36,8 @@ TEST(Rectification, TakesPointsToWhereTheyWereTaken) {
       const Eigen::Vector3d in_camera = camera_point(rig, point, side);
       const Eigen::Vector2d taken = image_point(rig, in_camera);
       const auto undistorted = pinhole_point(rig, taken);
-      const bool in_view = is_inside(rig.intrinsics, taken) && straight &&
-                           (*straight - project(rig.intrinsics, in_camera)).norm() < 1e-6;
+      const bool in_view = is_inside(rig.intrinsics, taken) && undistorted &&
+                           (*undistorted - project(rig.intrinsics, in_camera)).norm() < 1e-6;
       if (!in_view) continue;
       ++seen;
       const Eigen::Vector2d rectified =
@@ -62,7 +62,8 @@ TEST(Rectification, GoesStraightOnBeyondThePicture) {
     const Eigen::Vector3d ray = pixel_ray(undistorted.rig().intrinsics, at);
     const CameraModel right = cameras_of(rig)[1];
     EXPECT_LT((undistorted.taken_px(at, Side::kRight) - image_point(right, ray)).norm(), 1e-9) << i;
-    const double step_px = distorted.taken_px(next, Side::kRight).x() - bent.taken_px(at, Side::kRight).x();
+    const double step_px =
+        distorted.taken_px(next, Side::kRight).x() - distorted.taken_px(at, Side::kRight).x();
     EXPECT_GT(step_px, 0.0) << i;
     EXPECT_LT(step_px, 2.0) << i;
   }
