@@ -68,7 +68,7 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const worlds::Scenario& scenario, const std::string& pixels,
-                                   std::size_t snapshots) {
+                                   const SeedParts& parts) {
   worlds::Scenario any_seed = scenario;
   any_seed.seeds = {0};
   std::vector<std::string> overrides = more_overrides;
@@ -77,9 +77,11 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                      renderer::name_of(arguments.backend), scenario.detector.command);
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : scenario.seeds) {
-    const std::size_t drawn = seed == scenario.seeds.front() ? snapshots : 0;
-    tasks.push_back({&scenario, seed, drawn, arguments.backend});
-    tasks.back().key = sha256_of(fmt::format("{} seed {} snapshots {}", basis, seed, drawn));
+    const bool is_first = seed == scenario.seeds.front();
+    const SeedParts wanted = is_first ? parts : SeedParts{.steps = parts.steps};
+    tasks.push_back({&scenario, seed, wanted, arguments.backend});
+    tasks.back().key = sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {}", basis, seed,
+                                             wanted.steps, wanted.map, wanted.snapshots));
   }
   return tasks;
 }
@@ -88,14 +90,15 @@ KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kFile) {
   remove_leftovers_in(out);
 }
 
-void KeptDrives::complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
+void KeptDrives::complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
+                          const OnSeed& on_seed) {
   const auto kept =
       std::ranges::count_if(tasks, [&](const DriveTask& task) { return store_.holds(task.key); });
   if (kept > 0)
     note(fmt::format("{}: {} of {} drives are taken over from a run that was interrupted", what, kept,
                      tasks.size()));
   say_that_work_is_kept();
-  drive_into(store_, tasks, jobs, what);
+  drive_into(store_, tasks, jobs, what, on_seed);
 }
 
 }  // namespace stereobench::harness

@@ -3,14 +3,13 @@
 
 #include <filesystem>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "harness/commands/scenario_arguments.h"
 #include "harness/io/answer_store.h"
 #include "harness/run/provenance.h"
-#include "harness/run/seed_drive.h"
+#include "harness/run/seed_result.h"
 
 namespace stereobench::harness {
 
@@ -30,11 +29,11 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
 
 /// One task a seed of a scenario, with its key. The outcome of a drive depends neither on the other seeds nor
 /// on gates, and so does the key.
-/// @param snapshots of the first seed
+/// @param parts wanted of each seed; the map and the snapshots of the first alone
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const worlds::Scenario& scenario, const std::string& pixels,
-                                   std::size_t snapshots);
+                                   const SeedParts& parts);
 
 /// The store of an output folder. What a killed program left half-written there is removed.
 /// @throws std::runtime_error when another process is writing there
@@ -42,8 +41,9 @@ class KeptDrives {
  public:
   explicit KeptDrives(const std::filesystem::path& out);
   /// Drives what is missing, and says how much is not.
-  void complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
-  std::vector<SeedDrive> of(std::span<const DriveTask> tasks) const { return drives_in(store_, tasks); }
+  /// @param on_seed told of all results in the order of the tasks (drive_into)
+  void complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
+                const OnSeed& on_seed);
   /// The results are written: the drives are no longer needed.
   void discard() { store_.remove(); }
 

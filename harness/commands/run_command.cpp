@@ -12,12 +12,11 @@
 #include "harness/regression/gates.h"
 #include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
-#include "harness/run/seed_drive.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr std::size_t kSnapshots = 4;
+constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4};
 
 int run(const ScenarioArguments& arguments) {
   const worlds::Scenario scenario = read_scenario(arguments);
@@ -34,17 +33,18 @@ int run(const ScenarioArguments& arguments) {
   prepare_output_folder(out);
   KeptDrives kept(out);
   const std::string pixels = pixels_of(scenario, arguments.backend);
-  const auto tasks = drive_tasks(arguments, {}, scenario, pixels, kSnapshots);
-  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name);
-  const std::vector<SeedDrive> drives = kept.of(tasks);
-  warn_of_blur(scenario.shutter, blur_of(drives));
-  RunResult result = assemble(scenario.name, rendered_by(scenario, arguments.backend), drives);
+  const auto tasks = drive_tasks(arguments, {}, scenario, pixels, kParts);
+  RunOutput output(out, RunTally(scenario.name, rendered_by(scenario, arguments.backend)));
+  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name,
+                [&](std::size_t, const SeedResult& seed) { output.add(seed); });
+  RunResult result = output.result();
+  warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
   result.made_from = provenance_of(arguments, {}, scenario, pixels);
-  write_run(out, result, drives, scenario.world.walls);
+  output.write(result, scenario.world.walls);
   const std::string draws = draws_jsonl(scenario, scenario.seeds);
   if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   kept.discard();
-  fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, drives.size(), drives.size() == 1 ? "" : "s",
+  fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",
              scenario.path.size(), result_table(result));
   const auto broken = broken_gates(run_json(result), gates);
   say_gates(gate_report(broken, gates.size()), !broken.empty());

@@ -19,8 +19,7 @@
 #include "harness/run/detections_file.h"
 #include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
-#include "harness/run/seed_drive.h"
-#include "harness/run/serialise.h"
+#include "harness/run/seed_result.h"
 #include "harness/scoring/association_score.h"
 #include "harness/scoring/references.h"
 #include "slam/filter_registry.h"
@@ -57,29 +56,25 @@ std::string name_of(const std::filesystem::path& log) {
   return absolute.has_filename() ? absolute.stem().string() : absolute.parent_path().filename().string();
 }
 
-/// Replays the log with each filter, once a seed, in several processes.
-std::vector<SeedDrive> replay_seeds(const MeasurementLog& log, const SlamArguments& arguments) {
+/// Replays the log with each filter, once a seed, in several processes, which score what they replayed.
+void replay_seeds(const MeasurementLog& log, const SlamArguments& arguments, RunOutput& output) {
   const RunArguments& run = arguments.run;
-  const auto replay_seed = [&](std::size_t index, const std::function<void(double)>& report) {
-    SeedDrive drive{.seed = run.seeds[index]};
-    drive.runs = replay_filters(log, run.filters, arguments.config, run.seeds[index], drive.recording.timing);
-    report(1.0);
-    return to_bytes(drive);
-  };
   Timing timing;
   References references;  // the batch draws nothing, so that one serves all seeds
   references.batch =
       Stopwatch(timing).time("reference.batch", [&] { return replay_batch(log, arguments.config); });
+  const auto replay_seed = [&](std::size_t index, const std::function<void(double)>& report) {
+    SeedDrive drive{.seed = run.seeds[index], .recording = {.log = log}, .references = references};
+    if (index == 0) drive.recording.timing = timing;
+    drive.runs = replay_filters(log, run.filters, arguments.config, run.seeds[index], drive.recording.timing);
+    report(1.0);
+    return to_bytes(score_seed(drive, {.steps = true, .map = index == 0}));
+  };
   Progress progress("slam", static_cast<double>(run.seeds.size()));
-  std::vector<SeedDrive> drives;
-  for (const std::string& answer :
-       run_in_processes(run.seeds.size(), run.jobs, replay_seed, [&](double done) { progress.show(done); })) {
-    drives.push_back(seed_drive_from_bytes(answer));
-    drives.back().recording.log = log;
-    drives.back().references = references;
-  }
-  drives.front().recording.timing.merge(timing);
-  return drives;
+  const auto keep = [&](std::size_t, const std::string& answer) {
+    output.add(seed_result_from_bytes(answer));
+  };
+  run_in_order(run.seeds.size(), run.jobs, replay_seed, keep, [&](double done) { progress.show(done); });
 }
 
 /// Has all the keys that the result will have.
@@ -122,14 +117,16 @@ int run_slam(SlamArguments arguments) {
     return kPassed;
   }
   prepare_output_folder(out);
-  const auto drives = replay_seeds(recorded.log, arguments);
-  RunResult result = assemble(name, kNoBackend, drives, Seeds::kFilters);
+  remove_leftovers_in(out);
+  RunOutput output(out, RunTally(name, kNoBackend, Seeds::kFilters));
+  replay_seeds(recorded.log, arguments, output);
+  RunResult result = output.result();
   if (vision) result.detector = "file";
   result.vision = std::move(vision);
   result.recorded = recorded.facts;
   result.assumed = assumptions_of(recorded.facts, arguments.stated);
-  write_run(out, result, drives, {});
-  print_summary(result, drives.size(), recorded);
+  output.write(result, {});
+  print_summary(result, run.seeds.size(), recorded);
   const auto broken = broken_gates(run_json(result), run.gates);
   fmt::print("\n{}\n", result_table(result));
   say_gates(gate_report(broken, run.gates.size()), !broken.empty());

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
@@ -81,26 +83,43 @@ std::vector<DriveTask> add_tasks(std::vector<CellPlan>& plans, const ScenarioArg
   std::vector<DriveTask> all;
   for (CellPlan& plan : plans) {
     plan.made_from = provenance_of(base, plan.overrides, plan.scenario, pixels);
-    plan.tasks = drive_tasks(base, plan.overrides, plan.scenario, pixels, 0);
+    plan.tasks = drive_tasks(base, plan.overrides, plan.scenario, pixels, {});
     all.insert(all.end(), plan.tasks.begin(), plan.tasks.end());
   }
   return all;
 }
 
-/// Scores the cells one after another: in memory are the drives of one. @return the seconds of all drives
-Timing assemble_cells(const KeptDrives& kept, const std::vector<CellPlan>& plans, renderer::Backend backend,
-                      SweepResult& sweep) {
-  Timing timing;
-  for (const CellPlan& plan : plans) {
-    const std::vector<SeedDrive> drives = kept.of(plan.tasks);
-    warn_of_blur(plan.scenario.shutter, blur_of(drives));
-    sweep.cells.push_back(
-        assemble_cell(sweep.name, rendered_by(plan.scenario, backend), plan.values, drives));
-    sweep.cells.back().result.made_from = plan.made_from;
-    for (const auto& [stage, seconds] : timing_of(drives)) timing[stage] += seconds;
+/// Puts the cells together, one after the other, as the results of their seeds come in the order of plans.
+class CellsOfSweep {
+ public:
+  CellsOfSweep(const std::vector<CellPlan>& plans, renderer::Backend backend, SweepResult& sweep)
+      : plans_(plans), backend_(backend), sweep_(sweep) {}
+
+  void add(const SeedResult& seed) {
+    const CellPlan& plan = plans_[sweep_.cells.size()];
+    if (!tally_) tally_.emplace(sweep_.name, rendered_by(plan.scenario, backend_));
+    tally_->add(seed);
+    if (++seeds_ == plan.tasks.size()) end_cell(plan);
   }
-  return timing;
-}
+
+  const Timing& timing() const { return timing_; }
+
+ private:
+  void end_cell(const CellPlan& plan) {
+    sweep_.cells.push_back(tally_->cell(plan.values));
+    sweep_.cells.back().result.made_from = plan.made_from;
+    for (const auto& [stage, seconds] : tally_->timing()) timing_[stage] += seconds;
+    tally_.reset();
+    seeds_ = 0;
+  }
+
+  const std::vector<CellPlan>& plans_;
+  renderer::Backend backend_;
+  SweepResult& sweep_;
+  std::optional<CellTally> tally_;  ///< of the cell that is not complete
+  std::size_t seeds_ = 0;           ///< in it
+  Timing timing_;
+};
 
 int run_sweep(const SweepArguments& arguments) {
   const ScenarioArguments& base = arguments.scenario;
@@ -120,9 +139,12 @@ int run_sweep(const SweepArguments& arguments) {
   KeptDrives kept(out);
   const std::string pixels = pixels_of_any(plans, base.backend);
   const std::vector<DriveTask> tasks = add_tasks(plans, base, pixels);
-  kept.complete(tasks, base.run.jobs, "sweep " + sweep.name);
-  const Timing timing = assemble_cells(kept, plans, base.backend, sweep);
-  write_sweep(out, sweep, timing_json(timing, tasks.size()),
+  CellsOfSweep cells(plans, base.backend, sweep);
+  kept.complete(tasks, base.run.jobs, "sweep " + sweep.name,
+                [&](std::size_t, const SeedResult& seed) { cells.add(seed); });
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    warn_of_blur(plans[i].scenario.shutter, sweep.cells[i].result.blur.value_or(CoarseBlur{}));
+  write_sweep(out, sweep, timing_json(cells.timing(), tasks.size()),
               provenance_of(base, {}, plans.front().scenario, pixels));
   kept.discard();
   const auto [gate_lines, broken] = gates_of_cells(sweep, plans);

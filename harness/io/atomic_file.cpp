@@ -34,56 +34,13 @@ std::array<char, PATH_MAX> unfinished_name = {};
 std::atomic<bool> is_unfinished = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// A file under a name of its own, which is removed again unless it was renamed into place.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& final_path) : final_path_(final_path) {
-    for (int attempt = 0; descriptor_ < 0; ++attempt) {
-      name_ = fmt::format("{}.{}-{}.tmp", final_path.string(), getpid(), attempt);
-      announce();  // before it is there: a signal may come right after
-      descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ < 0 && errno != EEXIST) fail(final_path_, "cannot be written", errno);
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!moved_) unlink(name_.c_str());
-    is_unfinished = false;
-  }
-
-  void write_all(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(final_path_, "cannot be written", errno);
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-
-  void move_into_place() {
-    if (fsync(descriptor_) != 0) fail(final_path_, "cannot be written", errno);
-    if (close(std::exchange(descriptor_, -1)) != 0) fail(final_path_, "cannot be written", errno);
-    if (std::rename(name_.c_str(), final_path_.c_str()) != 0) fail(final_path_, "cannot be replaced", errno);
-    is_unfinished = false;
-    moved_ = true;
-  }
-
- private:
-  /// Tells a signal's handler what to remove.
-  void announce() const {
-    is_unfinished = false;
-    if (name_.size() >= unfinished_name.size()) return;
-    std::copy_n(name_.c_str(), name_.size() + 1, unfinished_name.begin());
-    is_unfinished = true;
-  }
-
-  fs::path final_path_;
-  std::string name_;
-  int descriptor_ = -1;
-  bool moved_ = false;
-};
+/// Tells a signal's handler what to remove.
+void announce(const std::string& name) {
+  is_unfinished = false;
+  if (name.size() >= unfinished_name.size()) return;
+  std::copy_n(name.c_str(), name.size() + 1, unfinished_name.begin());
+  is_unfinished = true;
+}
 
 /// Makes a rename in a folder survive a power cut. File systems that cannot do so are let be.
 void sync_folder(const fs::path& folder) {
@@ -103,7 +60,7 @@ bool has_ended(int process) {
   return name_end != std::string::npos && line.find_first_of("ZX", name_end + 2) == name_end + 2;
 }
 
-/// Whether a name is one that TemporaryFile gives, and its process is gone.
+/// Whether a name is one that AtomicFile gives, and its process is gone.
 bool is_leftover(const std::string& name) {
   static const std::regex temporary(R"(.*\.([0-9]{1,9})-[0-9]+\.tmp)");
   std::smatch parts;
@@ -142,12 +99,45 @@ void prepare_output_folder(const fs::path& folder) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) fail(folder, "cannot be written to", errno);
 }
 
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+  if (fs::is_directory(path_)) fail(path_, "cannot be replaced", EISDIR);
+  for (int attempt = 0; descriptor_ < 0; ++attempt) {
+    name_ = fmt::format("{}.{}-{}.tmp", path_.string(), getpid(), attempt);
+    announce(name_);  // before it is there: a signal may come right after
+    descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) fail(path_, "cannot be written", errno);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (is_moved_) return;
+  if (descriptor_ >= 0) close(descriptor_);
+  unlink(name_.c_str());
+  is_unfinished = false;
+}
+
+void AtomicFile::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path_, "cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void AtomicFile::move_into_place() {
+  if (fsync(descriptor_) != 0) fail(path_, "cannot be written", errno);
+  if (close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot be written", errno);
+  if (std::rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
+  is_unfinished = false;
+  is_moved_ = true;
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
+}
+
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  if (fs::is_directory(path)) fail(path, "cannot be replaced", EISDIR);
-  TemporaryFile file(path);
-  file.write_all(bytes);
+  AtomicFile file(path);
+  file.append(bytes);
   file.move_into_place();
-  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
 }  // namespace stereobench::harness

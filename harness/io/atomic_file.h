@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace stereobench::harness {
@@ -11,14 +12,34 @@ namespace stereobench::harness {
 /// @throws std::runtime_error naming the folder and the cause: it is a file, it cannot be created or written
 void prepare_output_folder(const std::filesystem::path& folder);
 
-/// Writes a file through a temporary name in the same folder, synced and then renamed, so that a run
-/// that is killed leaves the old file or the new one, never a part.
+/// A file that is written part by part under a temporary name in the same folder, then synced and renamed: a
+/// program that is killed leaves the old file or the new one, never a part. There is to be one at a time.
+class AtomicFile {
+ public:
+  /// @param path the file to write or to replace
+  /// @throws std::runtime_error naming the path and the cause (missing folder, no permission), and so below
+  explicit AtomicFile(std::filesystem::path path);
+  /// Removes what was written, unless it was moved into place.
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  void append(std::string_view bytes);
+  void move_into_place();
+
+ private:
+  std::filesystem::path path_;
+  std::string name_;
+  int descriptor_ = -1;
+  bool is_moved_ = false;
+};
+
+/// Writes a whole file as an AtomicFile.
 /// @param path the file to write or to replace
 /// @param bytes all of its content
 /// @throws std::runtime_error naming the path and the cause (missing folder, no permission, full disk)
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes the file that write_file_atomically is just writing, of which there is no more than one. Safe to
+/// Removes the AtomicFile that is being written, of which there is no more than one. Safe to
 /// call in a signal's handler.
 void remove_unfinished_file() noexcept;
 

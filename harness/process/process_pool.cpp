@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -224,6 +225,20 @@ void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAns
   const std::size_t workers = std::min(tasks, static_cast<std::size_t>(jobs));
   for (std::size_t i = 0; i < workers; ++i) pool.start_worker(task);
   pool.gather();
+}
+
+void run_in_order(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                  const OnProgress& on_progress) {
+  std::map<std::size_t, std::string> early;
+  std::size_t next = 0;
+  const auto hand_on = [&](std::size_t index, std::string answer) {
+    early.emplace(index, std::move(answer));
+    for (auto first = early.begin(); first != early.end() && first->first == next; first = early.begin()) {
+      on_answer(next++, std::move(first->second));
+      early.erase(first);
+    }
+  };
+  run_in_processes(tasks, jobs, task, hand_on, on_progress);
 }
 
 std::vector<std::string> run_in_processes(std::size_t tasks, int jobs, const Task& task,

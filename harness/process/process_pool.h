@@ -42,6 +42,11 @@ using OnAnswer = std::function<void(std::size_t index, std::string answer)>;
 void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
                       const OnProgress& on_progress);
 
+/// The same, with the answers handed on in the order of index, so that the outcome depends neither on the
+/// number of jobs nor on which task ends first. An answer that comes before its turn waits in memory.
+void run_in_order(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                  const OnProgress& on_progress);
+
 /// The same, and gives the answers in order of index, so that the outcome depends neither on the number of
 /// jobs nor on which task ends first.
 /// @return one answer a task

@@ -14,6 +14,7 @@
 namespace stereobench::harness {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kHeight_px = 480;
 constexpr Box kPlot = {76.0, 42.0, 740.0, 386.0};
 constexpr int kPanelHeight_px = 260;  ///< of normalised errors, below
@@ -40,36 +41,14 @@ double rms_of(const std::vector<double>& errors_m) {
   return std::sqrt(sum / count);  // 0 / 0: a run without errors has no rms
 }
 
-double mean_of(const std::vector<double>& numbers) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double number : numbers) {
-    if (!std::isfinite(number)) continue;
-    sum += number;
-    count += 1.0;
-  }
-  return sum / count;
-}
-
-std::vector<double> errors_at(const ErrorCurves& curves, std::size_t instant) {
-  std::vector<double> errors_m;
-  for (const std::vector<double>& run : curves.error_m_by_run) {
-    if (instant < run.size() && std::isfinite(run[instant])) errors_m.push_back(run[instant]);
-  }
-  return errors_m;
-}
-
 Summary summarise(const ErrorCurves& curves, std::size_t instants) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Summary summary;
   for (std::size_t i = 0; i < instants; ++i) {
-    const std::vector<double> errors_m = errors_at(curves, i);
-    const auto [least, greatest] = std::minmax_element(errors_m.begin(), errors_m.end());
-    summary.rms_at_m.push_back(rms_of(errors_m));
-    summary.least_m.push_back(errors_m.empty() ? kNone : *least);
-    summary.greatest_m.push_back(errors_m.empty() ? kNone : *greatest);
+    summary.rms_at_m.push_back(curves.rms_m(i));
+    summary.least_m.push_back(curves.least_m(i));
+    summary.greatest_m.push_back(curves.greatest_m(i));
   }
-  summary.rms_m = mean_rms_m(curves);
+  summary.rms_m = curves.mean_rms_m();
   return summary;
 }
 
@@ -105,10 +84,11 @@ void draw_curves(Canvas& canvas, const Axes& axes, const ErrorPicture& picture,
                  const std::vector<Summary>& summaries) {
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     draw_band(canvas, axes, picture.time_s, summaries[i].least_m, summaries[i].greatest_m,
-              filter_stroke(picture.filters[i].filter).colour);
+              filter_stroke(picture.filters[i].filter()).colour);
   }
   for (std::size_t i = 0; i < summaries.size(); ++i) {
-    draw_curve(canvas, axes, picture.time_s, summaries[i].rms_at_m, filter_stroke(picture.filters[i].filter));
+    draw_curve(canvas, axes, picture.time_s, summaries[i].rms_at_m,
+               filter_stroke(picture.filters[i].filter()));
   }
 }
 
@@ -116,9 +96,9 @@ std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vecto
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const ErrorCurves& curves = picture.filters[i];
-    entries.push_back({filter_title(curves.filter),
+    entries.push_back({filter_title(curves.filter()),
                        fmt::format("rms {} m", format_number(summaries[i].rms_m)), Mark::kLine,
-                       filter_stroke(curves.filter)});
+                       filter_stroke(curves.filter())});
   }
   if (!picture.bound_m.empty())
     entries.push_back({"Cramer-Rao bound", "of the rms over runs", Mark::kLine, kBoundStroke});
@@ -136,10 +116,33 @@ void draw_anees(Canvas& canvas, const ErrorPicture& picture, const Axis& time) {
 
 }  // namespace
 
-double mean_rms_m(const ErrorCurves& curves) {
-  std::vector<double> rms_m;
-  for (const std::vector<double>& run : curves.error_m_by_run) rms_m.push_back(rms_of(run));
-  return mean_of(rms_m);
+void ErrorCurves::add(const std::vector<double>& errors_m) {
+  if (errors_m.size() > instants_.size()) instants_.resize(errors_m.size());
+  for (std::size_t i = 0; i < errors_m.size(); ++i) {
+    const double error_m = errors_m[i];
+    if (!std::isfinite(error_m)) continue;
+    Instant& at = instants_[i];
+    at.least_m = at.count > 0.0 ? std::min(at.least_m, error_m) : error_m;
+    at.greatest_m = at.count > 0.0 ? std::max(at.greatest_m, error_m) : error_m;
+    at.sum_m2 += error_m * error_m;
+    at.count += 1.0;
+  }
+  const double rms_m = rms_of(errors_m);
+  if (!std::isfinite(rms_m)) return;
+  sum_of_rms_m_ += rms_m;
+  runs_ += 1.0;
+}
+
+double ErrorCurves::rms_m(std::size_t instant) const {
+  return is_known(instant) ? std::sqrt(instants_[instant].sum_m2 / instants_[instant].count) : kNone;
+}
+
+double ErrorCurves::least_m(std::size_t instant) const {
+  return is_known(instant) ? instants_[instant].least_m : kNone;
+}
+
+double ErrorCurves::greatest_m(std::size_t instant) const {
+  return is_known(instant) ? instants_[instant].greatest_m : kNone;
 }
 
 std::string draw_error_picture(const ErrorPicture& picture) {

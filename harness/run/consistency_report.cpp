@@ -20,13 +20,11 @@ Json index_or_null(const std::optional<Index>& index) {
 }
 
 /// One entry a run that did not fail.
-Json runs_json(const RunResult& result, const FilterResult& filter) {
+Json runs_json(const FilterResult& filter) {
   Json runs = Json::array();
-  for (std::size_t i = 0; i < filter.scores.size(); ++i) {
-    if (filter.scores[i].failed) continue;
-    const InnovationSum& sum = filter.scores[i].consistency.innovations.run;
+  for (const auto& [seed, sum] : filter.innovations) {
     const Band band = chi_square_band(kRunBand, sum.all.degrees_of_freedom);
-    runs.push_back({{"seed", result.seeds[i]},
+    runs.push_back({{"seed", seed},
                     {"sightings", sum.sightings()},
                     {"refused", sum.refused()},
                     {"nis", number(sum.all.ratio())},
@@ -48,14 +46,14 @@ Json landmarks_json(const InnovationSummary& summary) {
   return json;
 }
 
-Json nis_json(const RunResult& result, const FilterResult& filter) {
+Json nis_json(const FilterResult& filter) {
   const InnovationSummary& summary = filter.summary.consistency.innovations;
   return {{"sightings", summary.sum.sightings()},
           {"refused", summary.sum.refused()},
           {"per_run", summary_json(summary.nis)},
           {"per_run_without_refused", summary_json(summary.nis_used)},
           {"runs_outside_band99", summary.runs_outside},
-          {"runs", runs_json(result, filter)},
+          {"runs", runs_json(filter)},
           {"landmarks", landmarks_json(summary)}};
 }
 
@@ -106,10 +104,10 @@ std::vector<std::string> row_of(const FilterResult& filter) {
 
 }  // namespace
 
-nlohmann::ordered_json consistency_json(const RunResult& result, const FilterResult& filter) {
+nlohmann::ordered_json consistency_json(const FilterResult& filter) {
   const FilterSummary& summary = filter.summary;
   const ConsistencySummary& c = summary.consistency;
-  return {{"nis", nis_json(result, filter)},
+  return {{"nis", nis_json(filter)},
           {"nees", nees_json(summary.nees)},
           {"path_coverage", coverage_json(c.path)},
           {"map_coverage", coverage_json(c.map)},

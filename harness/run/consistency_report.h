@@ -11,7 +11,7 @@
 namespace stereobench::harness {
 
 /// The "consistency" of a filter in run.json.
-nlohmann::ordered_json consistency_json(const RunResult& result, const FilterResult& filter);
+nlohmann::ordered_json consistency_json(const FilterResult& filter);
 
 /// The header of the columns that consistency_cells fills.
 std::string consistency_columns();

@@ -65,12 +65,11 @@ std::string error_table(const RunResult& result) {
                                 result.start_is_true ? "landmarks [m]" : "landmarks, aligned [m]", "ANEES",
                                 "ATE / bound", "failures"}};
   for (const FilterResult& filter : result.filters)
-    table.rows.push_back(row_of(result, filter, fmt::format("{}", filter.summary.particles),
-                                efficiency(filter.scores, result.bounds, &BoundScores::filtering)));
+    table.rows.push_back(
+        row_of(result, filter, fmt::format("{}", filter.summary.particles), filter.efficiency));
   const bool bounded = !result.bounds.empty();
   if (bounded) table.rows.push_back(bound_row(result.bounds, &BoundScores::filtering, "bound (filtering)"));
-  table.rows.push_back(row_of(result, result.batch, "-",
-                              efficiency(result.batch.scores, result.bounds, &BoundScores::smoothing)));
+  table.rows.push_back(row_of(result, result.batch, "-", result.batch.efficiency));
   if (bounded) table.rows.push_back(bound_row(result.bounds, &BoundScores::smoothing, "bound (smoothing)"));
   return plain_text(table);
 }

@@ -4,75 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
-
-#include "harness/io/atomic_file.h"
-#include "harness/report/error_picture.h"
-#include "harness/report/map_picture.h"
-#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr double kSecondsPerNanosecond = 1e-9;
-
 /// What a title says where estimates were moved into the truth's frame.
 std::string alignment_note(const RunResult& result) {
   return result.start_is_true ? "" : ", aligned";
-}
-
-/// A filter's path and map in the truth's frame.
-MapEstimate estimate_of(const FilterRun& run, const slam::Pose& truth_from_estimate) {
-  MapEstimate estimate{run.filter, {}, run.last.landmarks};
-  for (const slam::Pose& pose : run.poses) estimate.path.push_back(slam::compose(truth_from_estimate, pose));
-  for (slam::LandmarkEstimate& landmark : estimate.landmarks)
-    landmark = moved_landmark(truth_from_estimate, landmark);
-  return estimate;
-}
-
-/// The first seed's map. Where nothing tells how estimates lie to the truth, it shows the estimates alone.
-std::string map_of(const RunResult& result, const SeedDrive& drive, const std::vector<worlds::Wall>& walls) {
-  MapPicture picture{.title = fmt::format("{}, seed {}{}", result.name, drive.seed, alignment_note(result)),
-                     .walls = walls};
-  bool comparable = true;
-  for (std::size_t i = 0; i < drive.runs.size(); ++i) {
-    const FilterScore& score = result.filters[i].scores.front();
-    comparable = comparable && (score.failed || score.truth_from_estimate);
-    picture.estimates.push_back(estimate_of(drive.runs[i], score.truth_from_estimate.value_or(slam::Pose{})));
-  }
-  const FilterRun& batch = drive.references.batch;
-  const FilterScore& batch_score = result.batch.scores.front();
-  if (!batch.failed) {
-    picture.estimates.push_back(estimate_of(batch, batch_score.truth_from_estimate.value_or(slam::Pose{})));
-    picture.estimates.back().landmarks.clear();
-  }
-  if (!comparable) return draw_map_picture(picture);
-  picture.landmarks = drive.recording.log.landmarks;
-  for (const LogStep& step : drive.recording.log.steps)
-    if (step.truth) picture.true_path.push_back(*step.truth);
-  return draw_map_picture(picture);
-}
-
-std::vector<double> position_errors(const FilterRun& run, const FilterScore& score,
-                                    const MeasurementLog& log) {
-  std::vector<double> errors(log.steps.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t k = 0; k < run.poses.size(); ++k)
-    errors[k] = position_error_m(score, run.poses[k], log.steps[k]);
-  return errors;
-}
-
-/// The bound's rms over the seeds at each step; empty where there is none.
-std::vector<double> bound_of(std::span<const SeedDrive> drives) {
-  if (!drives.front().references.bound) return {};
-  std::vector<double> bound_m;
-  for (std::size_t k = 0; k < drives.front().references.bound->poses.size(); ++k) {
-    double sum_m2 = 0.0;
-    for (const SeedDrive& drive : drives)
-      sum_m2 += drive.references.bound->poses[k].topLeftCorner<2, 2>().trace();
-    bound_m.push_back(std::sqrt(sum_m2 / static_cast<double>(drives.size())));
-  }
-  return bound_m;
 }
 
 /// Each filter's normalised errors, and the widest of the filters' bands at each step.
@@ -101,40 +42,68 @@ AneesPanel anees_of(const RunResult& result, std::size_t steps) {
   return panel;
 }
 
-std::string errors_of(const RunResult& result, std::span<const SeedDrive> drives) {
-  ErrorPicture picture{.title =
-                           fmt::format("{}: position error{}, {} seed{}", result.name, alignment_note(result),
-                                       drives.size(), drives.size() == 1 ? "" : "s")};
-  for (const LogStep& step : drives.front().recording.log.steps)
-    picture.time_s.push_back(static_cast<double>(step.stamp_ns) * kSecondsPerNanosecond);
-  for (std::size_t i = 0; i < result.filters.size(); ++i) {
-    ErrorCurves curves{.filter = result.filters[i].filter};
-    for (std::size_t d = 0; d < drives.size(); ++d)
-      curves.error_m_by_run.push_back(
-          position_errors(drives[d].runs[i], result.filters[i].scores[d], drives[d].recording.log));
-    picture.filters.push_back(std::move(curves));
+}  // namespace
+
+void RunPictures::add(const SeedResult& seed) {
+  if (seeds_++ == 0) {
+    first_ = seed;
+    first_.csv = {};
+    bound_m2_.assign(seed.bound_m2.size(), 0.0);
+    for (const ScoredRun& run : seed.runs) errors_.emplace_back(run.filter);
   }
-  picture.bound_m = bound_of(drives);
-  picture.anees = anees_of(result, picture.time_s.size());
+  for (std::size_t i = 0; i < std::min(errors_.size(), seed.runs.size()); ++i)
+    errors_[i].add(seed.runs[i].errors_m);
+  for (std::size_t k = 0; k < std::min(bound_m2_.size(), seed.bound_m2.size()); ++k)
+    bound_m2_[k] += seed.bound_m2[k];
+}
+
+/// The first seed's map.
+std::string RunPictures::map_of(const RunResult& result, const std::vector<worlds::Wall>& walls) const {
+  MapPicture picture = first_.map.value_or(MapPicture{});
+  picture.title = fmt::format("{}, seed {}{}", result.name, first_.seed, alignment_note(result));
+  picture.walls = walls;
+  return draw_map_picture(picture);
+}
+
+std::string RunPictures::errors_of(const RunResult& result) const {
+  ErrorPicture picture{.title = fmt::format("{}: position error{}, {} seed{}", result.name,
+                                            alignment_note(result), seeds_, seeds_ == 1 ? "" : "s"),
+                       .time_s = first_.time_s,
+                       .filters = errors_,
+                       .anees = anees_of(result, first_.time_s.size())};
+  for (const double sum_m2 : bound_m2_)
+    picture.bound_m.push_back(std::sqrt(sum_m2 / static_cast<double>(seeds_)));
   return draw_error_picture(picture);
 }
 
-}  // namespace
+void RunPictures::write(const std::filesystem::path& out, const RunResult& result,
+                        const std::vector<worlds::Wall>& walls) const {
+  write_file_atomically(out / "map.png", map_of(result, walls));
+  write_file_atomically(out / "error.png", errors_of(result));
+  if (!first_.snapshots.empty()) prepare_output_folder(out / "frames");
+  for (const Snapshot& snapshot : first_.snapshots)
+    write_file_atomically(out / "frames" / fmt::format("seed{}_step{:04}.png", first_.seed, snapshot.step),
+                          snapshot.png);
+}
 
-void write_run(const std::filesystem::path& out, const RunResult& result, std::span<const SeedDrive> drives,
-               const std::vector<worlds::Wall>& walls) {
-  write_file_atomically(out / "map.png", map_of(result, drives.front(), walls));
-  write_file_atomically(out / "error.png", errors_of(result, drives));
-  for (const SeedDrive& drive : drives) {
-    if (!drive.snapshots.empty()) prepare_output_folder(out / "frames");
-    for (const Snapshot& snapshot : drive.snapshots)
-      write_file_atomically(out / "frames" / fmt::format("seed{}_step{:04}.png", drive.seed, snapshot.step),
-                            snapshot.png);
-  }
-  write_file_atomically(out / "steps.csv", steps_csv(result, drives));
-  write_file_atomically(out / "timing.json", timing_json(timing_of(drives), drives.size()).dump(2) + "\n");
-  if (result.made_from) write_file_atomically(out / kResolvedScenario, result.made_from->scenario);
-  write_file_atomically(out / "run.json", run_json(result).dump(2) + "\n");
+RunOutput::RunOutput(std::filesystem::path out, RunTally tally)
+    : out_(std::move(out)), tally_(std::move(tally)), steps_(out_ / "steps.csv") {
+  steps_.append(steps_csv_header());
+}
+
+void RunOutput::add(const SeedResult& seed) {
+  tally_.add(seed);
+  pictures_.add(seed);
+  steps_.append(seed.csv);
+}
+
+void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& walls) {
+  steps_.move_into_place();
+  pictures_.write(out_, result, walls);
+  write_file_atomically(out_ / "timing.json",
+                        timing_json(tally_.timing(), result.seeds.size()).dump(2) + "\n");
+  if (result.made_from) write_file_atomically(out_ / kResolvedScenario, result.made_from->scenario);
+  write_file_atomically(out_ / "run.json", run_json(result).dump(2) + "\n");
 }
 
 }  // namespace stereobench::harness

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "harness/run/run_result.h"
-#include "harness/run/seed_drive.h"
+#include "harness/io/atomic_file.h"
+#include "harness/report/error_picture.h"
+#include "harness/run/run_tally.h"
+#include "harness/run/seed_result.h"
 #include "worlds/types.h"
 
 namespace stereobench::harness {
@@ -15,12 +16,51 @@ namespace stereobench::harness {
 /// The scenario that a result was made from, with what the command line changed, beside the result.
 inline constexpr const char* kResolvedScenario = "resolved_scenario.yaml";
 
-/// Writes map.png and error.png, frames/*.png, steps.csv, timing.json, the resolved scenario and, last of
-/// all, run.json: where there is a run.json, the run is complete.
-/// @param out an existing folder that can be written
-/// @param walls drawn into the map
-/// @throws std::runtime_error when a file cannot be written
-void write_run(const std::filesystem::path& out, const RunResult& result, std::span<const SeedDrive> drives,
-               const std::vector<worlds::Wall>& walls);
+/// What map.png, error.png and frames/ show: the first seed's map and pictures, and sums over the seeds.
+class RunPictures {
+ public:
+  void add(const SeedResult& seed);
+
+  /// Writes them into a folder. @param walls drawn into the map
+  void write(const std::filesystem::path& out, const RunResult& result,
+             const std::vector<worlds::Wall>& walls) const;
+
+ private:
+  std::string map_of(const RunResult& result, const std::vector<worlds::Wall>& walls) const;
+  std::string errors_of(const RunResult& result) const;
+
+  SeedResult first_;  ///< without its lines
+  std::vector<ErrorCurves> errors_;
+  std::vector<double> bound_m2_;  ///< summed over the seeds
+  std::size_t seeds_ = 0;
+};
+
+/// A run's files, from seeds that come one after the other: lines of steps.csv are written as they come, and
+/// of a seed there remain some numbers.
+class RunOutput {
+ public:
+  /// Begins steps.csv under a temporary name. Until write() there is to be no other atomic file.
+  /// @param out an existing folder that can be written
+  /// @param tally without seeds
+  RunOutput(std::filesystem::path out, RunTally tally);
+
+  /// Adds a seed. @throws std::runtime_error when its lines cannot be written
+  void add(const SeedResult& seed);
+
+  RunResult result() const { return tally_.result(); }
+
+  /// Writes steps.csv under its name, map.png and error.png, frames/*.png, timing.json, the resolved scenario
+  /// and, last of all, run.json: where there is a run.json, the run is complete.
+  /// @param result of result(), with what it lacks
+  /// @param walls drawn into the map
+  /// @throws std::runtime_error when a file cannot be written
+  void write(const RunResult& result, const std::vector<worlds::Wall>& walls);
+
+ private:
+  std::filesystem::path out_;
+  RunTally tally_;
+  RunPictures pictures_;
+  AtomicFile steps_;
+};
 
 }  // namespace stereobench::harness

@@ -1,12 +1,6 @@
 #include "harness/run/run_result.h"
 
-#include <cmath>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include "harness/run/consistency_report.h"
-#include "harness/scoring/association_score.h"
 #include "harness/statistics/json_numbers.h"
 
 namespace stereobench::harness {
@@ -33,7 +27,7 @@ Json batch_json(const RunResult& result) {
   const FilterSummary& summary = result.batch.summary;
   return {{"ate_rms_m", summary_json(summary.ate_rms_m)},
           {"ate_aligned_rms_m", summary_json(summary.ate_aligned_rms_m)},
-          {"efficiency", number(efficiency(result.batch.scores, result.bounds, &BoundScores::smoothing))},
+          {"efficiency", number(result.batch.efficiency)},
           {"landmark_rms_m", summary_json(summary.landmark_rms_m)},
           {"landmark_aligned_rms_m", summary_json(summary.landmark_aligned_rms_m)},
           {"failures", summary.failures}};
@@ -71,7 +65,7 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
           {"ate_aligned_median_m", number(summary.ate_aligned_median_m)},
           {"ate_aligned_at_sightings_rms_m", summary_json(summary.ate_aligned_at_sightings_rms_m)},
           {"ate_over_dead_reckoning", over_dead_reckoning(result, summary)},
-          {"efficiency", number(efficiency(filter.scores, result.bounds, &BoundScores::filtering))},
+          {"efficiency", number(filter.efficiency)},
           {"heading_rms_rad", summary_json(summary.heading_rms_rad)},
           {"rpe_rms_m", summary_json(summary.rpe_rms_m)},
           {"final_drift", summary_json(summary.final_drift)},
@@ -85,25 +79,9 @@ Json filter_json(const RunResult& result, const FilterResult& filter) {
             {"spurious", summary.landmarks_spurious}}},
           {"association", association_json(filter.association)},
           {"anees", summary_json(summary.anees)},
-          {"consistency", consistency_json(result, filter)},
+          {"consistency", consistency_json(filter)},
           {"counters", counters_json(filter.counters)},
           {"failures", summary.failures}};
-}
-
-std::vector<double> ate_of(const FilterResult& filter) {
-  std::vector<double> errors;
-  for (const FilterScore& score : filter.scores) errors.push_back(score.trajectory.ate_rms_m);
-  return errors;
-}
-
-std::vector<Comparison> compare(const std::vector<FilterResult>& filters) {
-  std::vector<Comparison> comparisons;
-  for (std::size_t i = 0; i < filters.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (filters[i].filter != kBaseline && filters[j].filter != kBaseline)
-        comparisons.push_back(
-            {filters[i].filter, filters[j].filter, compare_paired(ate_of(filters[i]), ate_of(filters[j]))});
-  return comparisons;
 }
 
 Json comparisons_json(const std::vector<Comparison>& comparisons) {
@@ -146,56 +124,7 @@ Json vision_json(const std::optional<VisionScore>& vision) {
   return json;
 }
 
-void append_step(std::string& csv, std::uint64_t seed, const FilterRun& run, const FilterScore& score,
-                 const LogStep& step, std::size_t k) {
-  const slam::Pose& pose = run.poses[k];
-  csv += fmt::format("{},{},{},{},{},{},{},{}", seed, run.filter, k, step.stamp_ns, pose.x_m, pose.y_m,
-                     pose.heading_rad, step.measurements.size());
-  const double error_m = position_error_m(score, pose, step);
-  if (step.truth)
-    csv += fmt::format(",{},{},{},", step.truth->x_m, step.truth->y_m, step.truth->heading_rad);
-  else
-    csv += ",,,,";
-  if (std::isfinite(error_m)) csv += fmt::format("{}", error_m);
-  const auto& nees = score.normalised_errors;
-  csv += k < nees.size() && nees[k] ? fmt::format(",{}", nees[k]->ratio()) : std::string(",");
-  csv += consistency_cells(run, score, step, k) + "\n";
-}
-
 }  // namespace
-
-RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives,
-                   Seeds seeds) {
-  if (drives.empty()) throw std::invalid_argument("assemble: there is no drive to put together");
-  RunResult result{.name = name, .backend = backend, .batch = {.filter = "batch"}};
-  result.detector = drives.front().recording.detector;
-  if (backend != kNoBackend) result.blur.emplace();
-  for (const FilterRun& run : drives.front().runs) result.filters.push_back({.filter = run.filter});
-  for (const SeedDrive& drive : drives) {
-    if (drive.runs.size() != result.filters.size())
-      throw std::invalid_argument("assemble: the drives have different filters");
-    result.seeds.push_back(drive.seed);
-    if (drive.recording.vision && !result.vision) result.vision.emplace();
-    if (drive.recording.vision) *result.vision += *drive.recording.vision;
-    if (result.blur) *result.blur += drive.recording.blur;
-    result.start_is_true = result.start_is_true && drive.recording.log.start_is_true;
-    result.identities_known = result.identities_known && knows_identities(drive.recording.log);
-    for (std::size_t i = 0; i < drive.runs.size(); ++i) {
-      FilterResult& filter = result.filters[i];
-      filter.scores.push_back(score(drive.runs[i], drive.recording.log));
-      filter.counters += drive.runs[i].last.counters;
-      if (const auto& more = drive.runs[i].association)
-        filter.association = filter.association.value_or(AssociationScore{}) + *more;
-    }
-    result.batch.scores.push_back(score(drive.references.batch, drive.recording.log));
-    if (drive.references.bound) result.bounds.push_back(score(*drive.references.bound));
-  }
-  result.batch.summary = summarise(result.batch.scores, 1, seeds);
-  for (std::size_t i = 0; i < result.filters.size(); ++i)
-    result.filters[i].summary = summarise(result.filters[i].scores, drives.front().runs[i].particles, seeds);
-  result.comparisons = compare(result.filters);
-  return result;
-}
 
 nlohmann::ordered_json run_json(const RunResult& result) {
   Json filters = Json::object();
@@ -213,31 +142,11 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   return json;
 }
 
-std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives) {
-  std::string csv =
-      "seed,filter,step,stamp_ns,x_m,y_m,heading_rad,measurements,"
-      "true_x_m,true_y_m,true_heading_rad,error_m,normalised_error," +
-      consistency_columns() + "\n";
-  for (std::size_t d = 0; d < drives.size(); ++d)
-    for (std::size_t i = 0; i < drives[d].runs.size(); ++i)
-      for (std::size_t k = 0; k < drives[d].runs[i].poses.size(); ++k)
-        append_step(csv, drives[d].seed, drives[d].runs[i], result.filters[i].scores[d],
-                    drives[d].recording.log.steps[k], k);
-  return csv;
-}
-
 Summary over_seeds(const std::vector<BoundScores>& bounds, BoundScore BoundScores::*bound,
                    double BoundScore::*part) {
   std::vector<double> values;
   for (const BoundScores& one : bounds) values.push_back(one.*bound.*part);
   return summarise(values);
-}
-
-Timing timing_of(std::span<const SeedDrive> drives) {
-  Timing total;
-  for (const SeedDrive& drive : drives)
-    for (const auto& [stage, seconds] : drive.recording.timing) total[stage] += seconds;
-  return total;
 }
 
 nlohmann::ordered_json timing_json(const Timing& timing, std::size_t drives) {

@@ -1,9 +1,9 @@
-/// All seeds of a run put together and scored: what run.json says.
+/// All seeds of a run together: what run.json says.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,11 +24,18 @@ inline constexpr const char* kNoBackend = "none";
 /// The filter that the others are compared with.
 inline constexpr const char* kBaseline = "dead_reckoning";
 
+/// A run's innovations, and whose they are.
+struct SeedInnovations {
+  std::uint64_t seed = 0;
+  InnovationSum sum;
+};
+
 /// One filter over all seeds.
 struct FilterResult {
   std::string filter;
-  std::vector<FilterScore> scores;  ///< one a seed
   FilterSummary summary;
+  std::vector<SeedInnovations> innovations;                      ///< one a run that did not fail
+  double efficiency = std::numeric_limits<double>::quiet_NaN();  ///< see Efficiency
   std::optional<AssociationScore> association;  ///< of all seeds, where the logs say whose the sightings are
   slam::FilterCounters counters;                ///< what it repaired and refused, summed over the seeds
 };
@@ -59,22 +66,9 @@ struct RunResult {
   std::optional<Provenance> made_from;  ///< empty for a recorded log
 };
 
-/// Scores each filter's runs against their logs and references.
-/// @param drives one a seed, all with the same filters in the same order, and all with a bound or none
-/// @param seeds what the drives differ in
-/// @throws std::invalid_argument when there is no drive, or they differ in their filters
-RunResult assemble(const std::string& name, const std::string& backend, std::span<const SeedDrive> drives,
-                   Seeds seeds = Seeds::kWorlds);
-
 /// The content of run.json: no time, path or host in it.
 /// Numbers that do not exist (an error without truth) are null.
 nlohmann::ordered_json run_json(const RunResult& result);
-
-/// The content of steps.csv: one line a seed, filter and step.
-std::string steps_csv(const RunResult& result, std::span<const SeedDrive> drives);
-
-/// Seconds of each stage, summed over drives.
-Timing timing_of(std::span<const SeedDrive> drives);
 
 /// The content of timing.json. @param drives how many the times are summed over
 nlohmann::ordered_json timing_json(const Timing& timing, std::size_t drives);

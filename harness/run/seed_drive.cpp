@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/io/answer_store.h"
-#include "harness/process/process_pool.h"
-#include "harness/process/progress.h"
 #include "harness/process/stopwatch.h"
 #include "harness/report/detection_picture.h"
-#include "harness/run/serialise.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
 #include "worlds/oracle.h"
@@ -63,7 +59,7 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   Listeners listeners;
   listeners.on_progress = on_progress;
   listeners.on_frame = [&](const FrameEvent& event) {
-    if (is_snapshot_step(event.step, task.snapshots, task.scenario->path.size()))
+    if (is_snapshot_step(event.step, task.parts.snapshots, task.scenario->path.size()))
       drive.snapshots.push_back(
           {event.step,
            draw_detection_picture(for_display(event.pair, task.scenario->camera), event.observations)});
@@ -73,46 +69,6 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
                               task.seed, drive.recording.timing);
   drive.references = replay_references(drive.recording, *task.scenario, drive.recording.timing);
   return drive;
-}
-
-std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
-  Progress progress(what, static_cast<double>(tasks.size()));
-  const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
-    return to_bytes(drive_seed(tasks[index], report));
-  };
-  std::vector<SeedDrive> drives(tasks.size());
-  const auto keep = [&](std::size_t index, const std::string& answer) {
-    drives[index] = seed_drive_from_bytes(answer);
-  };
-  run_in_processes(tasks.size(), jobs, drive_task, keep, [&](double done) { progress.show(done); });
-  return drives;
-}
-
-void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what) {
-  std::vector<const DriveTask*> missing;
-  for (const DriveTask& task : tasks)
-    if (!store.holds(task.key)) missing.push_back(&task);
-  if (missing.empty()) return;
-  Progress progress(what, static_cast<double>(missing.size()));
-  const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
-    return to_bytes(drive_seed(*missing[index], report));
-  };
-  const auto keep = [&](std::size_t index, const std::string& answer) {
-    store.append(missing[index]->key, answer);
-  };
-  run_in_processes(missing.size(), jobs, drive_task, keep, [&](double done) { progress.show(done); });
-}
-
-CoarseBlur blur_of(std::span<const SeedDrive> drives) {
-  CoarseBlur blur;
-  for (const SeedDrive& drive : drives) blur += drive.recording.blur;
-  return blur;
-}
-
-std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks) {
-  std::vector<SeedDrive> drives;
-  for (const DriveTask& task : tasks) drives.push_back(seed_drive_from_bytes(store.read(task.key)));
-  return drives;
 }
 
 }  // namespace stereobench::harness

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,6 @@
 #include "worlds/types.h"
 
 namespace stereobench::harness {
-
-class AnswerStore;
 
 /// A picture of one step, with the detections drawn on it.
 struct Snapshot {
@@ -32,11 +29,18 @@ struct SeedDrive {
   std::vector<Snapshot> snapshots;
 };
 
-/// A seed to drive, what renders it, and how many pictures of it to keep.
+/// What is wanted of a seed beside its scores.
+struct SeedParts {
+  bool steps = false;         ///< its lines of steps.csv, and its errors at each step
+  bool map = false;           ///< what the map shows
+  std::size_t snapshots = 0;  ///< how many pictures, evenly spread over the path
+};
+
+/// A seed to drive, what is wanted of it, and what renders it.
 struct DriveTask {
   const worlds::Scenario* scenario = nullptr;
   std::uint64_t seed = 0;
-  std::size_t snapshots = 0;  ///< evenly spread over the path
+  SeedParts parts = {};
   renderer::Backend backend = renderer::Backend::kOsmesa;
   Detector detector = {};  ///< who looks; empty: as the scenario says
   std::string key = {};    ///< SHA-256 of all that the drive is made from; needed to keep it
@@ -53,21 +57,5 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 
 /// Drives a seed: the world is rendered once and replayed for each filter and reference.
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress);
-
-/// Drives many seeds in `jobs` processes at a time, with a progress line for people.
-/// @param what is shown on the progress line
-/// @return in the order of the tasks, whatever the number of jobs
-std::vector<SeedDrive> drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
-
-/// Drives those of the tasks that a store does not hold yet. Each drive is in the store as soon as it has
-/// ended, and not in memory: a program that is killed loses those alone that it was at.
-/// @param tasks each with its key
-void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what);
-
-/// Of all pictures of some drives.
-CoarseBlur blur_of(std::span<const SeedDrive> drives);
-
-/// The drives of some tasks, all of which a store holds, in their order.
-std::vector<SeedDrive> drives_in(const AnswerStore& store, std::span<const DriveTask> tasks);
 
 }  // namespace stereobench::harness

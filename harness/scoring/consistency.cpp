@@ -61,18 +61,10 @@ std::vector<std::optional<SquaredSum>> normalised_errors(const FilterRun& run, c
   return errors;
 }
 
-std::vector<SquaredSum> sum_over_seeds(std::span<const std::vector<std::optional<SquaredSum>>> runs,
-                                       Seeds seeds) {
-  std::size_t longest = 0;
-  for (const auto& run : runs) longest = std::max(longest, run.size());
-  std::vector<SquaredSum> sums(longest);
-  for (const auto& run : runs) {
-    for (std::size_t step = 0; step < run.size(); ++step) {
-      if (run[step]) sums[step] += *run[step];
-    }
-  }
-  for (SquaredSum& sum : sums) sum = worth(sum, seeds, runs.size());
-  return sums;
+void add_steps(std::vector<SquaredSum>& sums, std::span<const std::optional<SquaredSum>> run) {
+  sums.resize(std::max(sums.size(), run.size()));
+  for (std::size_t step = 0; step < run.size(); ++step)
+    if (run[step]) sums[step] += *run[step];
 }
 
 StepVerdict judge_steps(std::span<const SquaredSum> steps) {

@@ -30,12 +30,10 @@ std::optional<SquaredSum> normalised_error(const Eigen::Vector2d& error_m, const
 ///   covariance
 std::vector<std::optional<SquaredSum>> normalised_errors(const FilterRun& run, const MeasurementLog& log);
 
-/// The sum over seeds of the normalised errors, step by step, as it may be held against chi-square. Steps of
-/// one run hang together and are not summed.
-/// @param runs one per seed; they may have different lengths
-/// @return as long as the longest; no degrees of freedom where no seed has a value
-std::vector<SquaredSum> sum_over_seeds(std::span<const std::vector<std::optional<SquaredSum>>> runs,
-                                       Seeds seeds = Seeds::kWorlds);
+/// Adds the normalised errors of a seed's run to the sums over seeds, step by step. Steps of one run hang
+/// together and are not summed.
+/// @param sums one a step of the longest run; a step has no degrees of freedom until a seed has a value there
+void add_steps(std::vector<SquaredSum>& sums, std::span<const std::optional<SquaredSum>> run);
 
 /// Which steps are honest.
 struct StepVerdict {

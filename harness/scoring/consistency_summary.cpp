@@ -1,7 +1,5 @@
 #include "harness/scoring/consistency_summary.h"
 
-#include <vector>
-
 namespace stereobench::harness {
 
 ConsistencyScore score_consistency(const FilterRun& run, const MeasurementLog& log) {
@@ -9,22 +7,26 @@ ConsistencyScore score_consistency(const FilterRun& run, const MeasurementLog& l
           score_particles(run, log)};
 }
 
-ConsistencySummary summarise(std::span<const ConsistencyScore> scores, Seeds seeds) {
-  const auto over_seeds = [&](auto metric) {
-    std::vector<double> values;
-    for (const ConsistencyScore& score : scores) values.push_back(metric(score));
-    return summarise(values);
-  };
-  std::vector<InnovationScore> innovations;
-  for (const ConsistencyScore& score : scores) innovations.push_back(score.innovations);
-  ConsistencySummary summary;
-  summary.innovations = summarise(innovations, seeds);
+void ConsistencyTally::add(const ConsistencyScore& score) {
+  innovations_.add(score.innovations);
+  particles_.push_back(score.particles);
   for (std::size_t i = 0; i < kEllipses.size(); ++i) {
-    summary.path[i] = over_seeds([i](const ConsistencyScore& s) { return s.path.within[i]; });
-    summary.map[i] = over_seeds([i](const ConsistencyScore& s) { return s.map.within[i]; });
+    path_[i].push_back(score.path.within[i]);
+    map_[i].push_back(score.map.within[i]);
+  }
+}
+
+ConsistencySummary ConsistencyTally::summary(Seeds seeds) const {
+  ConsistencySummary summary;
+  summary.innovations = innovations_.summary(seeds);
+  for (std::size_t i = 0; i < kEllipses.size(); ++i) {
+    summary.path[i] = summarise(path_[i]);
+    summary.map[i] = summarise(map_[i]);
   }
   const auto of_particles = [&](double ParticleScore::*part) {
-    return over_seeds([part](const ConsistencyScore& s) { return s.particles.*part; });
+    std::vector<double> values;
+    for (const ParticleScore& score : particles_) values.push_back(score.*part);
+    return summarise(values);
   };
   summary.effective_mean = of_particles(&ParticleScore::effective_mean);
   summary.effective_least = of_particles(&ParticleScore::effective_least);

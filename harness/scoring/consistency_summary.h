@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <vector>
 
 #include "harness/scoring/coverage.h"
 #include "harness/scoring/innovations.h"
@@ -33,7 +33,17 @@ struct ConsistencySummary {
 
 ConsistencyScore score_consistency(const FilterRun& run, const MeasurementLog& log);
 
-/// @param scores of the runs that did not fail
-ConsistencySummary summarise(std::span<const ConsistencyScore> scores, Seeds seeds = Seeds::kWorlds);
+/// Puts runs that did not fail together, seed by seed. It keeps some numbers a run.
+class ConsistencyTally {
+ public:
+  void add(const ConsistencyScore& score);
+  ConsistencySummary summary(Seeds seeds = Seeds::kWorlds) const;
+
+ private:
+  InnovationTally innovations_;
+  std::vector<ParticleScore> particles_;
+  std::array<std::vector<double>, kEllipses.size()> path_;
+  std::array<std::vector<double>, kEllipses.size()> map_;
+};
 
 }  // namespace stereobench::harness

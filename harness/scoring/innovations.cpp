@@ -1,6 +1,7 @@
 #include "harness/scoring/innovations.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "harness/scoring/measured_landmark.h"
@@ -21,15 +22,13 @@ std::vector<double> p_values_of(std::span<const InnovationSum> sums) {
   return holm(p_values);
 }
 
-void judge_runs(std::span<const InnovationScore> scores, InnovationSummary& summary) {
-  std::vector<InnovationSum> runs;
+void judge_runs(std::span<const InnovationSum> runs, InnovationSummary& summary) {
   std::vector<double> ratios;
   std::vector<double> used;
-  for (const InnovationScore& score : scores) {
-    runs.push_back(score.run);
-    ratios.push_back(score.run.all.ratio());
-    used.push_back(score.run.used.ratio());
-    summary.sum += score.run;
+  for (const InnovationSum& run : runs) {
+    ratios.push_back(run.all.ratio());
+    used.push_back(run.used.ratio());
+    summary.sum += run;
   }
   summary.nis = summarise(ratios);
   summary.nis_used = summarise(used);
@@ -37,13 +36,12 @@ void judge_runs(std::span<const InnovationScore> scores, InnovationSummary& summ
   summary.runs_outside = count_significant(summary.run_ps);
 }
 
-void judge_landmarks(std::span<const InnovationScore> scores, Seeds seeds, InnovationSummary& summary) {
-  std::map<int, InnovationSum> by_landmark;
-  for (const InnovationScore& score : scores)
-    for (const auto& [landmark, sum] : score.by_landmark) by_landmark[landmark] += sum;
+/// @param by_landmark the sums over so many runs
+void judge_landmarks(std::map<int, InnovationSum> by_landmark, std::size_t runs, Seeds seeds,
+                     InnovationSummary& summary) {
   std::vector<InnovationSum> sums;
   for (auto& [landmark, sum] : by_landmark) {
-    sum = {worth(sum.all, seeds, scores.size()), worth(sum.used, seeds, scores.size())};
+    sum = {worth(sum.all, seeds, runs), worth(sum.used, seeds, runs)};
     sums.push_back(sum);
   }
   const std::vector<double> p_values = p_values_of(sums);
@@ -83,10 +81,15 @@ InnovationScore score_innovations(const FilterRun& run, const MeasurementLog& lo
   return score;
 }
 
-InnovationSummary summarise(std::span<const InnovationScore> scores, Seeds seeds) {
+void InnovationTally::add(const InnovationScore& score) {
+  runs_.push_back(score.run);
+  for (const auto& [landmark, sum] : score.by_landmark) by_landmark_[landmark] += sum;
+}
+
+InnovationSummary InnovationTally::summary(Seeds seeds) const {
   InnovationSummary summary;
-  judge_runs(scores, summary);
-  judge_landmarks(scores, seeds, summary);
+  judge_runs(runs_, summary);
+  judge_landmarks(by_landmark_, runs_.size(), seeds, summary);
   return summary;
 }
 

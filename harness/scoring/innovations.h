@@ -3,7 +3,6 @@
 
 #include <map>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "harness/statistics/chi_square.h"
@@ -51,6 +50,15 @@ struct InnovationSummary {
   std::optional<LandmarkInnovations> worst;  ///< the least probable; the longest of those as improbable
 };
 
-InnovationSummary summarise(std::span<const InnovationScore> scores, Seeds seeds = Seeds::kWorlds);
+/// Adds runs up, seed by seed. It keeps one sum a run and one a landmark.
+class InnovationTally {
+ public:
+  void add(const InnovationScore& score);
+  InnovationSummary summary(Seeds seeds = Seeds::kWorlds) const;
+
+ private:
+  std::vector<InnovationSum> runs_;
+  std::map<int, InnovationSum> by_landmark_;
+};
 
 }  // namespace stereobench::harness

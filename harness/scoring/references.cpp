@@ -66,16 +66,13 @@ BoundScores score(const BoundRun& run) {
   return {of_poses(run.poses), of_poses(run.smoothed_poses)};
 }
 
-double efficiency(std::span<const FilterScore> scores, std::span<const BoundScores> bounds,
-                  BoundScore BoundScores::*bound) {
-  double errors_m2 = 0.0;
-  double least_m2 = 0.0;
-  for (std::size_t i = 0; i < std::min(scores.size(), bounds.size()); ++i) {
-    if (scores[i].failed) continue;
-    errors_m2 += scores[i].trajectory.ate_rms_m * scores[i].trajectory.ate_rms_m;
-    const double least_m = (bounds[i].*bound).pose_rms_m;
-    least_m2 += least_m * least_m;
-  }
+void Efficiency::add(const FilterScore& score, const BoundScore& bound) {
+  if (score.failed) return;
+  errors_m2 += score.trajectory.ate_rms_m * score.trajectory.ate_rms_m;
+  least_m2 += bound.pose_rms_m * bound.pose_rms_m;
+}
+
+double Efficiency::ratio() const {
   return std::sqrt(errors_m2 / least_m2);  // 0 / 0: nothing to compare
 }
 

@@ -2,8 +2,6 @@
 /// gives.
 #pragma once
 
-#include <span>
-
 #include "harness/scoring/score.h"
 #include "harness/types.h"
 #include "slam/filter_config.h"
@@ -44,10 +42,13 @@ BoundScores score(const BoundRun& run);
 /// How many times the least possible an estimator's error is: the root of its mean squared position error
 /// over seeds and steps, over that of the bound it belongs to. 1 is the best there is; runs that failed are
 /// left out on both sides.
-/// @param scores and bounds one a seed; no bounds where there is none
-/// @param bound the part of the bounds: filtering for filters, smoothing for the batch
-/// @return NaN when there is nothing to compare
-double efficiency(std::span<const FilterScore> scores, std::span<const BoundScores> bounds,
-                  BoundScore BoundScores::*bound);
+struct Efficiency {
+  double errors_m2 = 0.0;
+  double least_m2 = 0.0;
+
+  /// Adds a seed. @param bound filtering for filters, smoothing for the batch
+  void add(const FilterScore& score, const BoundScore& bound);
+  double ratio() const;  ///< NaN when there is nothing to compare
+};
 
 }  // namespace stereobench::harness

@@ -1,6 +1,7 @@
 #include "harness/scoring/score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -34,32 +35,12 @@ double aligned_rms_at_sightings(const FilterRun& run, const MeasurementLog& log)
   return score_trajectory(pair_with_truth(poses, seen)).ate_aligned_rms_m;
 }
 
-/// One metric of all runs that did not fail.
-template <typename Metric>
-std::vector<double> collect(std::span<const FilterScore> scores, Metric metric) {
-  std::vector<double> values;
-  for (const FilterScore& score : scores) {
-    if (!score.failed) values.push_back(metric(score));
-  }
-  return values;
-}
-
 double median(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return kNone;
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-void add_map_counts(std::span<const FilterScore> scores, FilterSummary& summary) {
-  for (const FilterScore& score : scores) {
-    summary.failures += score.failed ? 1 : 0;
-    summary.landmarks_found_once += score.map.found_once;
-    summary.landmarks_duplicated += score.map.duplicated;
-    summary.landmarks_missed += score.map.missed;
-    summary.landmarks_spurious += score.map.spurious;
-  }
 }
 
 /// Of one run, over its steps: an average, from which nothing can be tested, for its steps hang together.
@@ -69,19 +50,28 @@ double mean_normalised_error(const FilterScore& score) {
   return sum.ratio();
 }
 
-void add_consistency(std::span<const FilterScore> scores, Seeds seeds, FilterSummary& summary) {
-  std::vector<std::vector<std::optional<SquaredSum>>> runs;
-  std::vector<ConsistencyScore> consistency;
-  for (const FilterScore& score : scores) {
-    if (score.failed) continue;
-    runs.push_back(score.normalised_errors);
-    consistency.push_back(score.consistency);
-  }
-  summary.nees_by_step = sum_over_seeds(runs, seeds);
-  summary.anees = summarise(collect(scores, mean_normalised_error));
-  summary.nees = judge_steps(summary.nees_by_step);
-  summary.consistency = summarise(consistency, seeds);
-}
+/// A number of a run, and where its summary over the runs stands.
+struct Metric {
+  Summary FilterSummary::*summary;
+  double (*of)(const FilterScore&);
+};
+
+constexpr std::array<Metric, 11> kMetrics = {{
+    {&FilterSummary::ate_aligned_rms_m, [](const FilterScore& s) { return s.trajectory.ate_aligned_rms_m; }},
+    {&FilterSummary::ate_rms_m, [](const FilterScore& s) { return s.trajectory.ate_rms_m; }},
+    {&FilterSummary::ate_max_m, [](const FilterScore& s) { return s.trajectory.ate_max_m; }},
+    {&FilterSummary::ate_aligned_at_sightings_rms_m,
+     [](const FilterScore& s) { return s.ate_aligned_at_sightings_rms_m; }},
+    {&FilterSummary::heading_rms_rad, [](const FilterScore& s) { return s.trajectory.heading_rms_rad; }},
+    {&FilterSummary::rpe_rms_m, [](const FilterScore& s) { return s.trajectory.rpe_rms_m; }},
+    {&FilterSummary::final_drift, [](const FilterScore& s) { return s.trajectory.final_drift; }},
+    {&FilterSummary::landmark_rms_m, [](const FilterScore& s) { return s.map.rms_m; }},
+    {&FilterSummary::landmark_aligned_rms_m, [](const FilterScore& s) { return s.map_aligned.rms_m; }},
+    {&FilterSummary::landmark_path_aligned_rms_m,
+     [](const FilterScore& s) { return s.map_path_aligned.rms_m; }},
+    {&FilterSummary::anees, mean_normalised_error},
+}};
+constexpr std::size_t kAligned = 0;  // the index of the metric that has a median too
 
 /// How many estimates have the identity of a true landmark.
 long count_named(std::span<const slam::LandmarkEstimate> map, std::span<const LandmarkTruth> truth) {
@@ -146,26 +136,30 @@ double position_error_m(const FilterScore& score, const slam::Pose& estimate, co
   return Eigen::Vector2d(there.x_m - step.truth->x_m, there.y_m - step.truth->y_m).norm();
 }
 
-FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds) {
-  const auto over_seeds = [&](auto metric) { return summarise(collect(scores, metric)); };
-  const auto aligned = [](const FilterScore& s) { return s.trajectory.ate_aligned_rms_m; };
-  FilterSummary summary;
+void FilterTally::add(const FilterScore& score) {
+  counts_.failures += score.failed ? 1 : 0;
+  counts_.landmarks_found_once += score.map.found_once;
+  counts_.landmarks_duplicated += score.map.duplicated;
+  counts_.landmarks_missed += score.map.missed;
+  counts_.landmarks_spurious += score.map.spurious;
+  if (score.failed) return;
+  metrics_.resize(kMetrics.size());
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) metrics_[i].push_back(kMetrics[i].of(score));
+  add_steps(nees_by_step_, score.normalised_errors);
+  consistency_.add(score.consistency);
+}
+
+FilterSummary FilterTally::summary(int particles, Seeds seeds) const {
+  FilterSummary summary = counts_;
   summary.particles = particles;
-  summary.ate_rms_m = over_seeds([](const FilterScore& s) { return s.trajectory.ate_rms_m; });
-  summary.ate_max_m = over_seeds([](const FilterScore& s) { return s.trajectory.ate_max_m; });
-  summary.ate_aligned_rms_m = over_seeds(aligned);
-  summary.ate_aligned_median_m = median(collect(scores, aligned));
-  summary.ate_aligned_at_sightings_rms_m =
-      over_seeds([](const FilterScore& s) { return s.ate_aligned_at_sightings_rms_m; });
-  summary.heading_rms_rad = over_seeds([](const FilterScore& s) { return s.trajectory.heading_rms_rad; });
-  summary.rpe_rms_m = over_seeds([](const FilterScore& s) { return s.trajectory.rpe_rms_m; });
-  summary.final_drift = over_seeds([](const FilterScore& s) { return s.trajectory.final_drift; });
-  summary.landmark_rms_m = over_seeds([](const FilterScore& s) { return s.map.rms_m; });
-  summary.landmark_aligned_rms_m = over_seeds([](const FilterScore& s) { return s.map_aligned.rms_m; });
-  summary.landmark_path_aligned_rms_m =
-      over_seeds([](const FilterScore& s) { return s.map_path_aligned.rms_m; });
-  add_consistency(scores, seeds, summary);
-  add_map_counts(scores, summary);
+  const std::vector<std::vector<double>> metrics =
+      metrics_.empty() ? std::vector<std::vector<double>>(kMetrics.size()) : metrics_;
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) summary.*kMetrics[i].summary = summarise(metrics[i]);
+  summary.ate_aligned_median_m = median(metrics[kAligned]);
+  summary.nees_by_step = nees_by_step_;
+  for (SquaredSum& sum : summary.nees_by_step) sum = worth(sum, seeds, metrics[kAligned].size());
+  summary.nees = judge_steps(summary.nees_by_step);
+  summary.consistency = consistency_.summary(seeds);
   return summary;
 }
 

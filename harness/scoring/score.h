@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -65,7 +64,19 @@ FilterScore score(const FilterRun& run, const MeasurementLog& log);
 /// @return NaN where there is no truth, or nothing tells how the frames lie to each other
 double position_error_m(const FilterScore& score, const slam::Pose& estimate, const LogStep& step);
 
-/// Puts the seeds of one filter together; failed runs are counted and enter no mean.
-FilterSummary summarise(std::span<const FilterScore> scores, int particles, Seeds seeds = Seeds::kWorlds);
+/// Puts the seeds of one filter together, one after the other; failed runs are counted and enter no mean. It
+/// keeps some numbers a run and sums over the runs for each step, so that its size does not grow with the
+/// product of seeds and steps.
+class FilterTally {
+ public:
+  void add(const FilterScore& score);
+  FilterSummary summary(int particles, Seeds seeds = Seeds::kWorlds) const;
+
+ private:
+  FilterSummary counts_;                      ///< what is a plain sum over the seeds
+  std::vector<std::vector<double>> metrics_;  ///< of each metric one value a run that did not fail
+  std::vector<SquaredSum> nees_by_step_;
+  ConsistencyTally consistency_;
+};
 
 }  // namespace stereobench::harness

@@ -1,6 +1,7 @@
 #include "harness/sweep/sweep_result.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,16 +75,15 @@ std::string picture_of(const SweepResult& sweep, const std::vector<const SweepCe
 
 }  // namespace
 
-SweepCell assemble_cell(const std::string& name, const std::string& backend, const Cell& values,
-                        std::span<const SeedDrive> drives) {
-  std::vector<double> ranges;
-  std::vector<double> bearings;
-  for (const SeedDrive& drive : drives)
-    if (drive.recording.vision) {
-      ranges.push_back(drive.recording.vision->range_rms_m());
-      bearings.push_back(drive.recording.vision->bearing_rms_rad());
-    }
-  return {values, assemble(name, backend, drives), summarise(ranges), summarise(bearings)};
+void CellTally::add(const SeedResult& seed) {
+  run_.add(seed);
+  if (!seed.vision) return;
+  range_rms_m_.push_back(seed.vision->range_rms_m());
+  bearing_rms_rad_.push_back(seed.vision->bearing_rms_rad());
+}
+
+SweepCell CellTally::cell(Cell values) const {
+  return {std::move(values), run_.result(), summarise(range_rms_m_), summarise(bearing_rms_rad_)};
 }
 
 std::string sweep_table(const SweepResult& sweep) {

@@ -1,13 +1,12 @@
 /// What a sweep gave, as a table, as files and as pictures.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "harness/run/run_result.h"
+#include "harness/run/run_tally.h"
 #include "harness/statistics/statistics.h"
 #include "harness/sweep/grid.h"
 
@@ -27,9 +26,21 @@ struct SweepResult {
   std::vector<SweepCell> cells;  ///< in the order of grid()
 };
 
-/// Scores one cell's drives.
-SweepCell assemble_cell(const std::string& name, const std::string& backend, const Cell& values,
-                        std::span<const SeedDrive> drives);
+/// Puts the seeds of one cell together, one after the other.
+class CellTally {
+ public:
+  /// @param name of the scenario
+  CellTally(const std::string& name, const std::string& backend) : run_(name, backend) {}
+  void add(const SeedResult& seed);
+  const Timing& timing() const { return run_.timing(); }
+  /// @throws std::invalid_argument when there is no seed
+  SweepCell cell(Cell values) const;
+
+ private:
+  RunTally run_;
+  std::vector<double> range_rms_m_;  ///< one a seed with pixels
+  std::vector<double> bearing_rms_rad_;
+};
 
 /// One row a cell: the varied values, detection errors, each filter's mean ATE with its 95 % interval.
 std::string sweep_table(const SweepResult& sweep);

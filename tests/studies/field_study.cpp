@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "harness/commands/scenario_arguments.h"
-#include "harness/run/seed_drive.h"
+#include "harness/run/seed_result.h"
 
 namespace stereobench {
 namespace {
@@ -50,10 +50,10 @@ Seen drive_through(const std::vector<worlds::Scenario>& fields, int jobs, const 
   for (const worlds::Scenario& scenario : fields)
     for (const std::uint64_t seed : scenario.seeds) tasks.push_back({&scenario, seed});
   Seen seen;
-  for (const harness::SeedDrive& drive : harness::drive_seeds(tasks, jobs, what)) {
-    seen.score += *drive.recording.vision;
-    seen.pairs += static_cast<long>(drive.recording.log.steps.size());
-  }
+  harness::drive_seeds(tasks, jobs, what, [&](std::size_t, const harness::SeedResult& seed) {
+    seen.score += *seed.vision;
+    seen.pairs += seed.steps;
+  });
   return seen;
 }
 

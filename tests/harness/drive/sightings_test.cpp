@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/detector/detector.h"
-#include "harness/run/run_result.h"
 #include "tests/harness/commands/program.h"
+#include "tests/harness/run/assemble.h"
 #include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
@@ -84,7 +84,7 @@ TEST(SightingsOf, WhatADetectorImaginesIsInTheMap) {
   const DriveTask task{.scenario = &scenario, .detector = [](const DetectorInput&) {
                          return std::vector<vision::BallObservation>{imagined()};
                        }};
-  const RunResult result = assemble("name", "osmesa", std::vector{drive_seed(task, [](double) {})});
+  const RunResult result = assemble("name", "osmesa", {drive_seed(task, [](double) {})});
   EXPECT_EQ(result.vision->spurious, static_cast<long>(scenario.path.size()));
   EXPECT_EQ(result.filters.front().summary.landmarks_spurious, 1);
 }

@@ -14,8 +14,14 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> kTime_s = {0.0, 1.0, 2.0, 3.0, 4.0};
 
+ErrorCurves curves_of(const std::string& filter, const std::vector<std::vector<double>>& runs) {
+  ErrorCurves curves(filter);
+  for (const std::vector<double>& errors_m : runs) curves.add(errors_m);
+  return curves;
+}
+
 ErrorCurves constant(const std::string& filter, double error_m) {
-  return {filter, {std::vector<double>(kTime_s.size(), error_m)}};
+  return curves_of(filter, {std::vector<double>(kTime_s.size(), error_m)});
 }
 
 /// The row on which a filter's level curve is drawn, legend left out.
@@ -46,8 +52,8 @@ TEST(ReportErrors, EqualRatiosAreEqualDistancesWhenSizesDiffer) {
 // Catches: the mean, the median or the last run for the rms; a band of one run.
 TEST(ReportErrors, RmsAndBandAreThoseOfTheRuns) {
   ErrorCurves runs = constant("ufastslam", 1.0);
-  runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), 3.0));
-  runs.error_m_by_run.push_back(std::vector<double>(kTime_s.size(), kNaN));
+  runs.add(std::vector<double>(kTime_s.size(), 3.0));
+  runs.add(std::vector<double>(kTime_s.size(), kNaN));
   const ErrorPicture picture = {"", kTime_s, {runs, constant("fastslam2", 2.0), constant("mine", 3.0)}};
   const cv::Mat image = decoded(draw_error_picture(picture));
   const double row_of_2 = row_of(image, "fastslam2");
@@ -82,9 +88,9 @@ TEST(ReportErrors, TheBoundIsACurveAmongThem) {
 
 // Catches: the rms of the mean curve, or over all runs at once, in place of the mean of the runs' rms.
 TEST(ReportErrors, RmsIsTheMeanOfTheRunsRms) {
-  const ErrorCurves curves = {"ufastslam", {{3.0, 4.0, kNaN}, {1.0, 1.0}, {kNaN}}};
-  EXPECT_NEAR(mean_rms_m(curves), 0.5 * (std::sqrt(12.5) + 1.0), 1e-12);
-  EXPECT_TRUE(std::isnan(mean_rms_m({"ufastslam", {}})));
+  const ErrorCurves curves = curves_of("ufastslam", {{3.0, 4.0, kNaN}, {1.0, 1.0}, {kNaN}});
+  EXPECT_NEAR(curves.mean_rms_m(), 0.5 * (std::sqrt(12.5) + 1.0), 1e-12);
+  EXPECT_TRUE(std::isnan(ErrorCurves("ufastslam").mean_rms_m()));
 }
 
 TEST(ReportErrors, NothingAndNonsenseAreCharts) {
@@ -92,7 +98,7 @@ TEST(ReportErrors, NothingAndNonsenseAreCharts) {
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {constant("ufastslam", kNaN)}})).empty());
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {constant("ufastslam", 0.0)}})).empty());
   EXPECT_FALSE(decoded(draw_error_picture({"", {0.0}, {constant("ufastslam", 1.0)}})).empty());
-  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {{"fastslam2", {{0.1}}}}})).empty());
+  EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {curves_of("fastslam2", {{0.1}})}})).empty());
   EXPECT_FALSE(decoded(draw_error_picture({"", kTime_s, {}, {0.1, kNaN}})).empty());
 }
 

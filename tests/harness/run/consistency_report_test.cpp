@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/harness/run/assemble.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -65,7 +67,7 @@ TEST(ConsistencyReport, JsonHasWhatTheRunsSaid) {
 TEST(ConsistencyReport, OfNothingHasTheSameKeys) {
   RunResult nothing;
   nothing.filters = {{.filter = "ekf"}};
-  const auto json = consistency_json(nothing, nothing.filters[0]);
+  const auto json = consistency_json(nothing.filters[0]);
   const auto full = consistency_of({drive_of(3)});
   ASSERT_EQ(json.size(), full.size());
   for (const auto& [key, value] : full.items())
@@ -81,7 +83,7 @@ TEST(ConsistencyReport, FailedRunsHaveNone) {
 // Mutations: the mean of lengths, not halved; cells where nothing was seen.
 TEST(ConsistencyReport, StepsHaveTheirInnovations) {
   const std::vector<SeedDrive> drives = {drive_of(3)};
-  std::istringstream csv(steps_csv(assemble("name", "none", drives), drives));
+  std::istringstream csv(steps_csv(drives));
   std::vector<std::string> ends;
   for (std::string line; std::getline(csv, line);) {
     std::size_t cells = line.size();

@@ -10,6 +10,7 @@
 
 #include "harness/io/text_table.h"
 #include "harness/run/result_table.h"
+#include "tests/harness/run/assemble.h"
 
 namespace stereobench::harness {
 namespace {
@@ -203,7 +204,7 @@ TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
   drives[1].runs[1].poses.resize(1);  // failed at the second step
   drives[1].runs[1].covariances.resize(1);
   drives[1].runs[1].failed = true;
-  std::istringstream csv(steps_csv(assemble("name", "none", drives), drives));
+  std::istringstream csv(steps_csv(drives));
   std::size_t lines = 0;
   for (std::string line; std::getline(csv, line); ++lines)
     EXPECT_EQ(std::ranges::count(line, ','), 18) << line;
@@ -214,7 +215,9 @@ TEST(RunResult, StepsHaveALineForEachSeedFilterAndStepOfAsManyCells) {
 TEST(RunResult, TimingIsSummedOverTheSeeds) {
   std::vector<SeedDrive> drives = {drive_of(3, 1, 0.4), drive_of(8, 1, 0.8)};
   for (SeedDrive& drive : drives) drive.recording.timing = {{"render", 1.5}};
-  EXPECT_EQ(timing_json(timing_of(drives), drives.size())["seconds"]["render"], 3.0);
+  RunTally tally("name", "none");
+  for (const SeedDrive& drive : drives) tally.add(score_seed(drive, {}));
+  EXPECT_EQ(timing_json(tally.timing(), drives.size())["seconds"]["render"], 3.0);
 }
 
 TEST(RunResult, RefusesDrivesThatCannotBePutTogether) {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/run/serialise.h"
+#include "harness/run/seed_result.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::harness {
@@ -30,10 +30,25 @@ worlds::Scenario short_drive() {
   return scenario;
 }
 
-/// All that a drive gave but the time it took.
-std::string bytes_without_timing(SeedDrive drive) {
-  drive.recording.timing.clear();
-  return to_bytes(drive);
+constexpr SeedParts kAll = {.steps = true, .map = true};
+
+/// All that a seed gave but the time it took.
+std::string bytes_without_timing(SeedResult result) {
+  result.timing.clear();
+  return to_bytes(result);
+}
+
+std::string bytes_without_timing(const SeedDrive& drive) {
+  return bytes_without_timing(score_seed(drive, kAll));
+}
+
+std::vector<SeedResult> results_of(const std::vector<DriveTask>& tasks, int jobs) {
+  std::vector<SeedResult> results;
+  drive_seeds(tasks, jobs, "test", [&](std::size_t index, const SeedResult& result) {
+    EXPECT_EQ(index, results.size());
+    results.push_back(result);
+  });
+  return results;
 }
 
 double largest_odometry_error_mps(const worlds::Scenario& scenario) {
@@ -110,8 +125,8 @@ TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
   const worlds::Scenario honest = short_drive();
   worlds::Scenario deceived = honest;
   deceived.believed_odometry_noise.v_constant_mps *= 5.0;
-  const References one = drive_seed({&honest, 3, 0}, [](double) {}).references;
-  const References two = drive_seed({&deceived, 3, 0}, [](double) {}).references;
+  const References one = drive_seed({&honest, 3}, [](double) {}).references;
+  const References two = drive_seed({&deceived, 3}, [](double) {}).references;
   ASSERT_EQ(one.bound.value().poses.size(), honest.path.size());
   EXPECT_EQ(one.bound->landmarks.size(), 3U);
   EXPECT_EQ(one.bound->poses.back(), two.bound.value().poses.back());
@@ -123,13 +138,13 @@ TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
 // Mutation: a scenario's law that the filters are not told.
 TEST(DriveSeed, TellsTheFiltersWhatToBelieveOfTheSensor) {
   worlds::Scenario scenario = short_drive();
-  const SeedDrive stated = drive_seed({&scenario, 3, 0}, [](double) {});
+  const SeedDrive stated = drive_seed({&scenario, 3}, [](double) {});
   scenario.believed_measurement_noise = {.range_sd_m = scenario.oracle.range_sd_m,
                                          .bearing_sd_rad = scenario.oracle.bearing_sd_rad};
-  const SeedDrive same = drive_seed({&scenario, 3, 0}, [](double) {});
+  const SeedDrive same = drive_seed({&scenario, 3}, [](double) {});
   EXPECT_EQ(bytes_without_timing(stated), bytes_without_timing(same));
   scenario.believed_measurement_noise->range_sd_per_m2 = 0.1;
-  const SeedDrive other = drive_seed({&scenario, 3, 0}, [](double) {});
+  const SeedDrive other = drive_seed({&scenario, 3}, [](double) {});
   EXPECT_NE(stated.runs.back().poses.back().x_m, other.runs.back().poses.back().x_m);
 }
 
@@ -155,14 +170,12 @@ TEST(FilterConfigOfAScenario, IsWhatFiltersAreToBelieve) {
 TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
   const worlds::Scenario scenario = short_drive();
   std::vector<DriveTask> tasks;
-  for (const std::uint64_t seed : {4U, 2U, 9U, 0U}) tasks.push_back({&scenario, seed, 0});
-  const auto one = drive_seeds(tasks, 1, "test");
+  for (const std::uint64_t seed : {4U, 2U, 9U, 0U}) tasks.push_back({&scenario, seed, kAll});
+  const auto one = results_of(tasks, 1);
   ASSERT_EQ(one.size(), tasks.size());
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    EXPECT_EQ(one[i].seed, tasks[i].seed);
-    for (const FilterRun& run : one[i].runs) EXPECT_EQ(run.seed, tasks[i].seed) << run.filter;
-  }
-  const auto three = drive_seeds(tasks, 3, "test");
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    EXPECT_EQ(bytes_without_timing(one[i]), bytes_without_timing(drive_seed(tasks[i], [](double) {})));
+  const auto three = results_of(tasks, 3);
   for (std::size_t i = 0; i < tasks.size(); ++i)
     EXPECT_EQ(bytes_without_timing(one[i]), bytes_without_timing(three[i])) << "seed " << tasks[i].seed;
 }
@@ -173,8 +186,9 @@ TEST(DriveSeeds, CellsOfASweepShareTheirSeeds) {
   const worlds::Scenario cell = short_drive();
   worlds::Scenario other = cell;
   other.camera.noise_sd_levels = 4.0;
-  const std::vector<DriveTask> tasks = {{&cell, 1, 0}, {&cell, 2, 0}, {&other, 1, 0}, {&other, 2, 0}};
-  const auto drives = drive_seeds(tasks, 2, "test");
+  const std::vector<DriveTask> tasks = {
+      {&cell, 1, kAll}, {&cell, 2, kAll}, {&other, 1, kAll}, {&other, 2, kAll}};
+  const auto drives = results_of(tasks, 2);
   ASSERT_EQ(drives.size(), 4U);
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_EQ(bytes_without_timing(drives[i]), bytes_without_timing(drives[i + 2]));

@@ -5,6 +5,7 @@
 
 #include "harness/scoring/replay.h"
 #include "harness/scoring/score.h"
+#include "tests/harness/scoring/summarise.h"
 #include "tests/slam/checks.h"
 
 namespace stereobench::harness {

@@ -56,13 +56,13 @@ TEST(ScoreInnovations, SumsUpByRunAndLandmark) {
 // 400 studies of 5 honest runs and 10 landmarks: one in a hundred finds a run outside, and one a landmark; 4
 // +- 2 each, five deviations. Mutations: no correction for their number (20 and 38); one degree of freedom
 // each.
-TEST(SummariseInnovations, FindsNothingWhereAllIsHonest) {
+TEST(TallyInnovations, FindsNothingWhereAllIsHonest) {
   int with_run = 0;
   int with_landmark = 0;
   for (std::uint64_t study = 0; study < 400; ++study) {
-    std::vector<InnovationScore> scores;
-    for (std::uint64_t seed = 0; seed < 5; ++seed) scores.push_back(drawn(5 * study + seed, -1, 1.0));
-    const InnovationSummary summary = summarise(scores);
+    InnovationTally tally;
+    for (std::uint64_t seed = 0; seed < 5; ++seed) tally.add(drawn(5 * study + seed, -1, 1.0));
+    const InnovationSummary summary = tally.summary();
     with_run += summary.runs_outside > 0 ? 1 : 0;
     with_landmark += summary.landmarks_outside > 0 ? 1 : 0;
   }
@@ -70,9 +70,10 @@ TEST(SummariseInnovations, FindsNothingWhereAllIsHonest) {
   EXPECT_LE(with_landmark, 14);
 }
 
-TEST(SummariseInnovations, FindsTheLandmarkThatIsWrong) {
-  const std::vector<InnovationScore> scores = {drawn(1, 6, 3.0), drawn(2, 6, 3.0)};
-  const InnovationSummary summary = summarise(scores);
+TEST(TallyInnovations, FindsTheLandmarkThatIsWrong) {
+  InnovationTally tally;
+  for (const std::uint64_t seed : {1U, 2U}) tally.add(drawn(seed, 6, 3.0));
+  const InnovationSummary summary = tally.summary();
   EXPECT_EQ(summary.landmarks, kLandmarks);
   EXPECT_EQ(summary.landmarks_outside, 1);
   EXPECT_EQ(summary.worst.value().landmark_id, 6);
@@ -80,12 +81,13 @@ TEST(SummariseInnovations, FindsTheLandmarkThatIsWrong) {
   EXPECT_EQ(summary.sum.sightings(), 400);
 }
 
-TEST(SummariseInnovations, OfNothingIsNothing) {
-  const InnovationSummary summary = summarise(std::span<const InnovationScore>{});
+TEST(TallyInnovations, OfNothingIsNothing) {
+  const InnovationSummary summary = InnovationTally().summary();
   EXPECT_TRUE(std::isnan(summary.nis.mean));
   EXPECT_FALSE(summary.worst);
-  const std::vector<InnovationScore> blind(2);
-  EXPECT_EQ(summarise(blind).runs_outside, 0);
+  InnovationTally blind;
+  for (int run = 0; run < 2; ++run) blind.add({});
+  EXPECT_EQ(blind.summary().runs_outside, 0);
 }
 
 }  // namespace

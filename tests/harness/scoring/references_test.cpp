@@ -168,15 +168,13 @@ FilterScore score_of(double ate_rms_m, bool failed = false) {
 
 // Mutations: the mean of the seeds' ratios; failed runs' bounds counted.
 TEST(Efficiency, ComparesMeanSquares) {
-  const BoundScore other{7.0, 7.0, 7.0};
-  const std::vector<BoundScores> bounds = {
-      {{1.0, 0.0, 0.0}, other}, {{2.0, 0.0, 0.0}, other}, {{50.0, 0.0, 0.0}, other}};
-  const auto filtering = &BoundScores::filtering;
   const double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<FilterScore> scores = {score_of(2.0), score_of(6.0), score_of(kNaN, true)};
-  EXPECT_DOUBLE_EQ(efficiency(scores, bounds, filtering), std::sqrt(40.0 / 5.0));
-  EXPECT_TRUE(std::isnan(efficiency(scores, {}, filtering)));
-  EXPECT_TRUE(std::isnan(efficiency({}, bounds, filtering)));
+  Efficiency efficiency;
+  EXPECT_TRUE(std::isnan(efficiency.ratio()));
+  efficiency.add(score_of(2.0), {.pose_rms_m = 1.0});
+  efficiency.add(score_of(6.0), {.pose_rms_m = 2.0});
+  efficiency.add(score_of(kNaN, true), {.pose_rms_m = 50.0});
+  EXPECT_DOUBLE_EQ(efficiency.ratio(), std::sqrt(40.0 / 5.0));
 }
 
 TEST(ReplayBatch, IsExactWithoutNoiseAndNeverLooksAtTheTruth) {

@@ -10,6 +10,7 @@
 #include "harness/logs/measurement_log_reader.h"
 #include "harness/scoring/score.h"
 #include "slam/models/motion.h"
+#include "tests/harness/scoring/summarise.h"
 
 namespace stereobench::harness {
 namespace {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/models/motion.h"
+#include "tests/harness/scoring/summarise.h"
 
 namespace stereobench::harness {
 namespace {

@@ -1,0 +1,81 @@
+/// What is kept of a seed's drive once its filters are scored: where the filters ran, so that neither logs
+/// nor covariances leave the process.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/report/map_picture.h"
+#include "harness/run/seed_drive.h"
+#include "harness/scoring/references.h"
+#include "harness/scoring/score.h"
+
+namespace stereobench::harness {
+
+class AnswerStore;
+
+/// One filter's run over one seed, scored.
+struct ScoredRun {
+  std::string filter;
+  int particles = 1;
+  FilterScore score;
+  std::optional<AssociationScore> association;
+  slam::FilterCounters counters;
+  std::vector<double>
+      errors_m;  ///< of position, one a step of the log; NaN where unknown. See SeedParts::steps
+};
+
+/// One seed, scored. Of its steps it has what run.json sums up over seeds, and what SeedParts asks for.
+struct SeedResult {
+  std::uint64_t seed = 0;
+  std::string detector = "none";      ///< see Recording
+  std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  CoarseBlur blur;
+  Timing timing;
+  long steps = 0;                ///< of the log
+  bool start_is_true = true;     ///< see MeasurementLog
+  bool identities_known = true;  ///< by every sighting
+  std::vector<ScoredRun> runs;   ///< in the scenario's order of filters
+  FilterScore batch;
+  std::optional<BoundScores> bound;
+  std::vector<double> bound_m2;   ///< variance of the position by the filtering bound, one a step
+  std::string csv;                ///< its lines of steps.csv
+  std::vector<double> time_s;     ///< of each step
+  std::optional<MapPicture> map;  ///< without title and walls
+  std::vector<Snapshot> snapshots;
+};
+
+/// Told of a seed's result. @param index of its task
+using OnSeed = std::function<void(std::size_t index, const SeedResult& result)>;
+
+/// Scores a drive against its truth and its references.
+SeedResult score_seed(const SeedDrive& drive, const SeedParts& parts);
+
+/// Drives many seeds in `jobs` processes at a time, scores each where it was driven, and hands on the results
+/// in the order of the tasks, each as soon as it and all before it are there. A progress line is for people.
+/// @param what is shown on the progress line
+void drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
+                 const OnSeed& on_seed);
+
+/// The same with a store: tasks whose results it holds are not driven again. A result is in the store as soon
+/// as its seed has ended, and in memory while it is handed on: a program that is killed loses those seeds
+/// alone that it was at.
+/// @param tasks each with its key
+void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
+                const OnSeed& on_seed);
+
+/// The first line of steps.csv.
+std::string steps_csv_header();
+
+/// A seed's result as bytes (CBOR), for its way from a worker to its parent: exact to the last bit; numbers
+/// that are not finite survive.
+std::string to_bytes(const SeedResult& result);
+
+/// What to_bytes made bytes of.
+SeedResult seed_result_from_bytes(std::string_view bytes);
+
+}  // namespace stereobench::harness
