@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 base=${1:-HEAD}
 git rev-parse --verify --quiet "$base^{commit}" >/dev/null || { echo "check.sh: no such commit: $base" >&2; exit 2; }
 
-for rule in format layers arithmetic sizes products documents; do tests/style/check.sh "$rule"; done
+for rule in format layers arithmetic sizes products documents; do bash tests/style/check.sh "$rule"; done
 
 [ -d build/release ] || cmake --preset release -Wno-dev >/dev/null
 cmake --build --preset release
