@@ -6,6 +6,11 @@
 #include "tests/fuzz/entries.h"
 
 namespace stereobench::fuzz {
+
+static void PrintTo(const Entry& entry, std::ostream* out) {
+  *out << entry.name;
+}
+
 namespace {
 
 /// A seed with some of its bytes changed, taken out or doubled.
@@ -82,8 +87,7 @@ TEST_P(FuzzEntry, SurvivesAMegabyte) {
     GetParam().check(bytes_of(grown(seeds[static_cast<std::size_t>(way) % seeds.size()], way, random)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FuzzEntry, testing::ValuesIn(entries().begin(), entries().end()),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, FuzzEntry, testing::ValuesIn(entries().begin(), entries().end()));
 
 }  // namespace
 }  // namespace stereobench::fuzz

@@ -58,8 +58,7 @@ TEST_P(Determinism, SameIdsAndColoursWithinALevelOnCpusWithoutFusedMultiplyAdd) 
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Determinism, testing::Values(Backend::kOsmesa, Backend::kEgl),
-                         [](const auto& test) { return std::string(name_of(test.param)); });
+INSTANTIATE_TEST_SUITE_P(Backends, Determinism, testing::Values(Backend::kOsmesa, Backend::kEgl));
 
 }  // namespace
 }  // namespace stereobench::renderer

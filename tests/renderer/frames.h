@@ -3,10 +3,21 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <ostream>
 #include <string>
 #include <vector>
 
+#include "renderer/backend.h"
 #include "renderer/types.h"
+
+namespace stereobench::renderer {
+
+/// For names of tests.
+inline void PrintTo(Backend backend, std::ostream* out) {
+  *out << name_of(backend);
+}
+
+}  // namespace stereobench::renderer
 
 namespace stereobench::renderer::test {
 

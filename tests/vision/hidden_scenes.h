@@ -3,12 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 
 #include "tests/vision/painter.h"
 
 namespace stereobench::vision::painter {
 
 enum class Hider { kEdge, kBall, kBorder };
+
+/// For names of tests.
+inline void PrintTo(Hider hider, std::ostream* out) {
+  *out << (hider == Hider::kEdge ? "by an edge" : hider == Hider::kBall ? "by a ball" : "by the border");
+}
 
 inline constexpr double kHiddenRadius_m = 0.05;
 inline constexpr double kHiddenNoise_levels = 2.0;

@@ -62,11 +62,20 @@ cv::Moments distorted_outline(const vision::StereoRig& rig, const Eigen::Vector3
   return cv::moments(outline);
 }
 
-class LensTest : public testing::TestWithParam<vision::Distortion> {};
+struct NamedLens {
+  const char* name;
+  vision::Distortion lens;
+};
+
+void PrintTo(const NamedLens& named, std::ostream* out) {
+  *out << named.name;
+}
+
+class LensTest : public testing::TestWithParam<NamedLens> {};
 
 // Mutation: half a pixel in places_seen.
 TEST_P(LensTest, ShowsBallsWhereDistortedRaysArrive) {
-  const vision::StereoRig rig = rig_with(GetParam());
+  const vision::StereoRig rig = rig_with(GetParam().lens);
   const double full = vision::kPalette[0].r;
   for (const double x : {-1.2, -0.4, 0.5, 1.2}) {
     for (const double y : {-0.9, 0.1, 0.8}) {
@@ -82,7 +91,7 @@ TEST_P(LensTest, ShowsBallsWhereDistortedRaysArrive) {
 
 // Mutation: truth of the pixel to the left.
 TEST_P(LensTest, KeepsTruthAndLightTogether) {
-  const vision::StereoRig rig = rig_with(GetParam());
+  const vision::StereoRig rig = rig_with(GetParam().lens);
   const RenderedImage frame = Renderer(ball_at(rig, {0.9, -0.6, 2.0}), rig).render({}).left;
   cv::Mat red;
   cv::extractChannel(frame.colour, red, 2);
@@ -101,7 +110,7 @@ TEST_P(LensTest, KeepsTruthAndLightTogether) {
 
 // Mutations: a lens that draws the rows that it was asked for; rows drawn without their neighbours.
 TEST_P(LensTest, RendersRowsAloneAsInTheWholePicture) {
-  const vision::StereoRig rig = rig_with(GetParam());
+  const vision::StereoRig rig = rig_with(GetParam().lens);
   worlds::World world = ball_at(rig, {0.9, -0.2, 2.0});
   world.walls = {{{1.0, -3.0}, {1.4, 3.0}, 3.1, worlds::Material::kPlain}};  // an edge across all columns
   Renderer renderer(world, rig);
@@ -122,8 +131,9 @@ TEST_P(LensTest, RendersRowsAloneAsInTheWholePicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LensTest,
-                         testing::Values(vision::Distortion{}, kBarrel, kPincushion,
-                                         vision::Distortion{.pixel_aspect = 0.85}));
+                         testing::Values(NamedLens{"pinhole", {}}, NamedLens{"barrel", kBarrel},
+                                         NamedLens{"pincushion", kPincushion},
+                                         NamedLens{"stretched", {.pixel_aspect = 0.85}}));
 
 TEST(Lens, ThatFoldsItsPictureIsRefused) {
   EXPECT_THROW(Lens(rig_with({.k1 = -2.0})), std::invalid_argument);

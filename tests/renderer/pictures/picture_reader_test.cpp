@@ -62,6 +62,10 @@ File file_of(const Written& how, int type, std::uint64_t seed) {
   return file;
 }
 
+void PrintTo(const Written& how, std::ostream* out) {
+  *out << how.name;
+}
+
 class PictureFormat : public testing::TestWithParam<Written> {};
 
 /// One that says how much there is of it; in figures, half of the last number is a number.
@@ -107,13 +111,9 @@ TEST_P(CountedPicture, CutShortIsReadWholeOrRefused) {
   EXPECT_LE(read, 1 + static_cast<int>(whole.size() / 4)) << "what stands behind the pixels may be missing";
 }
 
-std::string name_of(const testing::TestParamInfo<Written>& test) {
-  return test.param.name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Counted, PictureFormat, testing::ValuesIn(kCounted), name_of);
-INSTANTIATE_TEST_SUITE_P(InFigures, PictureFormat, testing::ValuesIn(kInFigures), name_of);
-INSTANTIATE_TEST_SUITE_P(All, CountedPicture, testing::ValuesIn(kCounted), name_of);
+INSTANTIATE_TEST_SUITE_P(Counted, PictureFormat, testing::ValuesIn(kCounted));
+INSTANTIATE_TEST_SUITE_P(InFigures, PictureFormat, testing::ValuesIn(kInFigures));
+INSTANTIATE_TEST_SUITE_P(All, CountedPicture, testing::ValuesIn(kCounted));
 
 // Cameras leave stray bytes between a JPEG's parts. Mutation: what follows them may be missing.
 TEST(PictureReader, PassesOverStrayBytesOfAWholeJpeg) {

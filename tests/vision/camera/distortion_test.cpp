@@ -16,11 +16,20 @@ namespace {
 
 const Intrinsics kCamera = {640, 480, 400.0, 318.0, 242.0};
 
-class LensModel : public testing::TestWithParam<Distortion> {};
+struct NamedLens {
+  const char* name;
+  Distortion lens;
+};
+
+void PrintTo(const NamedLens& named, std::ostream* out) {
+  *out << named.name;
+}
+
+class LensModel : public testing::TestWithParam<NamedLens> {};
 
 // Mutations: p1 for p2, 3 k3 without its 3 in the slope, the aspect left out of the slope.
 TEST_P(LensModel, IsOpenCvsAndCanBeUndone) {
-  const Distortion& lens = GetParam();
+  const Distortion& lens = GetParam().lens;
   const cv::Matx<double, 1, 5> coefficients(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
   const auto seen = directions_seen(lens, kCamera);
   ASSERT_TRUE(seen);
@@ -49,12 +58,13 @@ TEST_P(LensModel, IsOpenCvsAndCanBeUndone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LensModel,
-                         testing::Values(Distortion{},
-                                         Distortion{.k1 = -0.28, .k2 = 0.07, .p1 = 0.001, .p2 = -0.002},
-                                         Distortion{.k1 = 0.2, .k2 = 0.05, .p1 = -0.001, .k3 = 0.01},
-                                         Distortion{.pixel_aspect = 0.8},
-                                         Distortion{.k1 = -0.28, .k2 = 0.07, .pixel_aspect = 1.25}));
+INSTANTIATE_TEST_SUITE_P(
+    All, LensModel,
+    testing::Values(NamedLens{"pinhole", {}},
+                    NamedLens{"barrel", {.k1 = -0.28, .k2 = 0.07, .p1 = 0.001, .p2 = -0.002}},
+                    NamedLens{"pincushion", {.k1 = 0.2, .k2 = 0.05, .p1 = -0.001, .k3 = 0.01}},
+                    NamedLens{"stretched", {.pixel_aspect = 0.8}},
+                    NamedLens{"stretched barrel", {.k1 = -0.28, .k2 = 0.07, .pixel_aspect = 1.25}}));
 
 // r - 2 r^3 turns back at r = 0.41: the corners, at 0.99, show nothing that a ray could bring there.
 TEST(LensModel, ThatFoldsItsPictureIsSeenThrough) {

@@ -1,5 +1,8 @@
 // Everything that a scenario file can have wrong: each is refused in one line that names the place and the
 // cure.
+#include <algorithm>
+#include <cctype>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -34,6 +37,18 @@ struct Fault {
   const char* instead;
   const char* complaint;
 };
+
+/// Names of tests hold letters, digits and few signs.
+std::string plain(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != ' '; },
+      '_');
+  return text;
+}
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << plain(fault.instead) << " at " << plain(fault.complaint);
+}
 
 class BadScenario : public testing::TestWithParam<Fault> {};
 
@@ -304,6 +319,10 @@ struct BadOverride {
   const char* text;
   const char* complaint;
 };
+
+void PrintTo(const BadOverride& bad, std::ostream* out) {
+  *out << plain(bad.text);
+}
 
 class BadOverrides : public testing::TestWithParam<BadOverride> {};
 
