@@ -136,7 +136,7 @@ std::vector<TimedPose> poses_in(const std::string& text) {
   return read_trajectory(folder.write("trajectory.txt", text));
 }
 
-std::string complaint_about(const std::string& text) {
+std::string trajectory_complaint(const std::string& text) {
   try {
     poses_in(text);
   } catch (const std::runtime_error& error) {
@@ -160,14 +160,15 @@ TEST(Trajectory, IsReadInBothFormats) {
 
 TEST(Trajectory, SaysWhereItIsWrong) {
   using testing::HasSubstr;
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n"),
+  EXPECT_THAT(trajectory_complaint("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n"),
               HasSubstr("trajectory.txt:2: expected 8 numbers"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 1\n1 0 x 0 0 0 0 1\n"),
+  EXPECT_THAT(trajectory_complaint("0 0 0 0 0 0 0 1\n1 0 x 0 0 0 0 1\n"),
               HasSubstr(":2: expected 8 finite numbers"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n"), HasSubstr(":2: expected a time after"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 2\n"), HasSubstr(":1: expected a unit quaternion"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 1\n"), HasSubstr("two poses"));
-  EXPECT_THAT(complaint_about("t_s,x_m,y_m,theta_rad\n0,1,2,nan\n"), HasSubstr(":2: expected 4 finite"));
+  EXPECT_THAT(trajectory_complaint("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n"),
+              HasSubstr(":2: expected a time after"));
+  EXPECT_THAT(trajectory_complaint("0 0 0 0 0 0 0 2\n"), HasSubstr(":1: expected a unit quaternion"));
+  EXPECT_THAT(trajectory_complaint("0 0 0 0 0 0 0 1\n"), HasSubstr("two poses"));
+  EXPECT_THAT(trajectory_complaint("t_s,x_m,y_m,theta_rad\n0,1,2,nan\n"), HasSubstr(":2: expected 4 finite"));
   EXPECT_THROW(read_trajectory("/nowhere/at_all.txt"), std::runtime_error);
 }
 

@@ -1,7 +1,4 @@
-// Everything that a scenario file can have wrong: each is refused in one line that names the place and the
-// cure.
-#include <algorithm>
-#include <cctype>
+// What a scenario file can have wrong: each is refused in one line that names the place and the cure.
 #include <ostream>
 #include <string>
 #include <vector>
@@ -21,30 +18,12 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string complaint_about(const std::filesystem::path& file,
-                            const std::vector<std::string>& overrides = {}) {
-  try {
-    read_scenario(file, overrides);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
-
 /// A fault planted into the small scenario, and the line:key and the words of the complaint about it.
 struct Fault {
   const char* piece;
   const char* instead;
   const char* complaint;
 };
-
-/// Names of tests hold letters, digits and few signs.
-std::string plain(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != ' '; },
-      '_');
-  return text;
-}
 
 void PrintTo(const Fault& fault, std::ostream* out) {
   *out << plain(fault.instead) << " at " << plain(fault.complaint);
@@ -313,53 +292,6 @@ TEST(BadFile, BelievesOfAnOracleThatIsNotThere) {
   EXPECT_THAT(complaint_about(file),
               EndsWith("bad.yaml:10: believed_oracle: expected `oracle:` beside it, the sensor as it is"));
 }
-
-/// An override that cannot be, and the complaint about it.
-struct BadOverride {
-  const char* text;
-  const char* complaint;
-};
-
-void PrintTo(const BadOverride& bad, std::ostream* out) {
-  *out << plain(bad.text);
-}
-
-class BadOverrides : public testing::TestWithParam<BadOverride> {};
-
-// Catches: an override blamed on the file, an unknown key that is quietly added.
-TEST_P(BadOverrides, AreBlamedOnTheCommandLine) {
-  const ScenarioFolder folder;
-  const auto file = folder.write("good.yaml", kSmallScenario);
-  EXPECT_THAT(complaint_about(file, {GetParam().text}), StartsWith(GetParam().complaint));
-}
-constexpr BadOverride kBadOverrides[] = {
-    {"particles", "--set particles: expected key.path=value (got no =)"},
-    {"=3", "--set : expected key.path=value (got an empty key)"},
-    {"path..laps=3", "--set path..laps: expected key.path=value (got an empty key)"},
-    {"path.laps.x=3", "--set path.laps.x: expected a path of keys (got one below a value)"},
-    {"world.balls.0=3", "--set world.balls.0: expected an entry of the list, e.g. world.balls[0]"},
-    {"path.lap=3", "--set path.lap: unknown key, did you mean laps?"},
-    {"colour=3", "--set colour: unknown key"},
-    {"particles=many", "--set particles: expected a whole number from 1 to 100000 (got many)"},
-    {"particles=", "--set particles: expected a whole number from 1 to 100000 (got nothing)"},
-    {"world.sky_rgb=[0, 1, 7]", "--set world.sky_rgb[2]: expected a number from 0 to 1 (got 7)"},
-    {"camera=[1", "--set camera: expected a YAML value ("},
-    {"path.radius_m=10000", "--set path.radius_m: expected at most"},
-    {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
-    {"believed_oracle.range_sd_m=8", "--set believed_oracle.range_sd_m: unknown key"},
-    {"refit=maybe", "--set refit: expected true or false (got maybe)"},
-    {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
-    {"believed_measurement_noise.kind=laser",
-     "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got "
-     "laser)"},
-    {"believed_measurement_noise={kind: per_observation, range_sd_m: 1}",
-     "--set believed_measurement_noise.range_sd_m: unknown key"},
-    {"believed_measurement_noise={kind: constant, disparity_sd_px: 1}",
-     "--set believed_measurement_noise.disparity_sd_px: unknown key"},
-    {"believed_measurement_noise={kind: stereo, disparity_sd_px: -1, bearing_sd_px: 1}",
-     "--set believed_measurement_noise.disparity_sd_px: expected a number from 0 to 100 (got -1)"},
-};
-INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(kBadOverrides));
 
 }  // namespace
 }  // namespace stereobench::worlds

@@ -1,13 +1,17 @@
 /// Scenario files made up by tests: a small one that is right, and files that vanish with the test.
 #pragma once
 
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "worlds/scenario/scenario.h"
 
 namespace stereobench::worlds {
 
@@ -47,6 +51,13 @@ gates:
   - {metric: vision.recall, at_least: 0.9}
 )";
 
+/// A text as part of a test's name: letters, digits and few signs.
+inline std::string plain(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '_';
+  return text;
+}
+
 /// A folder of this test's own, with a mesh in it, removed at the end.
 class ScenarioFolder {
  public:
@@ -76,6 +87,17 @@ inline std::string small_scenario_with(const std::string& piece, const std::stri
   const std::size_t at = text.find(piece);
   if (at == std::string::npos) throw std::logic_error("the small scenario has no " + piece);
   return text.replace(at, piece.size(), instead);
+}
+
+/// What reading a file is refused with.
+inline std::string complaint_about(const std::filesystem::path& file,
+                                   const std::vector<std::string>& overrides = {}) {
+  try {
+    read_scenario(file, overrides);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no complaint";
 }
 
 }  // namespace stereobench::worlds
