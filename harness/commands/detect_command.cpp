@@ -45,7 +45,7 @@ struct DetectArguments {
 };
 
 /// What is looked at together: a pair, or a picture alone.
-struct Task {
+struct DetectTask {
   std::size_t frame = 0;
   fs::path left;
   fs::path right;  ///< empty for a picture alone
@@ -68,11 +68,11 @@ std::size_t frame_of(const fs::path& picture, std::size_t place) {
   return error == std::errc() && end == stem.data() + stem.size() ? frame : place;
 }
 
-std::vector<Task> tasks_of(const std::vector<fs::path>& given) {
+std::vector<DetectTask> tasks_of(const std::vector<fs::path>& given) {
   if (given.size() == 2) return {{0, given[0], given[1]}};
   if (!fs::is_directory(given[0])) return {{0, given[0], {}}};
   const bool pairs = fs::is_directory(given[0] / "left");
-  std::vector<Task> tasks;
+  std::vector<DetectTask> tasks;
   for (const fs::path& left : pictures_in(pairs ? given[0] / "left" : given[0]))
     tasks.push_back(
         {frame_of(left, tasks.size()), left, pairs ? given[0] / "right" / left.filename() : fs::path()});
@@ -121,7 +121,7 @@ class Looker {
 
   /// @param task of the frame after that of the last call: what pairs tell of the rig is kept for the next
   /// @return the task's line; its picture is drawn where that is asked for
-  std::string look(const Task& task) const {
+  std::string look(const DetectTask& task) const {
     return task.right.empty() ? look_at_one(task) : look_at_pair(task);
   }
 
@@ -161,7 +161,7 @@ class Looker {
     for (const vision::LearnedColour& colour : palette.colours) names_.push_back(colour.name);
   }
 
-  std::string look_at_pair(const Task& task) const {
+  std::string look_at_pair(const DetectTask& task) const {
     if (!rig_) throw std::runtime_error("--rig: two cameras need the calibration of their rig");
     const vision::StereoPair pair = {read_picture(task.left), read_picture(task.right)};
     check_size(task.left, pair.left, rig_->intrinsics);
@@ -174,7 +174,7 @@ class Looker {
   }
 
   /// No ball that both cameras see is no error, unless the other way round there are some.
-  void check_not_swapped(const Task& task, const vision::StereoPair& pair) const {
+  void check_not_swapped(const DetectTask& task, const vision::StereoPair& pair) const {
     constexpr std::size_t kEnough = 2;  // one may match by chance
     const vision::StereoPair swapped = {pair.right, pair.left};
     const std::size_t balls = our_detector(setup_)({task.frame, 0, swapped, *rig_}).size();
@@ -184,7 +184,7 @@ class Looker {
                       task.left.string(), balls));
   }
 
-  std::string look_at_one(const Task& task) const {
+  std::string look_at_one(const DetectTask& task) const {
     const cv::Mat picture = read_picture(task.left);
     if (rig_) check_size(task.left, picture, rig_->intrinsics);
     const cv::Mat light = table_ ? picture : renderer::decode(picture, {.encoding = setup_.encoding});
@@ -197,7 +197,7 @@ class Looker {
     return outlines_line(task.frame, outlines, task.left.filename().string(), names_);
   }
 
-  void write_drawing(const Task& task, const std::string& png) const {
+  void write_drawing(const DetectTask& task, const std::string& png) const {
     write_file_atomically(arguments_.draw / (task.left.stem().string() + ".png"), png);
   }
 
@@ -228,12 +228,12 @@ int detect(const DetectArguments& arguments) {
   if (arguments.pictures.empty())
     throw std::runtime_error("detect: expected LEFT, LEFT RIGHT or a folder; see --help");
   require_as_rendered(arguments.pictures.front());
-  const std::vector<Task> tasks = tasks_of(arguments.pictures);
+  const std::vector<DetectTask> tasks = tasks_of(arguments.pictures);
   const fs::path& first_picture = tasks.front().left;
   const Looker looker(arguments, first_picture);
   if (!arguments.draw.empty()) prepare_output_folder(arguments.draw);
   std::string lines;
-  for (const Task& task : tasks) {
+  for (const DetectTask& task : tasks) {
     const std::string line = looker.look(task) + "\n";
     if (&task == &tasks.front()) say_encoding(arguments, looker, first_picture);
     if (arguments.out.empty()) fmt::print("{}", line);

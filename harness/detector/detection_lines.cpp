@@ -20,7 +20,6 @@ using vision::BallObservation;
 constexpr std::size_t kMostBalls = 1000;
 constexpr double kMost_px = 1e6;
 constexpr double kMost_m = 1e6;
-constexpr double kLeast = 1e-9;  // of what must be positive
 
 Eigen::Vector2d read_pixel(const JsonValue& value) {
   const std::vector<JsonValue> parts = value.list(2, 2);
@@ -102,13 +101,13 @@ void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallO
   const auto left = value.find("left_radius_px");
   const auto right = value.find("right_radius_px");
   const double expected_px = geometry.rig.intrinsics.focal_px * geometry.radius_m / place->z();
-  ball.left_radius_px = left ? left->number(kLeast, kMost_px) : expected_px;
-  ball.right_radius_px = right ? right->number(kLeast, kMost_px) : expected_px;
+  ball.left_radius_px = left ? left->number(kLeastPositive, kMost_px) : expected_px;
+  ball.right_radius_px = right ? right->number(kLeastPositive, kMost_px) : expected_px;
 }
 
 void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
   slam::RangeBearing& seen = ball.range_bearing;
-  seen.range_m = value.at("range_m").number(kLeast, kMost_m);
+  seen.range_m = value.at("range_m").number(kLeastPositive, kMost_m);
   seen.bearing_rad = value.at("bearing_rad").number(-slam::kPi, slam::kPi);
   if (ball.has_pixels) return;
   ball.ball_in_camera = at_camera_height(geometry.rig, seen);
@@ -132,7 +131,7 @@ BallObservation read_ball(const JsonValue& value, const BallGeometry& geometry) 
   const auto covariance = value.find("covariance");
   const auto sd = value.find("centre_sd_px");
   if (covariance && sd) sd->refuse("no covariance beside it");
-  const double sd_px = sd ? sd->number(kLeast, kMost_px) : kUnstatedSd_px;
+  const double sd_px = sd ? sd->number(kLeastPositive, kMost_px) : kUnstatedSd_px;
   const slam::RangeBearing stated = ball.range_bearing;
   if (!covariance || !has_range) ball.range_bearing = seen_through(geometry, ball, sd_px);
   if (has_range) ball.range_bearing.range_m = stated.range_m;

@@ -14,7 +14,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kProtocol = "stereobench-detector";
 constexpr int kVersion = 1;
 constexpr double kMost = 1e9;
-constexpr double kLeast = 1e-9;                                                 // of what must be positive
 constexpr std::array<const char*, 3> kEncodings = {"linear", "srgb", "gamma"};  // as worlds::Encoding
 
 Json rig_json(const vision::StereoRig& rig) {
@@ -42,14 +41,14 @@ std::vector<double> numbers(const JsonValue& value, std::size_t count) {
 vision::StereoRig read_rig(const JsonValue& value) {
   value.allow({"width_px", "height_px", "focal_px", "cx_px", "cy_px", "baseline_m", "height_m",
                "pitch_down_rad", "right_turn_rad", "distortion", "pixel_aspect"});
-  constexpr std::int64_t kMost_px = 1 << 16;
+  constexpr std::int64_t kLargestPicture_px = 1 << 16;
   vision::StereoRig rig;
-  rig.intrinsics.width_px = static_cast<int>(value.at("width_px").integer(1, kMost_px));
-  rig.intrinsics.height_px = static_cast<int>(value.at("height_px").integer(1, kMost_px));
-  rig.intrinsics.focal_px = value.at("focal_px").number(kLeast, kMost);
+  rig.intrinsics.width_px = static_cast<int>(value.at("width_px").integer(1, kLargestPicture_px));
+  rig.intrinsics.height_px = static_cast<int>(value.at("height_px").integer(1, kLargestPicture_px));
+  rig.intrinsics.focal_px = value.at("focal_px").number(kLeastPositive, kMost);
   rig.intrinsics.cx_px = value.at("cx_px").number(-kMost, kMost);
   rig.intrinsics.cy_px = value.at("cy_px").number(-kMost, kMost);
-  rig.baseline_m = value.at("baseline_m").number(kLeast, kMost);
+  rig.baseline_m = value.at("baseline_m").number(kLeastPositive, kMost);
   rig.height_m = value.at("height_m").number(-kMost, kMost);
   rig.pitch_down_rad = value.at("pitch_down_rad").number(-kMost, kMost);
   const std::vector<double> turn = numbers(value.at("right_turn_rad"), 3);
@@ -60,7 +59,7 @@ vision::StereoRig read_rig(const JsonValue& value) {
                     .p1 = k[2],
                     .p2 = k[3],
                     .k3 = k[4],
-                    .pixel_aspect = value.at("pixel_aspect").number(kLeast, kMost)};
+                    .pixel_aspect = value.at("pixel_aspect").number(kLeastPositive, kMost)};
   return rig;
 }
 
@@ -97,12 +96,14 @@ DetectorSetup read_setup(const std::string& line) {
   if (value.at("protocol").text() != kProtocol) value.at("protocol").refuse(kProtocol);
   value.at("version").integer(kVersion, kVersion);
   DetectorSetup setup{.rig = read_rig(value.at("rig")),
-                      .ball_radius_m = value.at("ball_radius_m").number(kLeast, kMost),
+                      .ball_radius_m = value.at("ball_radius_m").number(kLeastPositive, kMost),
                       .ball_radius_sd_m = value.at("ball_radius_sd_m").number(0.0, kMost),
                       .noise_sd_levels = value.at("noise_sd_levels").number(0.0, kMost),
                       .encoding = read_encoding(value.at("encoding"))};
-  if (const auto rows = value.find("rows_within_px")) setup.rows_within_px = rows->number(kLeast, kMost);
-  if (setup.encoding == worlds::Encoding::kGamma) setup.gamma = value.at("gamma").number(kLeast, kMost);
+  if (const auto rows = value.find("rows_within_px"))
+    setup.rows_within_px = rows->number(kLeastPositive, kMost);
+  if (setup.encoding == worlds::Encoding::kGamma)
+    setup.gamma = value.at("gamma").number(kLeastPositive, kMost);
   return setup;
 }
 

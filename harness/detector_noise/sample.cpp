@@ -21,7 +21,7 @@ namespace {
 /// The bounds on range and bearing that the picture's noise makes.
 /// @param world the calibration scene's, as its seed has it
 BallBounds bounds_of(const worlds::Scenario& scene, const worlds::World& world,
-                     const renderer::StereoFrame& frame, const BallOutline& ball, double noise_sd_levels) {
+                     const renderer::StereoFrame& frame, const BallInPair& ball, double noise_sd_levels) {
   const vision::StereoRig& rig = scene.rig;
   const PictureQuality quality = {std::sqrt(vision::pixel_variance(noise_sd_levels)),
                                   scene.camera.defocus_sd_px};
@@ -34,7 +34,7 @@ BallBounds bounds_of(const worlds::Scenario& scene, const worlds::World& world,
        outline_information(renderer::in_levels(frame.right.colour), rig.intrinsics, ball.right, quality)});
 }
 
-CalibrationSample compare(const BallOutline& ball, const vision::BallObservation& observation) {
+CalibrationSample compare(const BallInPair& ball, const vision::BallObservation& observation) {
   CalibrationSample sample;
   const slam::RangeBearing& seen = observation.range_bearing;
   const Eigen::Vector2d place = ball.ball_in_robot.head<2>();
@@ -59,7 +59,7 @@ CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend ba
   listeners.on_frame = [&](const FrameEvent& event) {
     for (const MatchedObservation& seen : event.match.observations) {
       if (!seen.undistorted.trusted() || !seen.colour_agrees) continue;
-      const BallOutline& ball = event.match.outlines[*seen.outline];
+      const BallInPair& ball = event.match.outlines[*seen.outline];
       CalibrationSample sample = compare(ball, seen.undistorted);
       sample.depth_m = (vision::robot_from_camera(scene.rig).inverse() * ball.ball_in_robot).z();
       if (sample.whole) sample.bounds = bounds_of(scene, world, event.frame, ball, noise_sd_levels);

@@ -24,19 +24,19 @@ constexpr std::size_t kSizeDigits = 20;
 constexpr std::size_t kHeaderBytes = kMagic.size() + kHashDigits + 1 + kSizeDigits + 1 + kHashDigits + 1;
 
 /// What stands before an answer: "stereobench-answer 1 KEY SIZE SHA256\n", each part of a fixed width.
-struct Header {
+struct AnswerHeader {
   std::string key;
   std::uint64_t bytes = 0;
   std::string sha256;
 };
 
-std::string text_of(const Header& header) {
+std::string text_of(const AnswerHeader& header) {
   return fmt::format("{}{} {:0{}} {}\n", kMagic, header.key, header.bytes, kSizeDigits, header.sha256);
 }
 
 /// @return empty where the text is not exactly a header
-std::optional<Header> header_in(const std::string& text) {
-  Header header;
+std::optional<AnswerHeader> header_in(const std::string& text) {
+  AnswerHeader header;
   header.key = text.substr(kMagic.size(), kHashDigits);
   header.bytes = std::strtoull(text.c_str() + kMagic.size() + kHashDigits + 1, nullptr, 10);
   header.sha256 = text.substr(text.size() - 1 - kHashDigits, kHashDigits);

@@ -17,6 +17,9 @@ namespace stereobench::harness {
 
 using worlds::excerpt;
 
+/// The least number where one must be positive.
+inline constexpr double kLeastPositive = 1e-9;
+
 /// What is wrong with a line, e.g. "balls[2].range_m: expected a number from 0 to 1e+06 (got -1)".
 class BadLine : public std::runtime_error {
  public:

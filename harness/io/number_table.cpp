@@ -24,13 +24,13 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // a larger log is a mi
 constexpr std::size_t kMaxQuoted = 40;
 
 /// What a file said, made fit for one line of a message.
-std::string excerpt(std::string_view text) {
-  std::string excerpted = "'";
+std::string in_quotes(std::string_view text) {
+  std::string text_in_quotes = "'";
   for (const char c : text.substr(0, kMaxQuoted)) {
     const bool printable = c >= ' ' && c <= '~';
-    excerpted += printable ? c : '?';
+    text_in_quotes += printable ? c : '?';
   }
-  return excerpted + (text.size() > kMaxQuoted ? "...'" : "'");
+  return text_in_quotes + (text.size() > kMaxQuoted ? "...'" : "'");
 }
 
 [[noreturn]] void fail_at(const fs::path& file, long line, std::string_view what) {
@@ -150,13 +150,19 @@ std::optional<fs::path> find_plain_or_gz(const fs::path& path) {
   return {};
 }
 
+fs::path require_plain_or_gz(const fs::path& path) {
+  const std::optional<fs::path> found = find_plain_or_gz(path);
+  if (!found) throw std::runtime_error(fmt::format("{}[.gz]: no such file", path.string()));
+  return *found;
+}
+
 NumberTable read_csv_table(const fs::path& file, const std::vector<std::string>& headers) {
   const std::string text = read_all(file);
   const std::vector<std::string_view> lines = split_lines(text);
   const std::string expected = fmt::format("expected the header '{}'", fmt::join(headers, "' or '"));
   if (lines.empty()) fail_at(file, 1, "the file is empty, " + expected);
   if (std::find(headers.begin(), headers.end(), lines[0]) == headers.end()) {
-    fail_at(file, 1, fmt::format("{}, found {}", expected, excerpt(lines[0])));
+    fail_at(file, 1, fmt::format("{}, found {}", expected, in_quotes(lines[0])));
   }
   NumberTable table{file, split_at_commas(lines[0]), {}};
   table.rows.reserve(lines.size() - 1);
@@ -203,7 +209,7 @@ std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::siz
 
 void refuse(const NumberTable& table, const TableRow& row, std::size_t column, std::string_view expectation) {
   fail_at(table.file, row.line,
-          fmt::format("{}: {}, found {}", table.columns[column], expectation, excerpt(row.cells[column])));
+          fmt::format("{}: {}, found {}", table.columns[column], expectation, in_quotes(row.cells[column])));
 }
 
 }  // namespace stereobench::harness

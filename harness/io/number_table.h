@@ -28,6 +28,9 @@ struct NumberTable {
 /// @return nothing when neither exists
 std::optional<std::filesystem::path> find_plain_or_gz(const std::filesystem::path& path);
 
+/// The same of a file that must be there. @throws std::runtime_error when neither exists
+std::filesystem::path require_plain_or_gz(const std::filesystem::path& path);
+
 /// Reads comma-separated values below a header line.
 /// @param file plain or gzip
 /// @param headers the header lines that are allowed, e.g. "t_s,v_mps,w_radps"

@@ -21,12 +21,6 @@ const std::vector<std::string> kSightingHeaders = {
     "t_s,landmark_id,range_m,bearing_rad", "t_s,landmark_id,range_m,bearing_rad,colour_class",
     "t_s,landmark_id,range_m,bearing_rad,colour_class,range_var_m2,cov_m_rad,bearing_var_rad2"};
 
-fs::path require_file(const fs::path& path) {
-  const std::optional<fs::path> found = find_plain_or_gz(path);
-  if (!found) throw std::runtime_error(fmt::format("{}[.gz]: no such file", path.string()));
-  return *found;
-}
-
 Eigen::Matrix2d covariance_in(const NumberTable& table, const TableRow& row) {
   const double range_var_m2 = number_in(table, row, 5);
   const double cov_m_rad = number_in(table, row, 6);
@@ -91,10 +85,10 @@ std::vector<std::int64_t> instants_from(const NumberTable& table) {
 
 RecordedStreams read_csv_streams(const fs::path& folder, const SensorNoise& noise) {
   RecordedStreams streams;
-  const fs::path odometry_file = require_file(folder / "odometry.csv");
+  const fs::path odometry_file = require_plain_or_gz(folder / "odometry.csv");
   streams.odometry = odometry_from(read_csv_table(odometry_file, kOdometryHeaders));
   const NumberTable observations =
-      read_csv_table(require_file(folder / "observations.csv"), kSightingHeaders);
+      read_csv_table(require_plain_or_gz(folder / "observations.csv"), kSightingHeaders);
   streams.sightings = sightings_from(observations, noise);
   streams.noise_is_assumed = observations.columns.size() <= 5 && !streams.sightings.empty();
   if (const auto file = find_plain_or_gz(folder / "groundtruth.csv")) {

@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kRobots = 5;
 constexpr double kLongestDelay_s = 60.0;
 
 bool is_csv_file(const std::string& name) {
@@ -34,7 +33,7 @@ bool is_csv_file(const std::string& name) {
 
 /// The robot that one of MRCLAM's files is about.
 std::optional<int> robot_of(const std::string& name) {
-  for (int robot = 1; robot <= kRobots; ++robot) {
+  for (int robot = 1; robot <= kMrclamRobots; ++robot) {
     for (const char* what : {"Odometry", "Measurement", "Groundtruth"}) {
       const std::string plain = fmt::format("Robot{}_{}.dat", robot, what);
       if (name == plain || name == plain + ".gz") return robot;
@@ -54,7 +53,7 @@ RecordedStreams read_file_named(const fs::path& file, const SensorNoise& noise) 
 
 RecordedStreams read_folder(const fs::path& folder, const SensorNoise& noise) {
   std::vector<int> robots;
-  for (int robot = 1; robot <= kRobots; ++robot) {
+  for (int robot = 1; robot <= kMrclamRobots; ++robot) {
     if (find_plain_or_gz(folder / fmt::format("Robot{}_Odometry.dat", robot))) robots.push_back(robot);
   }
   if (find_plain_or_gz(folder / "odometry.csv")) return read_csv_streams(folder, noise);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/io/atomic_file.h"
+#include "harness/logs/recorded_streams.h"
 
 namespace stereobench::harness {
 
@@ -16,7 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kTolerance_ns = 1'000;
 
 bool same(const slam::Pose& a, const slam::Pose& b) {

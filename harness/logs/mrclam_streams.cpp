@@ -14,18 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kRobots = 5;  // subjects 1 to 5 drive, the others are landmarks
-
-fs::path require_file(const fs::path& path) {
-  const std::optional<fs::path> found = find_plain_or_gz(path);
-  if (!found) throw std::runtime_error(fmt::format("{}[.gz]: no such file", path.string()));
-  return *found;
-}
-
 /// Subject numbers by barcode: measurement files name barcodes, landmark files name subjects.
 std::map<int, int> read_barcodes(const fs::path& folder) {
   const NumberTable table =
-      read_blank_separated_table(require_file(folder / "Barcodes.dat"), {"Subject #", "Barcode #"});
+      read_blank_separated_table(require_plain_or_gz(folder / "Barcodes.dat"), {"Subject #", "Barcode #"});
   std::map<int, int> subjects;
   for (const TableRow& row : table.rows) {
     const int subject = whole_number_in(table, row, 0, 1);
@@ -38,7 +30,7 @@ std::map<int, int> read_barcodes(const fs::path& folder) {
 
 std::vector<LandmarkTruth> read_landmarks(const fs::path& folder) {
   const NumberTable table =
-      read_blank_separated_table(require_file(folder / "Landmark_Groundtruth.dat"),
+      read_blank_separated_table(require_plain_or_gz(folder / "Landmark_Groundtruth.dat"),
                                  {"Subject #", "x [m]", "y [m]", "x std-dev [m]", "y std-dev [m]"});
   for (const TableRow& row : table.rows) {
     for (const std::size_t column : {std::size_t{3}, std::size_t{4}}) {
@@ -58,7 +50,7 @@ void read_sightings(const NumberTable& table, const std::map<int, int>& subjects
     const auto subject = subjects.find(whole_number_in(table, row, 1, 0));
     if (subject == subjects.end()) {
       ++streams.unknown_barcodes;
-    } else if (subject->second <= kRobots) {
+    } else if (subject->second <= kMrclamRobots) {
       ++streams.robot_sightings;
     } else {
       sighting.measurement.landmark_id = subject->second;
@@ -69,7 +61,6 @@ void read_sightings(const NumberTable& table, const std::map<int, int>& subjects
 
 /// Counts all stamps from the whole second of the first odometry reading.
 void count_from_first_second(RecordedStreams& streams) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const std::int64_t first_ns = streams.odometry.front().stamp_ns;
   const std::int64_t rest_ns = ((first_ns % kSecond_ns) + kSecond_ns) % kSecond_ns;
   const std::int64_t epoch_ns = first_ns - rest_ns;
@@ -83,10 +74,11 @@ void count_from_first_second(RecordedStreams& streams) {
 RecordedStreams read_mrclam_streams(const fs::path& folder, int robot, const SensorNoise& noise) {
   const auto file = [&](const char* what) { return folder / fmt::format("Robot{}_{}.dat", robot, what); };
   RecordedStreams streams;
-  streams.odometry = odometry_from(read_blank_separated_table(
-      require_file(file("Odometry")), {"Time [s]", "forward velocity [m/s]", "angular velocity[rad/s]"}));
+  streams.odometry = odometry_from(
+      read_blank_separated_table(require_plain_or_gz(file("Odometry")),
+                                 {"Time [s]", "forward velocity [m/s]", "angular velocity[rad/s]"}));
   const NumberTable measurements = read_blank_separated_table(
-      require_file(file("Measurement")), {"Time [s]", "Subject #", "range [m]", "bearing [rad]"});
+      require_plain_or_gz(file("Measurement")), {"Time [s]", "Subject #", "range [m]", "bearing [rad]"});
   read_sightings(measurements, read_barcodes(folder), noise, streams);
   streams.noise_is_assumed = !streams.sightings.empty();
   if (const auto truth = find_plain_or_gz(file("Groundtruth"))) {

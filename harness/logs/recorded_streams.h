@@ -11,6 +11,11 @@
 
 namespace stereobench::harness {
 
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+/// Of MRCLAM's data: subjects 1 to 5 drive, the others are landmarks.
+inline constexpr int kMrclamRobots = 5;
+
 struct OdometryReading {
   std::int64_t stamp_ns = 0;
   double v_mps = 0.0;

@@ -27,7 +27,7 @@ namespace {
 enum class MessageKind : std::uint32_t { kStarted, kProgress, kAnswer, kError, kCrash };
 
 /// What travels through a worker's pipe before its `size` bytes of payload.
-struct Header {
+struct MessageHeader {
   MessageKind kind = MessageKind::kStarted;
   std::uint64_t index = 0;
   double fraction = 0.0;
@@ -51,9 +51,9 @@ void write_all(int file, const char* bytes, std::size_t size) {
   }
 }
 
-void send(int file, const Header& header, const std::string& payload) {
-  std::string message(sizeof(Header), '\0');
-  std::memcpy(message.data(), &header, sizeof(Header));
+void send(int file, const MessageHeader& header, const std::string& payload) {
+  std::string message(sizeof(MessageHeader), '\0');
+  std::memcpy(message.data(), &header, sizeof(MessageHeader));
   message += payload;
   write_all(file, message.data(), message.size());
 }
@@ -164,17 +164,17 @@ class Pool {
   }
 
   bool take_message(Worker& worker) {
-    Header header;
-    if (worker.received.size() < sizeof(Header)) return false;
-    std::memcpy(&header, worker.received.data(), sizeof(Header));
-    if (worker.received.size() < sizeof(Header) + header.size) return false;
-    std::string payload = worker.received.substr(sizeof(Header), header.size);
-    worker.received.erase(0, sizeof(Header) + header.size);
+    MessageHeader header;
+    if (worker.received.size() < sizeof(MessageHeader)) return false;
+    std::memcpy(&header, worker.received.data(), sizeof(MessageHeader));
+    if (worker.received.size() < sizeof(MessageHeader) + header.size) return false;
+    std::string payload = worker.received.substr(sizeof(MessageHeader), header.size);
+    worker.received.erase(0, sizeof(MessageHeader) + header.size);
     apply(worker, header, std::move(payload));
     return true;
   }
 
-  void apply(Worker& worker, const Header& header, std::string payload) {
+  void apply(Worker& worker, const MessageHeader& header, std::string payload) {
     worker.current = header.index;
     fractions_[header.index] = header.fraction;
     if (header.kind == MessageKind::kAnswer) on_answer_(header.index, std::move(payload));

@@ -17,7 +17,7 @@ bool is_drawn(double anees) {
 }
 
 /// From the band, or less, to the greatest; what is far below it is as good as honest.
-Range range_for(const AneesPanel& panel) {
+AxisRange range_for(const AneesPanel& panel) {
   constexpr double kLeast = 0.02;
   std::vector<double> all = {1.0};
   for (const AneesCurve& curve : panel.filters) all.insert(all.end(), curve.anees.begin(), curve.anees.end());

@@ -46,7 +46,7 @@ double step_not_below(double length) {
   return 10.0 * power;
 }
 
-std::vector<double> linear_ticks(const Range& range, int count) {
+std::vector<double> linear_ticks(const AxisRange& range, int count) {
   const double step = step_not_below((range.high - range.low) / count);
   const double slack = 1e-9 * (range.high - range.low) / step;
   std::vector<double> result;
@@ -56,16 +56,16 @@ std::vector<double> linear_ticks(const Range& range, int count) {
   return result;
 }
 
-double decades_in(const Range& range) {
+double decades_in(const AxisRange& range) {
   return std::log10(range.high / range.low);
 }
 
 /// Below a decade 1, 2 and 5 are too far apart; there a log scale is nearly straight and is ticked like one.
-bool ticked_by_decades(const Range& range, Scale scale) {
+bool ticked_by_decades(const AxisRange& range, Scale scale) {
   return scale == Scale::kLog && decades_in(range) >= 1.0;
 }
 
-std::vector<double> log_ticks(const Range& range, int count) {
+std::vector<double> log_ticks(const AxisRange& range, int count) {
   const double decades = decades_in(range);
   const double stride = std::max(1.0, std::ceil(decades / count));
   const bool few = decades < 2.5;
@@ -100,7 +100,7 @@ std::vector<LabelledTick> labelled_ticks(const Axis& axis, int count) {
   return result;
 }
 
-void check(const Range& range, Scale scale) {
+void check(const AxisRange& range, Scale scale) {
   const bool ordered = range.low < range.high && std::isfinite(range.high - range.low);
   if (!ordered || (scale == Scale::kLog && !(range.low > 0.0))) {
     throw std::invalid_argument("an axis needs low < high, both finite, and > 0 when logarithmic");
@@ -109,7 +109,7 @@ void check(const Range& range, Scale scale) {
 
 }  // namespace
 
-Range range_of(std::span<const double> numbers, Scale scale, double margin) {
+AxisRange range_of(std::span<const double> numbers, Scale scale, double margin) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const double number : numbers) {
@@ -117,7 +117,7 @@ Range range_of(std::span<const double> numbers, Scale scale, double margin) {
     low = std::min(low, straightened(number, scale));
     high = std::max(high, straightened(number, scale));
   }
-  if (low > high) return scale == Scale::kLog ? Range{0.1, 1.0} : Range{0.0, 1.0};
+  if (low > high) return scale == Scale::kLog ? AxisRange{0.1, 1.0} : AxisRange{0.0, 1.0};
   double widening = margin * (high - low);
   if (high - low <= 1e-9 * std::abs(high)) {
     widening = scale == Scale::kLog ? 0.5 : (high == 0.0 ? 0.5 : 0.5 * std::abs(high));
@@ -125,7 +125,7 @@ Range range_of(std::span<const double> numbers, Scale scale, double margin) {
   return {straightened_back(low - widening, scale), straightened_back(high + widening, scale)};
 }
 
-std::vector<double> ticks(const Range& range, Scale scale, int count) {
+std::vector<double> ticks(const AxisRange& range, Scale scale, int count) {
   check(range, scale);
   count = std::max(count, 1);
   return ticked_by_decades(range, scale) ? log_ticks(range, count) : linear_ticks(range, count);
@@ -159,7 +159,7 @@ Axes::Axes(const Axis& horizontal, const Axis& vertical, const Box& plot)
 
 Axes Axes::with_equal_scale(const Axis& horizontal, const Axis& vertical, const Box& plot) {
   Axes axes(horizontal, vertical, plot);
-  const auto widen = [](Range& range, double length) {
+  const auto widen = [](AxisRange& range, double length) {
     const double centre = 0.5 * (range.low + range.high);
     range = {centre - 0.5 * length, centre + 0.5 * length};
   };

@@ -10,7 +10,7 @@
 namespace stereobench::harness {
 
 /// The numbers along one axis, low < high.
-struct Range {
+struct AxisRange {
   double low = 0.0;
   double high = 1.0;
 };
@@ -18,19 +18,19 @@ struct Range {
 enum class Scale { kLinear, kLog };
 
 struct Axis {
-  std::string label;  ///< with its unit
-  Range range = {};   ///< > 0 when logarithmic
+  std::string label;     ///< with its unit
+  AxisRange range = {};  ///< > 0 when logarithmic
   Scale scale = Scale::kLinear;
   std::vector<std::string> categories = {};  ///< when not empty: names of the values 0, 1, 2...
 };
 
 /// @return the smallest range that holds every finite number (every number > 0 on a log scale), widened on
 /// both sides by a fraction of its length; 0..1 (0.1..1 on a log scale) when there is none
-Range range_of(std::span<const double> numbers, Scale scale = Scale::kLinear, double margin = 0.04);
+AxisRange range_of(std::span<const double> numbers, Scale scale = Scale::kLinear, double margin = 0.04);
 
 /// @return multiples of 1, 2 or 5 times a power of ten that lie in the range, about `count` of them; on a log
 /// scale powers of ten, with 2 and 5 times them when those are few
-std::vector<double> ticks(const Range& range, Scale scale = Scale::kLinear, int count = 6);
+std::vector<double> ticks(const AxisRange& range, Scale scale = Scale::kLinear, int count = 6);
 
 /// @return the tick's number, with as many decimals as the step between ticks needs
 std::string tick_label(double tick, double step);

@@ -17,9 +17,9 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kHeight_px = 480;
 constexpr Box kPlot = {76.0, 42.0, 740.0, 386.0};
-constexpr int kPanelHeight_px = 260;  ///< of normalised errors, below
+constexpr int kNeesPanelHeight_px = 260;  ///< of normalised errors, below
 constexpr Box kPanelPlot = {76.0, 512.0, 740.0, 176.0};
-constexpr double kLegend_px = kPlot.left_px + kPlot.width_px + 18.0;
+constexpr double kErrorLegend_px = kPlot.left_px + kPlot.width_px + 18.0;
 constexpr Stroke kBoundStroke = {kBlack, 1.8, Dash::kDotted};
 
 /// Rms, least and greatest error over the runs at each instant; NaN where no run has one.
@@ -111,7 +111,7 @@ void draw_anees(Canvas& canvas, const ErrorPicture& picture, const Axis& time) {
                "error over its claimed size, squared (ANEES): 1 is honest, above is overconfident", {});
   const std::vector<LegendEntry> legend = {
       {"95 % band", "of each step, if honest", Mark::kLine, {{0.84, 0.84, 0.84, 1.0}, 9.0}}};
-  draw_legend(canvas, {kLegend_px, kPanelPlot.top_px}, legend);
+  draw_legend(canvas, {kErrorLegend_px, kPanelPlot.top_px}, legend);
 }
 
 }  // namespace
@@ -156,13 +156,14 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   const Axes axes(time, vertical, kPlot);
 
   const std::vector<LegendEntry> legend = legend_of(picture, summaries);
-  Canvas canvas(chart_width_px(kLegend_px, legend), kHeight_px + (picture.anees.any() ? kPanelHeight_px : 0));
+  Canvas canvas(chart_width_px(kErrorLegend_px, legend),
+                kHeight_px + (picture.anees.any() ? kNeesPanelHeight_px : 0));
   axes.draw(canvas);
   canvas.clip_to(kPlot);
   draw_curves(canvas, axes, picture, summaries);
   draw_curve(canvas, axes, picture.time_s, picture.bound_m, kBoundStroke);
   canvas.clip_to({});
-  draw_legend(canvas, {kLegend_px, kPlot.top_px}, legend);
+  draw_legend(canvas, {kErrorLegend_px, kPlot.top_px}, legend);
   canvas.write({kPlot.left_px, 0.5 * kPlot.top_px}, picture.title, {.size_px = 15.0, .bold = true});
   if (picture.anees.any()) draw_anees(canvas, picture, time);
   return canvas.png();

@@ -12,9 +12,9 @@ namespace stereobench::harness {
 namespace {
 
 constexpr int kWidth_px = 1000;
-constexpr double kLeft_px = 68.0;
-constexpr double kTop_px = 42.0;
-constexpr double kBottom_px = 52.0;
+constexpr double kMapLeft_px = 68.0;
+constexpr double kMapTop_px = 42.0;
+constexpr double kMapBottom_px = 52.0;
 constexpr double kGap_px = 18.0;
 constexpr Stroke kTruthStroke = {kBlack, 4.8};
 constexpr Stroke kWallStroke = {{0.62, 0.62, 0.62, 1.0}, 1.2};
@@ -34,7 +34,7 @@ std::vector<Stroke> path_strokes(const std::vector<MapEstimate>& estimates) {
 }
 
 /// Everything's coordinates, to find out how large the map is.
-struct Extent {
+struct MapExtent {
   std::vector<double> x_m;
   std::vector<double> y_m;
 
@@ -48,8 +48,8 @@ struct Extent {
   }
 };
 
-Extent extent_of(const MapPicture& picture) {
-  Extent extent;
+MapExtent extent_of(const MapPicture& picture) {
+  MapExtent extent;
   for (const worlds::Wall& wall : picture.walls) {
     extent.include(wall.from_m.x(), wall.from_m.y());
     extent.include(wall.to_m.x(), wall.to_m.y());
@@ -90,9 +90,9 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture) {
 }
 
 /// As high as the map needs at the sheet's width, within what fits a screen.
-int height_for(const Range& x, const Range& y, double plot_width_px) {
+int height_for(const AxisRange& x, const AxisRange& y, double plot_width_px) {
   const double plot_height_px = plot_width_px * (y.high - y.low) / (x.high - x.low);
-  return static_cast<int>(std::clamp(plot_height_px, 400.0, 860.0) + kTop_px + kBottom_px);
+  return static_cast<int>(std::clamp(plot_height_px, 400.0, 860.0) + kMapTop_px + kMapBottom_px);
 }
 
 void draw_path(Canvas& canvas, const Axes& axes, const std::vector<slam::Pose>& path, const Stroke& stroke) {
@@ -149,13 +149,13 @@ void draw_contents(Canvas& canvas, const Axes& axes, const MapPicture& picture) 
 }  // namespace
 
 MapSheet lay_out_map(const MapPicture& picture) {
-  const Extent extent = extent_of(picture);
+  const MapExtent extent = extent_of(picture);
   const Axis x = {"x [m]", range_of(extent.x_m)};
   const Axis y = {"y [m]", range_of(extent.y_m)};
   const double legend_px = legend_width_px(Canvas(1, 1), legend_of(picture));
-  const double plot_width_px = kWidth_px - kLeft_px - legend_px - 2.0 * kGap_px;
+  const double plot_width_px = kWidth_px - kMapLeft_px - legend_px - 2.0 * kGap_px;
   const int height_px = height_for(x.range, y.range, plot_width_px);
-  const Box plot = {kLeft_px, kTop_px, plot_width_px, height_px - kTop_px - kBottom_px};
+  const Box plot = {kMapLeft_px, kMapTop_px, plot_width_px, height_px - kMapTop_px - kMapBottom_px};
   return {kWidth_px, height_px, Axes::with_equal_scale(x, y, plot)};
 }
 
@@ -167,8 +167,8 @@ std::string draw_map_picture(const MapPicture& picture) {
   canvas.clip_to(plot);
   draw_contents(canvas, axes, picture);
   canvas.clip_to({});
-  draw_legend(canvas, {plot.left_px + plot.width_px + kGap_px, kTop_px}, legend_of(picture));
-  canvas.write({kLeft_px, 0.5 * kTop_px}, picture.title, {.size_px = 15.0, .bold = true});
+  draw_legend(canvas, {plot.left_px + plot.width_px + kGap_px, kMapTop_px}, legend_of(picture));
+  canvas.write({kMapLeft_px, 0.5 * kMapTop_px}, picture.title, {.size_px = 15.0, .bold = true});
   return canvas.png();
 }
 

@@ -10,11 +10,11 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kSide_px = 900.0;  // the longer side of the plan
-constexpr double kLeft_px = 62.0;   // room for the coordinates
+constexpr double kSide_px = 900.0;      // the longer side of the plan
+constexpr double kSheetLeft_px = 62.0;  // room for the coordinates
 constexpr double kRight_px = 30.0;
-constexpr double kTop_px = 30.0;
-constexpr double kBottom_px = 46.0;
+constexpr double kSheetTop_px = 30.0;
+constexpr double kSheetBottom_px = 46.0;
 constexpr double kText_px = 62.0;       // below it
 constexpr double kLeastGrid_px = 60.0;  // between two grid lines
 
@@ -24,15 +24,15 @@ PlanSheet::PlanSheet(const Eigen::AlignedBox2d& extent_m)
     : extent_(extent_m), scale_(kSide_px / std::max(extent_m.sizes().maxCoeff(), 1e-3)) {}
 
 double PlanSheet::x(const Eigen::Vector2d& at_m) const {
-  return kLeft_px + scale_ * (at_m.x() - extent_.min().x());
+  return kSheetLeft_px + scale_ * (at_m.x() - extent_.min().x());
 }
 
 double PlanSheet::y(const Eigen::Vector2d& at_m) const {
-  return kTop_px + scale_ * (extent_.max().y() - at_m.y());
+  return kSheetTop_px + scale_ * (extent_.max().y() - at_m.y());
 }
 
 double PlanSheet::bottom_px() const {
-  return kTop_px + scale_ * extent_.sizes().y() + kBottom_px;
+  return kSheetTop_px + scale_ * extent_.sizes().y() + kSheetBottom_px;
 }
 
 std::string PlanSheet::point(const Eigen::Vector2d& at_m) const {
@@ -61,7 +61,7 @@ void PlanSheet::label(const Eigen::Vector2d& at_m, const Eigen::Vector2d& shift_
 }
 
 void PlanSheet::text(double x_px, int row, std::string_view words, std::string_view style) {
-  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", kLeft_px + x_px,
+  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", kSheetLeft_px + x_px,
                        bottom_px() + 18.0 * (row + 1), style, words);
 }
 
@@ -104,7 +104,7 @@ void PlanSheet::axes() {
 }
 
 std::string PlanSheet::document() const {
-  const double width_px = std::max(scale_ * extent_.sizes().x() + kLeft_px + kRight_px, 680.0);
+  const double width_px = std::max(scale_ * extent_.sizes().x() + kSheetLeft_px + kRight_px, 680.0);
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\">\n"

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, kCameraSize> kNames = {"focal_px", "cx_px", "cy_px", "k1",          "k2",
-                                                         "p1",       "p2",    "k3",    "pixel_aspect"};
+constexpr std::array<const char*, kCameraSize> kParameterNames = {
+    "focal_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "pixel_aspect"};
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 /// A parameter, its standard deviation, and where it is told.
@@ -30,7 +30,8 @@ struct Entry {
 std::vector<Entry> camera_entries(const RigFit& fit, std::size_t side) {
   std::vector<Entry> entries;
   for (int i = 0; i < kCameraSize; ++i)
-    entries.push_back({kNames[static_cast<std::size_t>(i)], fit.cameras[side][i], fit.cameras_sd[side][i]});
+    entries.push_back(
+        {kParameterNames[static_cast<std::size_t>(i)], fit.cameras[side][i], fit.cameras_sd[side][i]});
   return entries;
 }
 

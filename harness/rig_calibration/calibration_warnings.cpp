@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnexplained =
     2.0;  // times what neighbours differ by; good pictures of real boards have 1.6
-constexpr double kAlwaysFine_px = 0.1;  // of a corner: what finding corners is off by on sharp pictures
+constexpr double kFineCorner_px = 0.1;  // of a corner: what finding corners is off by on sharp pictures
 constexpr std::size_t kFewViews = 6;    // fewer, and a view that is off cannot be told by the others
 constexpr double kPoorlyKnown = 0.005;  // of the focal length, and so of every range; of the aspect
 
@@ -33,7 +33,7 @@ std::vector<std::string> warnings_of(const BoardCalibration& calibration, const 
   const RigFit& fit = calibration.fit;
   const double tilts_deg = fit.tilt_spread_rad * slam::kDegreesPerRad;
   std::vector<std::string> warnings;
-  if (fit.corner_sd_px > std::max(kUnexplained * fit.neighbour_sd_px, kAlwaysFine_px))
+  if (fit.corner_sd_px > std::max(kUnexplained * fit.neighbour_sd_px, kFineCorner_px))
     warnings.push_back(
         fmt::format("corners are {:.2f} px off where neighbours differ by {:.2f} px: an error that is smooth "
                     "over the board; {}",

@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::size_t kThird = 4;  // k3 among FreeCoefficients
 
-std::string name_of(const FitSettings& settings) {
-  constexpr std::array<const char*, 5> kNames = {"k1", "k2", "p1", "p2", "k3"};
+std::string name_of(const RigFitSettings& settings) {
+  constexpr std::array<const char*, 5> kCoefficients = {"k1", "k2", "p1", "p2", "k3"};
   std::string name = settings.square_pixels ? "fx = fy" : "fx, fy";
   const char* before = ", ";
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (settings.lens[i]) name += std::exchange(before, " ") + std::string(kNames[i]);
+  for (std::size_t i = 0; i < kCoefficients.size(); ++i)
+    if (settings.lens[i]) name += std::exchange(before, " ") + std::string(kCoefficients[i]);
   return name;
 }
 
 /// Nested in the last, the simplest first.
-std::vector<FitSettings> models_of(const FitSettings& simplest, const Compared& compared) {
-  std::vector<FitSettings> models = {simplest};
+std::vector<RigFitSettings> models_of(const RigFitSettings& simplest, const Compared& compared) {
+  std::vector<RigFitSettings> models = {simplest};
   if (compared.k3) {
     models.push_back(simplest);
     models.back().lens[kThird] = true;
@@ -47,7 +47,7 @@ struct Tried {
   std::optional<RigFit> fit;
 };
 
-Tried try_model(const std::vector<BoardView>& views, const FitSettings& settings) {
+Tried try_model(const std::vector<BoardView>& views, const RigFitSettings& settings) {
   Tried tried{.trial = {.name = name_of(settings)}};
   try {
     const RigFit fit = fit_rig(views, settings);
@@ -81,16 +81,16 @@ bool is_simpler(const Tried* a, const Tried* b) {
 
 }  // namespace
 
-FitSettings fullest(FitSettings settings, const Compared& compared) {
+RigFitSettings fullest(RigFitSettings settings, const Compared& compared) {
   if (compared.aspect) settings.square_pixels = false;
   if (compared.k3) settings.lens[kThird] = true;
   return settings;
 }
 
-ModelChoice choose_model(const std::vector<BoardView>& views, const FitSettings& settings,
+ModelChoice choose_model(const std::vector<BoardView>& views, const RigFitSettings& settings,
                          const Compared& compared) {
   std::vector<Tried> all;
-  for (const FitSettings& model : models_of(settings, compared)) all.push_back(try_model(views, model));
+  for (const RigFitSettings& model : models_of(settings, compared)) all.push_back(try_model(views, model));
   std::vector<Tried*> had;
   for (Tried& tried : all)
     if (tried.fit) had.push_back(&tried);

@@ -36,7 +36,7 @@ struct ModelChoice {
 };
 
 /// The settings with all that is compared.
-FitSettings fullest(FitSettings settings, const Compared& compared);
+RigFitSettings fullest(RigFitSettings settings, const Compared& compared);
 
 /// Takes the simplest model that explains the corners as well as the fullest does: the first, by its number
 /// of parameters and then its residuals, that an F test at kRejected does not reject:
@@ -45,7 +45,7 @@ FitSettings fullest(FitSettings settings, const Compared& compared);
 /// (RigFit::clustering), since those of real boards do. Models whose lens folds the picture are not taken.
 /// @param settings of the simplest model
 /// @throws std::runtime_error, of the simplest model, where none can be had
-ModelChoice choose_model(const std::vector<BoardView>& views, const FitSettings& settings,
+ModelChoice choose_model(const std::vector<BoardView>& views, const RigFitSettings& settings,
                          const Compared& compared);
 
 }  // namespace stereobench::harness

@@ -16,8 +16,8 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kOutlier = 3.0;         // times the median error of views
-constexpr double kAlwaysFine_px = 0.05;  // of a view's error: no outlier, however good the others are
+constexpr double kOutlier = 3.0;       // times the median error of views
+constexpr double kFineView_px = 0.05;  // of a view's error: no outlier, however good the others are
 
 /// The views in which both cameras see the board, and what became of all.
 struct FoundBoards {
@@ -83,8 +83,8 @@ double error_of(const std::array<double, 2>& cameras) {
 }
 
 /// Takes out the views that do not suit the others.
-void drop_outliers(FoundBoards& boards, const FitSettings& settings, const Compared& compared) {
-  FitSettings robust = fullest(settings, compared);
+void drop_outliers(FoundBoards& boards, const RigFitSettings& settings, const Compared& compared) {
+  RigFitSettings robust = fullest(settings, compared);
   robust.robust = true;
   const RigFit fit = fit_rig(boards.views, robust);
   std::vector<double> errors;
@@ -92,7 +92,7 @@ void drop_outliers(FoundBoards& boards, const FitSettings& settings, const Compa
   std::vector<double> sorted = errors;
   std::sort(sorted.begin(), sorted.end());
   const double median = sorted[sorted.size() / 2];
-  const double most = std::max(kOutlier * median, kAlwaysFine_px);
+  const double most = std::max(kOutlier * median, kFineView_px);
   std::vector<BoardView> kept;
   for (ViewOutcome& outcome : boards.outcomes) {
     if (!outcome.dropped.empty()) continue;
@@ -170,12 +170,12 @@ void judge_squares(const Board& board, BoardCalibration& calibration) {
 BoardCalibration calibrate_rig(const std::vector<ViewFiles>& files, const BoardSettings& settings) {
   FoundBoards boards = find_boards(files, settings.board);
   if (boards.views.size() < settings.fewest_views) refuse_too_few(boards, settings.fewest_views);
-  const FitSettings fit{.board = settings.board,
-                        .width_px = boards.size.width,
-                        .height_px = boards.size.height,
-                        .model = settings.model,
-                        .lens = settings.lens,
-                        .square_pixels = settings.compared.aspect || settings.square_pixels};
+  const RigFitSettings fit{.board = settings.board,
+                           .width_px = boards.size.width,
+                           .height_px = boards.size.height,
+                           .model = settings.model,
+                           .lens = settings.lens,
+                           .square_pixels = settings.compared.aspect || settings.square_pixels};
   drop_outliers(boards, fit, settings.compared);
   if (boards.views.size() < settings.fewest_views) refuse_too_few(boards, settings.fewest_views);
   ModelChoice choice = choose_model(boards.views, fit, settings.compared);

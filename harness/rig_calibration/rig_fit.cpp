@@ -82,7 +82,7 @@ struct RightCorner {
   }
 };
 
-std::vector<int> fixed_of_camera(const FitSettings& settings) {
+std::vector<int> fixed_of_camera(const RigFitSettings& settings) {
   std::vector<int> fixed;
   for (int i = 0; i < 5; ++i)
     if (!settings.lens[static_cast<std::size_t>(i)]) fixed.push_back(3 + i);
@@ -102,7 +102,7 @@ struct Block {
 /// The least-squares problem over a state, which it changes.
 class RigProblem {
  public:
-  RigProblem(const std::vector<BoardView>& views, const FitSettings& settings, RigState& state)
+  RigProblem(const std::vector<BoardView>& views, const RigFitSettings& settings, RigState& state)
       : one_camera_(settings.model == RigModel::kOneCamera),
         loss_(settings.robust ? std::make_unique<ceres::CauchyLoss>(kRobustScale_px) : nullptr) {
     blocks_.push_back({state.cameras[0].data(), kCameraSize, fixed_of_camera(settings)});
@@ -236,7 +236,7 @@ void check_known(const RigFit& fit) {
 
 }  // namespace
 
-RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings) {
+RigFit fit_rig(const std::vector<BoardView>& views, const RigFitSettings& settings) {
   if (views.size() < kFewestViews)
     throw std::runtime_error(
         fmt::format("expected at least {} views of the board (got {})", kFewestViews, views.size()));

@@ -8,7 +8,7 @@
 namespace stereobench::harness {
 
 /// What is fitted, and to what.
-struct FitSettings {
+struct RigFitSettings {
   Board board;
   int width_px = 0;  ///< of the pictures
   int height_px = 0;
@@ -26,6 +26,6 @@ struct FitSettings {
 /// of freedom.
 /// @param views at least three
 /// @throws std::runtime_error where the views do not determine a rig
-RigFit fit_rig(const std::vector<BoardView>& views, const FitSettings& settings);
+RigFit fit_rig(const std::vector<BoardView>& views, const RigFitSettings& settings);
 
 }  // namespace stereobench::harness

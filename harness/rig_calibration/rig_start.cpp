@@ -30,7 +30,8 @@ BoardPose pose_of(const Eigen::Isometry3d& transform) {
   return pose;
 }
 
-CameraStart start_camera(const std::vector<BoardView>& views, std::size_t side, const FitSettings& settings) {
+CameraStart start_camera(const std::vector<BoardView>& views, std::size_t side,
+                         const RigFitSettings& settings) {
   std::vector<std::vector<cv::Point3f>> board(views.size());
   std::vector<std::vector<cv::Point2f>> seen(views.size());
   for (std::size_t view = 0; view < views.size(); ++view) {
@@ -72,7 +73,7 @@ BoardPose median_of(const std::vector<BoardPose>& poses) {
 
 }  // namespace
 
-RigState start_rig(const std::vector<BoardView>& views, const FitSettings& settings) try {
+RigState start_rig(const std::vector<BoardView>& views, const RigFitSettings& settings) try {
   const CameraStart left = start_camera(views, 0, settings);
   const CameraStart right = start_camera(views, 1, settings);
   RigState state;

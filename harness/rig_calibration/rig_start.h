@@ -20,6 +20,6 @@ struct RigState {
 
 /// Calibrates each camera by itself and puts the two together: where most views have the right one.
 /// @throws std::runtime_error where a camera's views do not determine its parameters
-RigState start_rig(const std::vector<BoardView>& views, const FitSettings& settings);
+RigState start_rig(const std::vector<BoardView>& views, const RigFitSettings& settings);
 
 }  // namespace stereobench::harness

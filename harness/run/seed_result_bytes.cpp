@@ -18,7 +18,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrajectoryScore, ate_rms_m, ate_max_m, ate_al
                                    ate_aligned_max_m, heading_rms_rad, rpe_rms_m, rpe_heading_rms_rad,
                                    final_drift, truth_from_estimate, scored_steps)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MapScore, rms_m, max_m, found_once, duplicated, missed, spurious)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Coverage, within, positions)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EllipseCoverage, within, positions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleScore, effective_mean, effective_least, resamplings,
                                    ancestors_of_first, ancestors_of_quarter)
 

@@ -12,7 +12,7 @@ namespace stereobench::harness {
 namespace {
 
 constexpr double kSmallestEigenvalue = 1e-9;  // of a correlation matrix, whose eigenvalues sum to at most 3
-constexpr double kSignificant = 0.05;
+constexpr double kSignificantAdjusted = 0.05;
 
 template <int kSize>
 std::optional<SquaredSum> normalised(const Eigen::Matrix<double, kSize, 1>& error,
@@ -79,7 +79,7 @@ StepVerdict judge_steps(std::span<const SquaredSum> steps) {
   long outside = 0;
   const std::vector<double> adjusted = holm(p_values);
   for (std::size_t i = 0; i < scored.size(); ++i) {
-    if (!(adjusted[i] < kSignificant)) continue;
+    if (!(adjusted[i] < kSignificantAdjusted)) continue;
     ++outside;
     if (!verdict.first_outside) verdict.first_outside = scored[i];
   }

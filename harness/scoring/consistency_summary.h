@@ -14,8 +14,8 @@ namespace stereobench::harness {
 /// One run's, beside its normalised errors.
 struct ConsistencyScore {
   InnovationScore innovations;
-  Coverage path;
-  Coverage map;
+  EllipseCoverage path;
+  EllipseCoverage map;
   ParticleScore particles;
 };
 

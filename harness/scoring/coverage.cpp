@@ -21,8 +21,8 @@ struct Counts {
     const double smallest = chi_square_below(*squared);  // ellipse that holds it
     for (std::size_t i = 0; i < kEllipses.size(); ++i) within[i] += smallest <= kEllipses[i] ? 1 : 0;
   }
-  Coverage fractions() const {
-    Coverage coverage{.positions = positions};
+  EllipseCoverage fractions() const {
+    EllipseCoverage coverage{.positions = positions};
     for (std::size_t i = 0; i < kEllipses.size(); ++i)
       coverage.within[i] = static_cast<double>(within[i]) / static_cast<double>(positions);  // 0 / 0
     return coverage;
@@ -31,7 +31,7 @@ struct Counts {
 
 }  // namespace
 
-Coverage cover_path(const FilterRun& run, const MeasurementLog& log) {
+EllipseCoverage cover_path(const FilterRun& run, const MeasurementLog& log) {
   Counts counts;
   const std::size_t steps = std::min({run.poses.size(), run.covariances.size(), log.steps.size()});
   for (std::size_t k = kFirstScoredStep; k < steps; ++k) {
@@ -43,7 +43,8 @@ Coverage cover_path(const FilterRun& run, const MeasurementLog& log) {
   return counts.fractions();
 }
 
-Coverage cover_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth) {
+EllipseCoverage cover_map(std::span<const slam::LandmarkEstimate> estimates,
+                          std::span<const LandmarkTruth> truth) {
   Counts counts;
   for (const slam::LandmarkEstimate& estimate : estimates)
     if (const auto index = owner(estimate, estimate.position_m, truth))

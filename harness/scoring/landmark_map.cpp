@@ -66,8 +66,8 @@ slam::LandmarkEstimate moved_landmark(const slam::Pose& target_from_source,
 }
 
 MapScore unknown_map_score() {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {.rms_m = kNone, .max_m = kNone};
+  constexpr double kNoError = std::numeric_limits<double>::quiet_NaN();
+  return {.rms_m = kNoError, .max_m = kNoError};
 }
 
 MapScore score_map(std::span<const slam::LandmarkEstimate> estimates, std::span<const LandmarkTruth> truth,

@@ -25,8 +25,8 @@ ParticleScore score_particles(const FilterRun& run, const MeasurementLog& log) {
   std::vector<const UpdateRecord*> updates;
   for (std::size_t k = 0; k < std::min(run.updates.size(), log.steps.size()); ++k)
     if (!log.steps[k].measurements.empty()) updates.push_back(&run.updates[k]);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (updates.empty()) return {kNone, kNone, kNone, kNone, kNone};
+  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+  if (updates.empty()) return {kNotKnown, kNotKnown, kNotKnown, kNotKnown, kNotKnown};
   ParticleScore score{.effective_least = std::numeric_limits<double>::infinity()};
   for (const UpdateRecord* update : updates) {
     score.effective_mean += update->effective_particles;

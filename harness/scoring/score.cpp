@@ -107,7 +107,7 @@ void leave_out_what_is_not_aligned(FilterScore& score) {
     score.trajectory.*metric = kNone;
   score.map.rms_m = score.map.max_m = kNone;
   for (auto& error : score.normalised_errors) error.reset();
-  score.consistency.path = score.consistency.map = Coverage{};
+  score.consistency.path = score.consistency.map = EllipseCoverage{};
   score.consistency.path.within.fill(kNone);
   score.consistency.map.within.fill(kNone);
 }

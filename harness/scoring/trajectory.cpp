@@ -11,7 +11,7 @@ namespace stereobench::harness {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoError = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector2d position(const slam::Pose& pose) {
   return {pose.x_m, pose.y_m};
@@ -25,8 +25,8 @@ class ErrorSum {
     largest_ = std::max(largest_, std::abs(error));
     ++count_;
   }
-  double rms() const { return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : kNone; }
-  double max() const { return count_ > 0 ? largest_ : kNone; }
+  double rms() const { return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : kNoError; }
+  double max() const { return count_ > 0 ? largest_ : kNoError; }
 
  private:
   double squares_ = 0.0;
@@ -124,7 +124,7 @@ TrajectoryScore score_trajectory(std::span<const PosePair> pairs, int rpe_steps)
   const double driven_m = length_m(pairs);
   score.final_drift = driven_m > 0.0
                           ? (position(pairs.back().estimate) - position(pairs.back().truth)).norm() / driven_m
-                          : kNone;
+                          : kNoError;
   return score;
 }
 

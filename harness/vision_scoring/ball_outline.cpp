@@ -64,17 +64,17 @@ bool contains(const OutlineEllipse& ellipse, const Eigen::Vector2d& pixel_px) {
   return along * along + across * across <= 1.0;
 }
 
-bool is_whole(const BallOutline& ball) {
+bool is_whole(const BallInPair& ball) {
   return ball.inside_both && std::min(ball.left_fraction, ball.right_fraction) >= kWholeFraction;
 }
 
-std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
+std::vector<BallInPair> ball_outlines(const VisionTruth& truth) {
   const vision::Intrinsics& camera = truth.rig.intrinsics;
   const Eigen::Isometry3d camera_from_robot = vision::robot_from_camera(truth.rig).inverse();
   const auto left_ids = renderer::pixels_by_id(truth.frame.left.ball_id);
   const auto right_ids = renderer::pixels_by_id(truth.frame.right.ball_id);
   const auto seen = vision::directions_seen(truth.rig.distortion, camera);
-  std::vector<BallOutline> outlines;
+  std::vector<BallInPair> outlines;
   for (std::size_t i = 0; i < truth.world.balls.size(); ++i) {
     const worlds::Ball& ball = truth.world.balls[i];
     const Eigen::Vector3d ball_in_robot = in_robot(truth.world_from_robot, ball.centre_m);
@@ -83,7 +83,7 @@ std::vector<BallOutline> ball_outlines(const VisionTruth& truth) {
     const auto left = vision::sphere_outline(camera, in_left, ball.radius_m);
     const auto right = vision::sphere_outline(camera, in_right, ball.radius_m);
     if (!left || !right) continue;
-    BallOutline outline{static_cast<int>(i), ball_in_robot, *left, *right};
+    BallInPair outline{static_cast<int>(i), ball_in_robot, *left, *right};
     outline.left_fraction = static_cast<double>(left_ids.at(i + 1).count) / whole_area_px(truth.rig, *left);
     outline.right_fraction =
         static_cast<double>(right_ids.at(i + 1).count) / whole_area_px(truth.rig, *right);

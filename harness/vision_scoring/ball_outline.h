@@ -20,7 +20,7 @@ struct VisionTruth {
 };
 
 /// A ball as both cameras would see it with nothing in its way, and how much of it they do see.
-struct BallOutline {
+struct BallInPair {
   int ball = 0;  ///< index into World::balls
   Eigen::Vector3d ball_in_robot = Eigen::Vector3d::Zero();
   vision::OutlineEllipse left;  ///< in a picture without distortion
@@ -31,12 +31,12 @@ struct BallOutline {
 };
 
 /// Whether both cameras see a ball all but whole: inside of their images, at least 95 % of it not hidden.
-bool is_whole(const BallOutline& ball);
+bool is_whole(const BallInPair& ball);
 
 /// The outlines of the balls in a pair.
 /// @return one for each ball that is wholly ahead of both cameras, also outside the images, in order of the
 /// balls
-std::vector<BallOutline> ball_outlines(const VisionTruth& truth);
+std::vector<BallInPair> ball_outlines(const VisionTruth& truth);
 
 /// Whether a pixel lies within an outline.
 bool contains(const vision::OutlineEllipse& outline, const Eigen::Vector2d& pixel_px);

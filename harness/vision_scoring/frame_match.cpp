@@ -10,7 +10,7 @@ namespace stereobench::harness {
 namespace {
 
 /// Whether an observation claims no other colour than the ball has.
-bool suits_colour(const VisionTruth& truth, const BallOutline& ball,
+bool suits_colour(const VisionTruth& truth, const BallInPair& ball,
                   const vision::BallObservation& observation) {
   return observation.colour == slam::kUnknown ||
          observation.colour == truth.world.balls[static_cast<std::size_t>(ball.ball)].colour;
@@ -18,7 +18,7 @@ bool suits_colour(const VisionTruth& truth, const BallOutline& ball,
 
 /// Whether an observation is within a ball's outline in both cameras. Where it says nothing of heights it is
 /// taken to be at the ball's.
-bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::BallObservation& observation) {
+bool is_on(const VisionTruth& truth, const BallInPair& ball, const vision::BallObservation& observation) {
   if (observation.has_pixels)
     return contains(ball.left, observation.left_px) && contains(ball.right, observation.right_px);
   const slam::RangeBearing& seen = observation.range_bearing;
@@ -33,12 +33,12 @@ bool is_on(const VisionTruth& truth, const BallOutline& ball, const vision::Ball
 
 /// The ball under an observation: one whose colour suits it if there is one, else any that is not wholly
 /// hidden; where no pixels tell balls of one direction apart, the one whose range is nearest.
-std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vector<BallOutline>& balls,
+std::optional<std::size_t> ball_under(const VisionTruth& truth, const std::vector<BallInPair>& balls,
                                       const vision::BallObservation& observation) {
   std::optional<std::size_t> under;
   std::pair<bool, double> least;
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    const BallOutline& ball = balls[i];
+    const BallInPair& ball = balls[i];
     const bool hidden = ball.left_fraction <= 0.0 || ball.right_fraction <= 0.0;
     if (hidden || !is_on(truth, ball, observation)) continue;
     const double range_gap_m =

@@ -22,7 +22,7 @@ struct MatchedObservation {
 
 /// The balls of a pair and its observations.
 struct FrameMatch {
-  std::vector<BallOutline> outlines;             ///< of the balls ahead of both cameras
+  std::vector<BallInPair> outlines;              ///< of the balls ahead of both cameras
   std::vector<MatchedObservation> observations;  ///< in the order in which they were given
 };
 

@@ -16,11 +16,11 @@ namespace {
 constexpr double kSmallestRadius_px = 5.0;
 
 /// A ball has to be found when it is whole, not tiny and hardly hidden.
-bool must_be_found(const BallOutline& ball) {
+bool must_be_found(const BallInPair& ball) {
   return is_whole(ball) && std::min(ball.left.radius_px(), ball.right.radius_px()) >= kSmallestRadius_px;
 }
 
-void add_errors(const BallOutline& ball, const vision::BallObservation& observation, VisionScore& score) {
+void add_errors(const BallInPair& ball, const vision::BallObservation& observation, VisionScore& score) {
   const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
   const slam::RangeBearing& measured = observation.range_bearing;
   const double true_bearing_rad = slam::arc_tangent(true_position.y(), true_position.x());
@@ -99,7 +99,7 @@ VisionScore& VisionScore::operator+=(const VisionScore& other) {
   return *this;
 }
 
-double disparity_error_px(const BallOutline& ball, const vision::BallObservation& undistorted) {
+double disparity_error_px(const BallInPair& ball, const vision::BallObservation& undistorted) {
   if (!undistorted.has_pixels) return std::numeric_limits<double>::quiet_NaN();
   return undistorted.left_px.x() - undistorted.right_px.x() -
          (ball.left.centre_px.x() - ball.right.centre_px.x());

@@ -41,6 +41,6 @@ struct VisionScore {
 VisionScore score_match(const FrameMatch& match);
 
 /// Measured minus true. @param undistorted of a MatchedObservation @return NaN for one without pixels
-double disparity_error_px(const BallOutline& ball, const vision::BallObservation& undistorted);
+double disparity_error_px(const BallInPair& ball, const vision::BallObservation& undistorted);
 
 }  // namespace stereobench::harness

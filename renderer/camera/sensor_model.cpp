@@ -91,9 +91,9 @@ void darken_corners(Row& row, int y, const cv::Size& size, double vignette) {
 }
 
 /// Sixteen random bits for each number of a picture, in order.
-class KeyedSampler {
+class BitStream {
  public:
-  explicit KeyedSampler(const NoiseKey& key) : blocks_(key) {}
+  explicit BitStream(const NoiseKey& key) : blocks_(key) {}
   std::uint16_t next() {
     if (used_ == kNumbersPerBlock) {
       numbers_ = blocks_(block_++);
@@ -171,9 +171,9 @@ class Chip {
   float read_noise_;
   float added_noise_;
   std::array<float, 3> gain_bgr_{};
-  KeyedSampler shot_;
-  KeyedSampler read_;
-  KeyedSampler added_;
+  BitStream shot_;
+  BitStream read_;
+  BitStream added_;
   const std::vector<float>& normal_ = float_quantiles();
 };
 

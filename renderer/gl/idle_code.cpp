@@ -30,13 +30,13 @@ std::size_t release(const dl_phdr_info& library) {
   return released;
 }
 
-struct Search {
+struct LibrarySearch {
   std::string_view name;
   std::size_t released = 0;
 };
 
 int visit(dl_phdr_info* library, std::size_t /*size*/, void* data) {
-  auto& search = *static_cast<Search*>(data);
+  auto& search = *static_cast<LibrarySearch*>(data);
   if (std::string_view(library->dlpi_name).find(search.name) != std::string_view::npos)
     search.released += release(*library);
   return 0;
@@ -45,7 +45,7 @@ int visit(dl_phdr_info* library, std::size_t /*size*/, void* data) {
 }  // namespace
 
 std::size_t release_code(std::string_view library) {
-  Search search{library};
+  LibrarySearch search{library};
   ::dl_iterate_phdr(visit, &search);
   return search.released;
 }

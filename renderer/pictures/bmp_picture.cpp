@@ -18,7 +18,7 @@ std::uint32_t number(PictureBytes bytes, std::size_t at, std::size_t size) {
   return value;
 }
 
-struct Layout {
+struct BmpLayout {
   int width = 0;
   int height = 0;
   bool upside_down = true;
@@ -35,13 +35,13 @@ bool is_plain(PictureBytes bytes) {
          number(bytes, 62, 4) == 0xFF;
 }
 
-Layout layout_of(PictureBytes bytes, int longest_px) {
+BmpLayout layout_of(PictureBytes bytes, int longest_px) {
   if (number(bytes, kFileHeader, 4) < kOldestHeader || !is_plain(bytes))
     throw std::runtime_error("is a packed BMP, which cannot be read");
   const std::int64_t width = static_cast<std::int32_t>(number(bytes, 18, 4));
   const std::int64_t height = static_cast<std::int32_t>(number(bytes, 22, 4));
   check_size(width, std::abs(height), longest_px);
-  Layout layout{static_cast<int>(width), static_cast<int>(std::abs(height)), height > 0};
+  BmpLayout layout{static_cast<int>(width), static_cast<int>(std::abs(height)), height > 0};
   layout.pixel_bytes = number(bytes, 28, 2) / 8;
   layout.row_bytes = (layout.pixel_bytes * static_cast<std::size_t>(width) + 3) / 4 * 4;
   layout.first = number(bytes, 10, 4);
@@ -72,7 +72,7 @@ bool is_grey(const Palette& palette) {
 }  // namespace
 
 cv::Mat decode_bmp(PictureBytes bytes, int longest_px) {
-  const Layout layout = layout_of(bytes, longest_px);
+  const BmpLayout layout = layout_of(bytes, longest_px);
   const bool indexed = layout.pixel_bytes == 1;
   const Palette palette = indexed ? palette_of(bytes) : Palette{};
   cv::Mat picture(layout.height, layout.width, CV_8UC3);

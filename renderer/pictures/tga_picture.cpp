@@ -11,11 +11,11 @@ namespace {
 constexpr std::size_t kHeaderBytes = 18;
 constexpr std::size_t kLongestRun = 128;  // pixels of a packet
 
-enum class Kind { kPalette = 1, kColour = 2, kGrey = 3 };
+enum class TgaKind { kPalette = 1, kColour = 2, kGrey = 3 };
 
 /// The header, of Truevision's specification 2.0.
-struct Header {
-  Kind kind = Kind::kColour;
+struct TgaHeader {
+  TgaKind kind = TgaKind::kColour;
   bool packed = false;
   bool has_palette = false;
   int first_entry = 0, entries = 0;
@@ -41,9 +41,9 @@ bool is_colour_depth(int bits) {
   return bits == 15 || bits == 16 || bits == 24 || bits == 32;
 }
 
-Header header_of(PictureBytes bytes) {
-  Header header;
-  header.kind = static_cast<Kind>(bytes[2] & 7U);
+TgaHeader header_of(PictureBytes bytes) {
+  TgaHeader header;
+  header.kind = static_cast<TgaKind>(bytes[2] & 7U);
   header.packed = (bytes[2] & 8U) != 0;
   header.has_palette = bytes[1] == 1;
   header.first_entry = number(bytes, 3);
@@ -59,14 +59,14 @@ Header header_of(PictureBytes bytes) {
 }
 
 /// Whether the numbers of a header suit each other: the format has no signature at its beginning.
-bool suits(const Header& header) {
+bool suits(const TgaHeader& header) {
   switch (header.kind) {
-    case Kind::kPalette:
+    case TgaKind::kPalette:
       return header.has_palette && header.entries > 0 && is_colour_depth(header.entry_bits) &&
              (header.pixel_bits == 8 || header.pixel_bits == 16);
-    case Kind::kColour:
+    case TgaKind::kColour:
       return is_colour_depth(header.pixel_bits);
-    case Kind::kGrey:
+    case TgaKind::kGrey:
       return header.pixel_bits == 8 || header.pixel_bits == 16;  // 16: with 8 of transparency
   }
   return false;
@@ -82,7 +82,7 @@ cv::Vec3b colour_of(const std::uint8_t* bytes, std::size_t size) {
 }
 
 /// All pixels as the file has them, packets taken apart.
-std::vector<std::uint8_t> unpacked(PictureBytes bytes, const Header& header) {
+std::vector<std::uint8_t> unpacked(PictureBytes bytes, const TgaHeader& header) {
   const std::size_t size = header.pixel_bytes();
   const std::size_t pixels =
       static_cast<std::size_t>(header.width_px) * static_cast<std::size_t>(header.height_px);
@@ -110,7 +110,7 @@ std::vector<std::uint8_t> unpacked(PictureBytes bytes, const Header& header) {
   return raw;
 }
 
-std::vector<cv::Vec3b> palette_of(PictureBytes bytes, const Header& header) {
+std::vector<cv::Vec3b> palette_of(PictureBytes bytes, const TgaHeader& header) {
   if (header.pixels_at() > bytes.size()) refuse_broken("it is cut short");
   std::vector<cv::Vec3b> palette;
   for (std::size_t i = 0; i < static_cast<std::size_t>(header.entries); ++i)
@@ -119,7 +119,7 @@ std::vector<cv::Vec3b> palette_of(PictureBytes bytes, const Header& header) {
   return palette;
 }
 
-cv::Vec3b entry(const std::vector<cv::Vec3b>& palette, const Header& header, const std::uint8_t* pixel) {
+cv::Vec3b entry(const std::vector<cv::Vec3b>& palette, const TgaHeader& header, const std::uint8_t* pixel) {
   const int index = (header.pixel_bits == 16 ? pixel[0] | pixel[1] << 8U : pixel[0]) - header.first_entry;
   if (index < 0 || index >= header.entries) refuse_broken("a pixel is of no colour of its palette");
   return palette[static_cast<std::size_t>(index)];
@@ -129,26 +129,26 @@ cv::Vec3b entry(const std::vector<cv::Vec3b>& palette, const Header& header, con
 
 bool is_tga(PictureBytes bytes) {
   if (bytes.size() < kHeaderBytes || bytes[1] > 1 || (bytes[2] & ~11U) != 0 || bytes[17] > 63) return false;
-  const Header header = header_of(bytes);
+  const TgaHeader header = header_of(bytes);
   return header.width_px > 0 && header.height_px > 0 && suits(header);
 }
 
 cv::Mat decode_tga(PictureBytes bytes, int longest_px) {
-  const Header header = header_of(bytes);
+  const TgaHeader header = header_of(bytes);
   check_size(header.width_px, header.height_px, longest_px);
   const std::vector<cv::Vec3b> palette =
-      header.kind == Kind::kPalette ? palette_of(bytes, header) : std::vector<cv::Vec3b>();
+      header.kind == TgaKind::kPalette ? palette_of(bytes, header) : std::vector<cv::Vec3b>();
   const std::vector<std::uint8_t> raw = unpacked(bytes, header);
-  cv::Mat picture(header.height_px, header.width_px, header.kind == Kind::kGrey ? CV_8UC1 : CV_8UC3);
+  cv::Mat picture(header.height_px, header.width_px, header.kind == TgaKind::kGrey ? CV_8UC1 : CV_8UC3);
   const std::uint8_t* pixel = raw.data();
   for (int i = 0; i < header.height_px; ++i) {
     const int row = header.from_top ? i : header.height_px - 1 - i;
     for (int j = 0; j < header.width_px; ++j, pixel += header.pixel_bytes()) {
       const int column = header.from_right ? header.width_px - 1 - j : j;
-      if (header.kind == Kind::kGrey)
+      if (header.kind == TgaKind::kGrey)
         picture.at<std::uint8_t>(row, column) = *pixel;
       else
-        picture.at<cv::Vec3b>(row, column) = header.kind == Kind::kPalette
+        picture.at<cv::Vec3b>(row, column) = header.kind == TgaKind::kPalette
                                                  ? entry(palette, header, pixel)
                                                  : colour_of(pixel, header.pixel_bytes());
     }

@@ -48,7 +48,7 @@ Face face_of(const vision::Intrinsics& camera, const Eigen::Vector3d& normal, co
 }
 
 /// An edge as a line in the picture, followed along the axis (0: columns, 1: rows) that it is nearer to.
-struct Line {
+struct EdgeLine {
   int major = 0;
   int first = 0, last = -1;           // of the major coordinate, within the picture
   double at_zero = 0.0, slope = 0.0;  // minor coordinate, px
@@ -70,10 +70,10 @@ bool cut_near(Eigen::Vector3d& from, Eigen::Vector3d& to) {
 }
 
 /// The line of an edge, without its faces. @return with an empty range where it is out of the picture
-Line bare_line(const vision::Intrinsics& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+EdgeLine bare_line(const vision::Intrinsics& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector2d p = vision::project(camera, from), q = vision::project(camera, to);
   const Eigen::Vector2d run = q - p;
-  Line line;
+  EdgeLine line;
   line.major = std::abs(run.x()) >= std::abs(run.y()) ? 0 : 1;
   const int minor = 1 - line.major;
   const Eigen::Vector2d size(camera.width_px, camera.height_px);
@@ -89,13 +89,13 @@ Line bare_line(const vision::Intrinsics& camera, const Eigen::Vector3d& from, co
 }
 
 /// @return with an empty range where the edge is out of the picture, or no edge from there
-Line line_of(const SurfaceEdge& edge, const CameraView& view) {
+EdgeLine line_of(const SurfaceEdge& edge, const CameraView& view) {
   Eigen::Vector3d from = view.camera_from_world * edge.from_m;
   Eigen::Vector3d to = view.camera_from_world * edge.to_m;
   const Eigen::Vector3d along = to - from;
   const Eigen::Vector3d across = from.cross(to);  // of the plane through the camera and the edge
   if (!cut_near(from, to)) return {};
-  Line line = bare_line(view.intrinsics, from, to);
+  EdgeLine line = bare_line(view.intrinsics, from, to);
   if (line.first > line.last) return line;
   for (std::size_t i = 0; i < static_cast<std::size_t>(edge.faces); ++i) {
     const Eigen::Vector3d inner = view.camera_from_world * edge.inner_m[i];
@@ -103,18 +103,18 @@ Line line_of(const SurfaceEdge& edge, const CameraView& view) {
     line.faces[i].is_low = (across.dot(inner) > 0.0) != (across[1 - line.major] > 0.0);
   }
   const bool goes_on = edge.is_smooth && line.faces[0].is_low != line.faces[1].is_low;
-  return goes_on ? Line{} : line;
+  return goes_on ? EdgeLine{} : line;
 }
 
 /// The pairs of pixels that edges divide, of a picture of surfaces alone.
-class Pairing {
+class DividedPairs {
  public:
-  explicit Pairing(const RenderedImage& frame)
+  explicit DividedPairs(const RenderedImage& frame)
       : frame_(frame), picture_({0, 0}, frame.colour.size()), done_(2 * frame.colour.total()) {
     mixes_.reserve(kUsualMixes);
   }
 
-  void follow(const Line& line) {
+  void follow(const EdgeLine& line) {
     for (int k = line.first; k <= line.last; ++k) {
       const double at = line.minor_at(k);
       if (!(at > -1.0 && at < std::max(picture_.width, picture_.height))) continue;
@@ -129,7 +129,7 @@ class Pairing {
 
  private:
   /// Adds the pixels `low` and `low` + 1 of the minor axis, if the edge is what divides them.
-  void add(const Line& line, int k, int low) {
+  void add(const EdgeLine& line, int k, int low) {
     const Pair pair = {line.pixel(k, low), line.pixel(k, low + 1)};
     if (!picture_.contains(pair.lower) || !picture_.contains(pair.higher)) return;
     const double at = line.minor_at(k);
@@ -160,7 +160,7 @@ class Pairing {
   /// it likes: the floor at a wall's foot comes nearer by any amount within a pixel.
   /// @param way from the lower pixel's centre to the edge, px
   /// @return the inverse of the edge's depth
-  std::optional<double> divided_at(const Line& line, const Pair& pair, double way) const {
+  std::optional<double> divided_at(const EdgeLine& line, const Pair& pair, double way) const {
     for (const Face& face : line.faces) {
       const cv::Point& own = face.is_low ? pair.lower : pair.higher;
       const double seen_m = double{frame_.depth_m.at<float>(own)};
@@ -189,7 +189,7 @@ double share_low(double at, double slope, int j) {
 }
 
 std::vector<EdgeMix> EdgeSmoother::mixes(const CameraView& view, const RenderedImage& surfaces) const {
-  Pairing pairing(surfaces);
+  DividedPairs pairing(surfaces);
   const auto follow = [&](const SurfaceEdge& edge) { pairing.follow(line_of(edge, view)); };
   for (const EdgeGroup& group : groups_) {
     if (group.run && !can_see(view, *group.run)) continue;

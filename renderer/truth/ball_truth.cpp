@@ -7,12 +7,12 @@ namespace stereobench::renderer {
 namespace {
 
 /// How many whole numbers lie in [low, high], and the first of them.
-struct Run {
+struct WholeNumbers {
   int first;
   int count;
 };
 
-Run whole_numbers(double low, double high) {
+WholeNumbers whole_numbers(double low, double high) {
   const int first = static_cast<int>(std::ceil(low));
   return {first, std::max(0, static_cast<int>(std::floor(high)) - first + 1)};
 }
@@ -67,7 +67,7 @@ std::array<PixelSet, 256> pixels_by_id(const cv::Mat& ball_id) {
 PixelSet pixels_within(const vision::OutlineEllipse& outline) {
   const Eigen::Matrix2d shape = shape_of(outline);
   const double reach = outline.half_extent_px().y();
-  const Run rows = whole_numbers(outline.centre_px.y() - reach, outline.centre_px.y() + reach);
+  const WholeNumbers rows = whole_numbers(outline.centre_px.y() - reach, outline.centre_px.y() + reach);
   PixelSet set;
   for (int row = rows.first; row < rows.first + rows.count; ++row) {
     const double dy = row - outline.centre_px.y();
@@ -76,7 +76,7 @@ PixelSet pixels_within(const vision::OutlineEllipse& outline) {
     if (spare < 0.0) continue;
     const double middle = outline.centre_px.x() + lean / shape(0, 0);
     const double half = std::sqrt(spare) / shape(0, 0);
-    const Run columns = whole_numbers(middle - half, middle + half);
+    const WholeNumbers columns = whole_numbers(middle - half, middle + half);
     add(set, {columns.first, row, columns.count, 1});
   }
   return set;

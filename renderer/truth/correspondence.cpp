@@ -14,14 +14,14 @@ constexpr float kUnknown_px = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 1e-9;  ///< relative; what meets a point may be the point itself
 
 /// A point of a primitive, looked for from another camera.
-struct Point {
+struct PrimitivePoint {
   int primitive;
   Eigen::Vector3d in_world;
 };
 
 /// Whether a line that reaches a primitive's point at 1 meets another ball before it. A ball's own far side
 /// is told by where it faces: at the rim its two sides are too near to each other.
-bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, const Point& point) {
+bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, const PrimitivePoint& point) {
   if (!is_ball(primitive)) return false;
   if (primitive != point.primitive) return scene.enter(primitive, line) < 1.0 - kRounding;
   return scene.normal(primitive, point.in_world).dot(line.direction) > 0.0;
@@ -29,7 +29,7 @@ bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, 
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own primitive, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const Point& point) {
+bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const PrimitivePoint& point) {
   const Eigen::Vector3d camera_m = ids.view.centre_in_world();
   const Ray line{camera_m, point.in_world - camera_m};
   const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;

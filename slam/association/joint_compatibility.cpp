@@ -62,9 +62,9 @@ class JointFactor {
 };
 
 /// Depth first over the sightings that have a choice, with the best set so far as the bound.
-class Search {
+class SetSearch {
  public:
-  Search(std::span<const Candidate> candidates, JointFactor& factor, double probability)
+  SetSearch(std::span<const Candidate> candidates, JointFactor& factor, double probability)
       : candidates_(candidates), factor_(factor), probability_(probability) {}
 
   /// @param choices the candidates of each sighting, likeliest first
@@ -163,7 +163,7 @@ void keep_joint(std::vector<Candidate>& candidates, std::span<const Pairing> pai
   const double degrees = 2.0 * static_cast<double>(factor.size());
   if (factor.size() > 0 && factor.squared_length() > approximate_chi_square_quantile(probability, degrees))
     return;
-  Search search(candidates, factor, probability);
+  SetSearch search(candidates, factor, probability);
   if (!search.run(choices_of(candidates, competing))) {
     ++cut;
     return;

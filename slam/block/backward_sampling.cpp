@@ -73,7 +73,7 @@ void PathSampler<Model>::correct(PoseBelief& belief, const PlacedSighting& seen,
 }
 
 template <class Model>
-void PathSampler<Model>::filter(const Pose& start, std::span<const PathStep> steps, long& repairs) {
+void PathSampler<Model>::filter(const Pose& start, std::span<const BlockStep> steps, long& repairs) {
   filtered_.resize(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     auto& [before, after] = filtered_[k];
@@ -84,7 +84,7 @@ void PathSampler<Model>::filter(const Pose& start, std::span<const PathStep> ste
 }
 
 template <class Model>
-std::span<const Pose> PathSampler<Model>::draw(const Pose& start, std::span<const PathStep> steps,
+std::span<const Pose> PathSampler<Model>::draw(const Pose& start, std::span<const BlockStep> steps,
                                                RandomStream& random, long& repairs) {
   filter(start, steps, repairs);
   path_.resize(steps.size());

@@ -18,7 +18,7 @@ struct PlacedSighting {
 };
 
 /// How a robot came to a frame, and what it saw there.
-struct PathStep {
+struct BlockStep {
   PoseBelief motion;  ///< since the step before, in the robot's frame of that time
   std::vector<PlacedSighting> seen;
 };
@@ -44,7 +44,7 @@ class PathSampler {
   /// @param start the pose before the first step, known
   /// @param repairs counts covariances that had to be repaired
   /// @return the pose at each step; valid until the next call
-  std::span<const Pose> draw(const Pose& start, std::span<const PathStep> steps, RandomStream& random,
+  std::span<const Pose> draw(const Pose& start, std::span<const BlockStep> steps, RandomStream& random,
                              long& repairs);
 
  private:
@@ -54,7 +54,7 @@ class PathSampler {
     PoseBelief after;
   };
 
-  void filter(const Pose& start, std::span<const PathStep> steps, long& repairs);
+  void filter(const Pose& start, std::span<const BlockStep> steps, long& repairs);
   void correct(PoseBelief& belief, const PlacedSighting& seen, long& repairs) const;
 
   Model model_;

@@ -118,7 +118,7 @@ class BlockSlam {
   std::vector<int> origins_;                ///< by slot: the sighting that founded the landmark
   JointCovariance::Columns whitened_;       ///< memory for corrections
   PathSampler<Model> sampler_;
-  std::vector<PathStep> steps_;   ///< the block as one particle sees it
+  std::vector<BlockStep> steps_;  ///< the block as one particle sees it
   std::vector<Landmark> learnt_;  ///< of one particle, by place in the block
   std::vector<bool> has_learnt_;  ///< the same
   PoseBelief motion_;             ///< since the last frame, in the robot's frame of that time

@@ -12,7 +12,7 @@ using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// What two numbers are that depend on five, and how, to those who take it for a straight line.
-struct Line {
+struct LinearFit {
   Eigen::Vector2d mean;  ///< from the value at the input's mean
   Eigen::Matrix2d covariance;
   Eigen::Matrix<double, 2, 5> slope;  ///< zero where nothing is uncertain
@@ -20,13 +20,13 @@ struct Line {
 
 /// @param off from the value at the input's mean, of that a step away and that as far on the other side
 template <class Function>
-Line line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, const Function& off,
-                  long& repairs) {
+LinearFit line_through(const Matrix5& covariance, const SigmaWeights<5>& weights, const Function& off,
+                       long& repairs) {
   const PivotedRoot<5> root = pivoted_root<5>(covariance, covariance.diagonal(), repairs);
   SigmaResiduals<2, 5> residuals = SigmaResiduals<2, 5>::Zero();
   for (int i = 0; i < root.rank; ++i)
     residuals.middleCols<2>(2 * i) = off(weights.spread * root.lower.col(i));
-  Line line;
+  LinearFit line;
   line.mean = sigma_mean<2, 5>(residuals, weights);
   line.covariance = sigma_covariance<2, 5>(residuals, line.mean, weights);
   // With P = L L' the covariance with the input is L W', where W is that with independent coordinates:
@@ -58,7 +58,7 @@ JointInnovation innovation(const Unscented& model, const JointBelief& belief, in
     return seen;
   };
   const Matrix5 uncertain = belief.covariance.pose_and_landmark(landmark);
-  const Line line = line_through(uncertain, model.weights(), off, repairs);
+  const LinearFit line = line_through(uncertain, model.weights(), off, repairs);
   const Eigen::Vector2d expected(centre.x() + line.mean.x(),
                                  wrap_angle(centre.y() - belief.pose.heading_rad + line.mean.y()));
   const Eigen::Matrix2d covariance = line.covariance + noise_at(observation, expected);
@@ -86,7 +86,7 @@ void find(const Unscented& model, JointBelief& belief, int landmark, const Obser
     both << found(step), found(-step);
     return both;
   };
-  const Line line = line_through(covariance, model.weights(), off, repairs);
+  const LinearFit line = line_through(covariance, model.weights(), off, repairs);
   const Eigen::Matrix<double, 2, 3> by_pose = line.slope.leftCols<3>();
   belief.landmarks.push_back(centre + line.mean);
   belief.covariance.place(landmark, by_pose, line.covariance - by_pose * pose * by_pose.transpose(), repairs);

@@ -112,9 +112,9 @@ std::optional<std::size_t> owner(const std::vector<LandmarkEstimate>& landmarks,
 }
 
 /// The search for the best path and map.
-class Search {
+class PathSearch {
  public:
-  Search(const FilterConfig& config, const Pose& start, const BatchEstimate& first)
+  PathSearch(const FilterConfig& config, const Pose& start, const BatchEstimate& first)
       : config_(config), estimate_(first), poses_{{start.x_m, start.y_m, start.heading_rad}} {
     for (const Pose& pose : first.path) poses_.push_back({pose.x_m, pose.y_m, pose.heading_rad});
     for (const LandmarkEstimate& landmark : first.landmarks)
@@ -190,7 +190,7 @@ BatchEstimate estimate_batch(const FilterConfig& config, const Pose& start,
                              std::span<const BatchStep> steps) {
   const BatchEstimate first = filtered(config, start, steps);
   if (!is_finite(first)) return first;
-  Search search(config, start, first);
+  PathSearch search(config, start, first);
   for (std::size_t k = 0; k < steps.size(); ++k) search.add(k, steps[k]);
   return search.solve();
 }

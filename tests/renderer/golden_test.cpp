@@ -14,7 +14,7 @@ namespace stereobench::renderer {
 namespace {
 
 constexpr const char* kFile = STEREOBENCH_SOURCE_DIR "/tests/renderer/goldens.txt";
-constexpr int kRooms = 4;
+constexpr int kGoldenRooms = 4;
 
 struct Golden {
   std::string fingerprint;
@@ -47,7 +47,7 @@ Parts parts_of(const std::string& fingerprint) {
 /// What goldens.txt should say of this machine.
 Golden golden_of_this_machine() {
   Golden golden{fingerprint(backend_info(Backend::kOsmesa), render_test_frame(Backend::kOsmesa)), {}};
-  for (std::uint64_t room = 0; room < kRooms; ++room)
+  for (std::uint64_t room = 0; room < kGoldenRooms; ++room)
     golden.rooms += fmt::format(" {:016x}", test::hash_of(test::room_frame(room, Backend::kOsmesa)));
   return golden;
 }

@@ -71,10 +71,10 @@ class Reports : public ::testing::Test {
     return all;
   }
 };
-using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
-                                      FastSlam2BlockName, UFastSlamBlockName,
-                                      InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
-TYPED_TEST_SUITE(Reports, MappingNames);
+using ReportingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
+                                        FastSlam2BlockName, UFastSlamBlockName,
+                                        InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
+TYPED_TEST_SUITE(Reports, ReportingNames);
 
 // A report draws nothing and repairs nothing that counts.
 TYPED_TEST(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {

@@ -11,7 +11,7 @@ namespace stereobench::vision {
 namespace {
 
 // Pixels [begin, end) of one row that have one palette colour, and the blob they belong to.
-struct Run {
+struct ColourRun {
   int begin = 0;
   int end = 0;
   int colour = 0;
@@ -21,7 +21,7 @@ struct Run {
 // Disjoint sets of blobs that turn out to be one; each root carries the sums of its set.
 class BlobForest {
  public:
-  std::size_t add(const Run& run, int row) {
+  std::size_t add(const ColourRun& run, int row) {
     const long length = run.end - run.begin;
     const double sum_x = 0.5 * static_cast<double>(run.begin + run.end - 1) * static_cast<double>(length);
     parents_.push_back(blobs_.size());
@@ -93,7 +93,7 @@ bool is_grey(const std::uint8_t* bgr, const Bytes& least_spread) {
   return cv::v_check_all((spread & cv::v_load(kStarts.data())) < least_spread);
 }
 
-void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, ScratchVector<Run>& runs) {
+void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, ScratchVector<ColourRun>& runs) {
   runs.clear();
   const auto least_spread =
       cv::v_setall_u8(static_cast<std::uint8_t>(std::min(255, table.least_spread_levels())));
@@ -114,9 +114,10 @@ void find_runs(const std::uint8_t* bgr, int width, const ColourTable& table, Scr
 }
 
 // Both lists are sorted by column, so one sweep over both meets every touching pair.
-void join_touching(const ScratchVector<Run>& above, const ScratchVector<Run>& below, BlobForest& forest) {
+void join_touching(const ScratchVector<ColourRun>& above, const ScratchVector<ColourRun>& below,
+                   BlobForest& forest) {
   std::size_t first = 0;
-  for (const Run& run : below) {
+  for (const ColourRun& run : below) {
     while (first < above.size() && above[first].end < run.begin) ++first;
     for (std::size_t i = first; i < above.size() && above[i].begin <= run.end; ++i) {
       if (above[i].colour == run.colour) forest.join(above[i].blob, run.blob);
@@ -128,11 +129,11 @@ void join_touching(const ScratchVector<Run>& above, const ScratchVector<Run>& be
 
 ScratchVector<Blob> find_blobs(const cv::Mat& image, long min_area_px, const ColourTable& table) {
   BlobForest forest;
-  ScratchVector<Run> above;
-  ScratchVector<Run> runs;
+  ScratchVector<ColourRun> above;
+  ScratchVector<ColourRun> runs;
   for (int y = 0; y < image.rows; ++y) {
     find_runs(image.ptr<std::uint8_t>(y), image.cols, table, runs);
-    for (Run& run : runs) run.blob = forest.add(run, y);
+    for (ColourRun& run : runs) run.blob = forest.add(run, y);
     join_touching(above, runs, forest);
     std::swap(above, runs);
   }

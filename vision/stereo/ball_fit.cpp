@@ -29,10 +29,10 @@ Eigen::Matrix3d noise_by_fault_px2(const Intrinsics& camera, const MeasuredOutli
 }
 
 // Two outlines of one ball, as the cameras measured them.
-class OutlinePair {
+class BallResiduals {
  public:
-  OutlinePair(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
-              double disparity_variance_px2)
+  BallResiduals(const StereoRig& rig, const MeasuredOutline& left, const MeasuredOutline& right,
+                double disparity_variance_px2)
       : camera_(rig.intrinsics),
         to_right_(-rig.baseline_m, 0.0, 0.0, 0.0),
         left_(as_vector(left)),
@@ -127,7 +127,7 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
                          ? place_by_size(rig, left, right, ball_radius_m)
                          : triangulate_ball(rig, left.centre_px, right.centre_px, ball_radius_m);
   if (!start) return std::nullopt;
-  const OutlinePair pair(rig, left, right, disparity_variance_px2);
+  const BallResiduals pair(rig, left, right, disparity_variance_px2);
   SizedBall ball(start->x(), start->y(), start->z(), ball_radius_m);
   Eigen::Matrix4d covariance;
   for (int step = 0; step < kSteps; ++step) {
@@ -154,7 +154,7 @@ BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, cons
   const double told_sd_m = std::sqrt(size.radius_sd_m * size.radius_sd_m + off_m2);
   const BallSize believed = {size.radius_m,
                              std::clamp(told_sd_m, kExactSd * size.radius_m, kLooseSd * size.radius_m)};
-  const OutlinePair pair(rig, left, right, disparity_variance_px2 + off_px2);
+  const BallResiduals pair(rig, left, right, disparity_variance_px2 + off_px2);
   SizedBall ball;
   ball << loose.ball_in_camera, loose.radius_m;
   Eigen::Matrix4d covariance;

@@ -55,13 +55,13 @@ void tell(const OutlinePair& pair, const StereoRig& rig, const BallSize& size, c
 }
 
 // One pair of pictures, and what was known before.
-struct Task {
+struct MatchTask {
   std::span<const MeasuredOutline> left, right;
   const StereoRig& rig;
   const ObserverSettings& settings;
 };
 
-Matched match_by(const Task& task, const RigBelief& belief, const RigWatch& before) {
+Matched match_by(const MatchTask& task, const RigBelief& belief, const RigWatch& before) {
   const StereoRig rig = with_baseline(task.rig, belief);
   Matched matched{match_outlines(task.left, task.right, rig, task.settings, belief), rig, before};
   const BallSize size = {task.settings.ball_radius_m, task.settings.ball_radius_sd_m};
@@ -92,7 +92,7 @@ bool speaks(const OutlinePair& pair, const StereoRig& rig) {
 
 Matched match_by_watch(std::span<const MeasuredOutline> left, std::span<const MeasuredOutline> right,
                        const StereoRig& rig, const ObserverSettings& settings, const RigWatch& watch) {
-  const Task task{left, right, rig, settings};
+  const MatchTask task{left, right, rig, settings};
   RigBelief belief = watch.belief(rig.intrinsics);
   RigWatch before = watch;
   Matched matched = match_by(task, belief, before);

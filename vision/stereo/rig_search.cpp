@@ -20,16 +20,16 @@ constexpr double kCommonTrend_px = 2.0;     // a turn about y moves rows by so m
 constexpr std::size_t kMostCandidates = 60;  // 1770 pairs of them are tried
 
 // Two outlines that may be one ball.
-struct Candidate {
+struct CandidatePair {
   std::size_t left = 0, right = 0;
   double rows_apart_px = 0.0;
   Eigen::Vector2d by_turn_px;  // derivative of that by turns about x and z
 };
 
-ScratchVector<Candidate> candidates_of(std::span<const MeasuredOutline> left,
-                                       std::span<const MeasuredOutline> right, const StereoRig& rig,
-                                       const ObserverSettings& settings) {
-  ScratchVector<Candidate> candidates;
+ScratchVector<CandidatePair> candidates_of(std::span<const MeasuredOutline> left,
+                                           std::span<const MeasuredOutline> right, const StereoRig& rig,
+                                           const ObserverSettings& settings) {
+  ScratchVector<CandidatePair> candidates;
   for (std::size_t l = 0; l < left.size(); ++l) {
     for (std::size_t r = 0; r < right.size(); ++r) {
       const MeasuredOutline &a = left[l], &b = right[r];
@@ -49,17 +49,17 @@ ScratchVector<Candidate> candidates_of(std::span<const MeasuredOutline> left,
   return candidates;
 }
 
-double rest_px(const Candidate& candidate, const Eigen::Vector2d& turn) {
+double rest_px(const CandidatePair& candidate, const Eigen::Vector2d& turn) {
   return std::abs(candidate.rows_apart_px - candidate.by_turn_px.dot(turn));
 }
 
 // How well a turn explains the candidates: how many, each outline once, less what is left of their rows.
-double score_of(const ScratchVector<Candidate>& candidates, const Eigen::Vector2d& turn) {
+double score_of(const ScratchVector<CandidatePair>& candidates, const Eigen::Vector2d& turn) {
   double score = 0.0;
-  for (const Candidate& candidate : candidates) {
+  for (const CandidatePair& candidate : candidates) {
     const double rest = rest_px(candidate, turn);
     if (rest > kCommonTrend_px) continue;
-    const auto is_rival = [&](const Candidate& other) {
+    const auto is_rival = [&](const CandidatePair& other) {
       const bool shares = (other.left == candidate.left) != (other.right == candidate.right);
       return shares && rest_px(other, turn) < rest;
     };
@@ -70,11 +70,11 @@ double score_of(const ScratchVector<Candidate>& candidates, const Eigen::Vector2
 }
 
 // The least turn that explains two candidates, about, or one.
-Eigen::Vector2d turn_by(const Candidate& a, const Candidate& b) {
+Eigen::Vector2d turn_by(const CandidatePair& a, const CandidatePair& b) {
   const Eigen::Vector2d usual = usual_fault().covariance.diagonal()(Eigen::Vector2i(0, 2));
   Eigen::Matrix2d information = usual.cwiseInverse().asDiagonal();
   Eigen::Vector2d evidence = Eigen::Vector2d::Zero();
-  for (const Candidate* candidate : {&a, &b}) {
+  for (const CandidatePair* candidate : {&a, &b}) {
     information += candidate->by_turn_px * candidate->by_turn_px.transpose();
     evidence += candidate->by_turn_px * candidate->rows_apart_px;
   }

@@ -19,7 +19,7 @@ constexpr double kWholeSizeGate_px = 0.2;
 constexpr double kWholeSizeGate = 0.025;  // relative; beyond it the ball is not whole
 
 // How ill two outlines suit each other: 0 is perfect, above 1 they are not the same ball.
-struct Misfit {
+struct OutlineMisfit {
   double size = 0.0;  // of both radii, relative to the gate
   double row = 0.0;
   bool sizes_agree = true;
@@ -39,10 +39,10 @@ MeasuredOutline moved(MeasuredOutline outline, const Eigen::Vector2d& to_px, con
   return outline;
 }
 
-std::optional<Misfit> misfit(const MeasuredOutline& left, MeasuredOutline right, const StereoRig& rig,
-                             const ObserverSettings& settings, const RigBelief& belief) {
+std::optional<OutlineMisfit> misfit(const MeasuredOutline& left, MeasuredOutline right, const StereoRig& rig,
+                                    const ObserverSettings& settings, const RigBelief& belief) {
   if (left.colour != right.colour) return std::nullopt;
-  Misfit result;
+  OutlineMisfit result;
   right = moved(right, belief.rectified_px(rig.intrinsics, right.centre_px), rig.intrinsics);
   const double by_size_px = disparity_by_size_px(rig, left, right, settings.ball_radius_m);
   const Eigen::Vector2d variances = belief.variances_px2(rig.intrinsics, right.centre_px, by_size_px);
@@ -77,8 +77,8 @@ ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
   constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   ScratchVector<std::size_t> best_of_left(left.size(), kNobody);
   ScratchVector<std::size_t> best_of_right(right.size(), kNobody);
-  ScratchVector<Misfit> misfit_of_left(left.size());
-  ScratchVector<Misfit> misfit_of_right(right.size());
+  ScratchVector<OutlineMisfit> misfit_of_left(left.size());
+  ScratchVector<OutlineMisfit> misfit_of_right(right.size());
   for (std::size_t l = 0; l < left.size(); ++l) {
     for (std::size_t r = 0; r < right.size(); ++r) {
       const auto found = misfit(left[l], right[r], rig, settings, belief);
@@ -97,7 +97,7 @@ ScratchVector<OutlinePair> match_outlines(std::span<const MeasuredOutline> left,
   for (std::size_t l = 0; l < left.size(); ++l) {
     const std::size_t r = best_of_left[l];
     if (r == kNobody || best_of_right[r] != l) continue;
-    const Misfit& best = misfit_of_left[l];
+    const OutlineMisfit& best = misfit_of_left[l];
     pairs.push_back({left[l], best.right, best.ball, best.sizes_agree, best.disparity_variance_px2,
                      right[r].centre_px, right[r].radius_px});
   }

@@ -34,6 +34,10 @@ double tangent_length(const Eigen::Vector2d& v, const Eigen::Vector2d& t0, const
 
 }  // namespace
 
+double heading_of(const Eigen::Vector2d& direction) {
+  return slam::arc_tangent(direction.y(), direction.x());
+}
+
 std::optional<std::array<Arc, 2>> biarc(const slam::Pose& from, const slam::Pose& to) {
   const Eigen::Vector2d v(to.x_m - from.x_m, to.y_m - from.y_m);
   const Eigen::Vector2d heading = along(from.heading_rad);

@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "slam/types.h"
 
 namespace stereobench::worlds {
@@ -13,6 +15,9 @@ struct Arc {
   double length_m = 0.0;
   double turn_rad = 0.0;  ///< positive turns left
 };
+
+/// @return rad, of a direction of any length
+double heading_of(const Eigen::Vector2d& direction);
 
 /// The biarc whose two arcs have end tangents of equal length (Bolton 1975): it leaves one pose along its
 /// heading and arrives at the other along its own, with no kink where the arcs meet. It is driven backwards

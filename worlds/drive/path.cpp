@@ -9,6 +9,7 @@
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
+#include "worlds/drive/biarc.h"
 
 namespace stereobench::worlds {
 namespace {
@@ -60,19 +61,15 @@ std::vector<Control> cut_at_readings(std::vector<Control> controls, double odome
 }
 
 /// A polyline's corner: how far from it the arc begins and ends, and by how much it turns.
-struct Corner {
+struct RoundedCorner {
   double tangent_m = 0.0;
   double turn_rad = 0.0;  ///< positive turns left
 };
 
-double heading_of(const Eigen::Vector2d& direction) {
-  return slam::arc_tangent(direction.y(), direction.x());
-}
-
 /// The corners of a polyline, indexed like its points; the ends of an open one have none (all zero).
-std::vector<Corner> corners_of(const PolylinePath& path) {
+std::vector<RoundedCorner> corners_of(const PolylinePath& path) {
   const std::size_t n = path.points_m.size();
-  std::vector<Corner> corners(n);
+  std::vector<RoundedCorner> corners(n);
   for (std::size_t i = path.closed ? 0 : 1; i + (path.closed ? 0 : 1) < n; ++i) {
     const Eigen::Vector2d in = path.points_m[i] - path.points_m[(i + n - 1) % n];
     const Eigen::Vector2d out = path.points_m[(i + 1) % n] - path.points_m[i];
@@ -86,7 +83,7 @@ std::vector<Corner> corners_of(const PolylinePath& path) {
 }
 
 /// The straight part of the edge from point i to the next.
-double straight_m(const PolylinePath& path, const std::vector<Corner>& corners, std::size_t i) {
+double straight_m(const PolylinePath& path, const std::vector<RoundedCorner>& corners, std::size_t i) {
   const std::size_t j = (i + 1) % path.points_m.size();
   const double edge_m = (path.points_m[j] - path.points_m[i]).norm();
   const double left_m = edge_m - corners[i].tangent_m - corners[j].tangent_m;
@@ -100,7 +97,7 @@ double straight_m(const PolylinePath& path, const std::vector<Corner>& corners, 
 }
 
 /// Straights and arcs in turn, from the first edge to the last.
-std::vector<Control> pieces_of(const PolylinePath& path, const std::vector<Corner>& corners) {
+std::vector<Control> pieces_of(const PolylinePath& path, const std::vector<RoundedCorner>& corners) {
   const std::size_t n = path.points_m.size();
   std::vector<Control> pieces;
   for (std::size_t i = 0; i < (path.closed ? n : n - 1); ++i) {
@@ -172,7 +169,7 @@ GroundTruth drive_circle(const CirclePath& path) {
 
 GroundTruth drive_polyline(const PolylinePath& path) {
   require_drivable(path);
-  const std::vector<Corner> corners = corners_of(path);
+  const std::vector<RoundedCorner> corners = corners_of(path);
   const Eigen::Vector2d along = (path.points_m[1] - path.points_m[0]).stableNormalized();
   const Eigen::Vector2d start_m = path.points_m[0] + corners[0].tangent_m * along;
   std::vector<Control> pieces = pieces_of(path, corners);

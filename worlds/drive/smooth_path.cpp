@@ -18,10 +18,6 @@ namespace {
 using slam::Control;
 using slam::Pose;
 
-double heading_of(const Eigen::Vector2d& direction) {
-  return slam::arc_tangent(direction.y(), direction.x());
-}
-
 /// The headings at a curve's points. An open curve's ends head so that one arc leads to their neighbours.
 std::vector<double> headings_of(const SplinePath& path) {
   const std::vector<Eigen::Vector2d>& points = path.points_m;

@@ -16,7 +16,7 @@ namespace stereobench::worlds {
 namespace {
 
 constexpr int kBallsPerLook = 10;
-constexpr int kTries = 100;
+constexpr int kSceneTries = 100;
 constexpr double kFullRow = 0.6;         // of a picture's width, which a ball and its shift may fill
 constexpr double kLeastGap = 2.2;        // radii between two balls' centres
 constexpr std::size_t kMostBalls = 254;  // of a world
@@ -24,9 +24,9 @@ constexpr int kWalls = 6;
 constexpr double kWallDistance = 1.2;  // of the farthest ball's depth
 constexpr double kWallHeight_m = 6.0;
 
-class KeyedSampler {
+class SceneSampler {
  public:
-  explicit KeyedSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kCalibrationScene) {}
+  explicit SceneSampler(std::uint64_t seed) : stream_(seed, slam::Stream::kCalibrationScene) {}
 
   double between(double low, double high) { return low + (high - low) * stream_.uniform(); }
   int below(int count) { return static_cast<int>(stream_.uniform() * count); }
@@ -43,7 +43,7 @@ int looks_around(const vision::Intrinsics& camera) {
 /// A place whose centre both cameras have in their pictures.
 /// @return in the robot's frame; empty where the draw gave none
 std::optional<Eigen::Vector3d> place_in_view(const vision::StereoRig& rig, const CalibrationDepths& depths,
-                                             double radius_m, KeyedSampler& draws) {
+                                             double radius_m, SceneSampler& draws) {
   const double share = draws.between(0.0, 1.0);
   const double depth =
       depths.nearest_m * slam::exponential(share * slam::logarithm(depths.farthest_m / depths.nearest_m));
@@ -73,9 +73,9 @@ bool has_room(const Ball& ball, const std::vector<Ball>& others) {
 }
 
 void add_balls(const Scenario& scenario, const CalibrationDepths& depths, const slam::Pose& robot,
-               double radius_m, KeyedSampler& draws, std::vector<Ball>& balls) {
+               double radius_m, SceneSampler& draws, std::vector<Ball>& balls) {
   int missing = kBallsPerLook;
-  for (int tries = 0; tries < kTries && missing > 0 && balls.size() < kMostBalls; ++tries) {
+  for (int tries = 0; tries < kSceneTries && missing > 0 && balls.size() < kMostBalls; ++tries) {
     const auto place = place_in_view(scenario.rig, depths, radius_m, draws);
     const int colour = draws.below(static_cast<int>(vision::kPalette.size()));
     if (!place) continue;
@@ -86,14 +86,14 @@ void add_balls(const Scenario& scenario, const CalibrationDepths& depths, const 
   }
 }
 
-Material any_material(bool plain, KeyedSampler& draws) {
+Material any_material(bool plain, SceneSampler& draws) {
   constexpr std::array<Material, 5> kAny = {Material::kPlain, Material::kTiles, Material::kPlaster,
                                             Material::kBricks, Material::kWood};
   const Material drawn = kAny[static_cast<std::size_t>(draws.below(static_cast<int>(kAny.size())))];
   return plain ? Material::kPlain : drawn;
 }
 
-Light any_light(KeyedSampler& draws) {
+Light any_light(SceneSampler& draws) {
   Light light;
   light.towards_light = {draws.between(-1.0, 1.0), draws.between(-1.0, 1.0), draws.between(0.3, 1.0)};
   light.ambient = draws.between(0.3, 0.6);
@@ -101,7 +101,7 @@ Light any_light(KeyedSampler& draws) {
   return light;
 }
 
-std::vector<Wall> walls_around(double distance_m, bool plain, KeyedSampler& draws) {
+std::vector<Wall> walls_around(double distance_m, bool plain, SceneSampler& draws) {
   std::vector<Wall> walls;
   const auto corner = [&](int i) -> Eigen::Vector2d {
     const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * i / kWalls);
@@ -124,7 +124,7 @@ CalibrationDepths measurable_depths(const vision::StereoRig& rig, double ball_ra
 
 Scenario calibration_scene(const Scenario& scenario, const CalibrationSceneSettings& settings,
                            std::uint64_t seed) {
-  KeyedSampler draws(seed);
+  SceneSampler draws(seed);
   Scenario made = scenario;
   made.seeds = {seed};
   made.shutter = {};

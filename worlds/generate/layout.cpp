@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector2i;
 
 // Which draws of a generated world are whose.
-enum KeyedSampler : std::uint64_t { kShape = 1U << 20U, kDoors };
+enum DrawKey : std::uint64_t { kShape = 1U << 20U, kDoors };
 
 constexpr double kDoorWidth_m = 0.9;
 constexpr double kDoorHeight_m = 2.0;

@@ -16,7 +16,7 @@ namespace stereobench::worlds {
 namespace {
 
 constexpr double kGap_m = 0.02;  // between things
-constexpr std::uint64_t kTries = 300;
+constexpr std::uint64_t kScatterTries = 300;
 
 Wall line_between(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
   return {from_m, to_m};
@@ -82,7 +82,7 @@ class Scattering {
 
   /// Draws places until one will do.
   bool place(const std::string& name, const Scattered& rules, MeshInstance& thing) {
-    for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
+    for (std::uint64_t attempt = 0; attempt < kScatterTries; ++attempt) {
       const std::size_t before = draws_.size();
       const auto step = static_cast<std::size_t>(
           draws_.whole(name + ".step", 0, static_cast<int>(scenario_.path.size()) - 1, attempt));

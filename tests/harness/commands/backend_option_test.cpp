@@ -31,11 +31,6 @@ std::string line_of(const Outcome& outcome, const std::string& begin) {
   return outcome.out.substr(from, outcome.out.find('\n', from) - from);
 }
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 class EglOption : public testing::Test {
  protected:
   void SetUp() override {

@@ -16,6 +16,13 @@ struct Outcome {
 /// Variables that a program is given beside those it inherits: "NAME=value".
 using Environment = std::vector<std::string>;
 
+/// Arguments, and more behind them.
+inline std::vector<std::string> with(std::vector<std::string> arguments,
+                                     const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
 /// Runs `stereobench` with arguments and waits for it; its output is not a terminal.
 Outcome run_stereobench(const std::vector<std::string>& arguments, Environment environment = {});
 

@@ -16,7 +16,7 @@ namespace {
 const std::string kAll =
     "randomise={ball_colours: {}, walls: {}, floor: {}, light: {}, clutter: {}, distractors: {count: 3}}";
 
-std::vector<nlohmann::json> lines_of(const std::filesystem::path& file) {
+std::vector<nlohmann::json> json_lines_of(const std::filesystem::path& file) {
   std::vector<nlohmann::json> lines;
   std::ifstream text(file);
   for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
@@ -86,7 +86,7 @@ TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
   expect_the_same_bytes_once_written_out(folder,
                                          "randomise={walls: {" + textures + "}, floor: {" + textures + "}}");
   std::set<std::string> drawn;
-  for (const nlohmann::json& line : lines_of(folder.path() / "draws.jsonl"))
+  for (const nlohmann::json& line : json_lines_of(folder.path() / "draws.jsonl"))
     if (line["key"].get<std::string>().ends_with(".material")) drawn.insert(line["value"].get<std::string>());
   EXPECT_EQ(drawn, (std::set<std::string>{"a.png", "b.jpg"}));
 }
@@ -131,7 +131,7 @@ TEST(RandomisedWorld, EachSeedOfARunDrawsItsOwn) {
               0);
   EXPECT_EQ(bytes_of(folder.path() / "1/run.json"), bytes_of(folder.path() / "2/run.json"));
   std::set<double> ambients;
-  for (const nlohmann::json& line : lines_of(folder.path() / "1/draws.jsonl"))
+  for (const nlohmann::json& line : json_lines_of(folder.path() / "1/draws.jsonl"))
     if (line["key"] == "light.ambient") {
       ambients.insert(line["value"].get<double>());
       EXPECT_EQ(line["from"], nlohmann::json({0.35, 0.55}));

@@ -22,11 +22,6 @@ std::string result_of(std::vector<std::string> arguments, const std::string& fil
 const std::vector<std::string> kShortDrive = {
     "run", scenario_path("ball_circle"), "--set", "path.laps=0.2", "--seeds", "0..2", "--particles", "20"};
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 // Mutations: a filter seeded by the worker's process, results in order of arrival, a time in run.json.
 TEST(RunCommand, SameBytesForAnyNumberOfJobsAndRunAfterRun) {
   const ScratchFolder scratch;

@@ -11,7 +11,7 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr std::int64_t kMilli = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 LoggedSighting seen_at(std::int64_t stamp_ns, int id = 1) {
@@ -87,19 +87,20 @@ INSTANTIATE_TEST_SUITE_P(Seeds, AnyStreams, testing::Range<std::uint64_t>(0, 50)
 TEST(LogSteps, SightingsWithinAMillisecondOfTheFirstAreOneStep) {
   RecordedStreams streams;
   streams.odometry = {{0, 1.0, 0.0}};
-  streams.sightings = {seen_at(500 * kMilli, 1), seen_at(501 * kMilli, 2), seen_at(502 * kMilli, 3)};
+  streams.sightings = {seen_at(500 * kMillisecond_ns, 1), seen_at(501 * kMillisecond_ns, 2),
+                       seen_at(502 * kMillisecond_ns, 3)};
   const MeasurementLog log = steps_from_streams(streams);
   ASSERT_EQ(log.steps.size(), 3U);
-  EXPECT_EQ(log.steps[1].stamp_ns, 500 * kMilli);
+  EXPECT_EQ(log.steps[1].stamp_ns, 500 * kMillisecond_ns);
   ASSERT_EQ(log.steps[1].measurements.size(), 2U);
   EXPECT_EQ(log.steps[1].measurements[1].landmark_id, 2);
-  EXPECT_EQ(log.steps[2].stamp_ns, 502 * kMilli);
+  EXPECT_EQ(log.steps[2].stamp_ns, 502 * kMillisecond_ns);
 }
 
 TEST(LogSteps, AGapIsCutIntoEqualPartsOfAtMostASecond) {
   RecordedStreams streams;
   streams.odometry = {{0, 1.0, 0.0}};
-  streams.sightings = {seen_at(0), seen_at(2500 * kMilli)};
+  streams.sightings = {seen_at(0), seen_at(2500 * kMillisecond_ns)};
   const MeasurementLog log = steps_from_streams(streams);
   ASSERT_EQ(log.steps.size(), 4U);
   EXPECT_NEAR(static_cast<double>(log.steps[1].stamp_ns) * 1e-9, 2.5 / 3, 1e-9);
@@ -109,8 +110,10 @@ TEST(LogSteps, AGapIsCutIntoEqualPartsOfAtMostASecond) {
 
 TEST(LogSteps, ReadingsAreHeldAndSplitWhereAStepEnds) {
   RecordedStreams streams;
-  streams.odometry = {{200 * kMilli, 1.0, 0.1}, {200 * kMilli, 2.0, 0.2}, {600 * kMilli, 3.0, 0.3}};
-  streams.instants_ns = {0, 500 * kMilli, 900 * kMilli};
+  streams.odometry = {{200 * kMillisecond_ns, 1.0, 0.1},
+                      {200 * kMillisecond_ns, 2.0, 0.2},
+                      {600 * kMillisecond_ns, 3.0, 0.3}};
+  streams.instants_ns = {0, 500 * kMillisecond_ns, 900 * kMillisecond_ns};
   const MeasurementLog log = steps_from_streams(streams);
   ASSERT_EQ(log.steps[1].odometry.size(), 2U);
   EXPECT_EQ(log.steps[1].odometry[0].v_mps, 0.0);  // before the first reading the robot stands
@@ -129,7 +132,7 @@ TEST(LogSteps, TruthLiesOnTheLineAndTheShorterArc) {
   RecordedStreams streams;
   streams.odometry = {{0, 0.0, 0.0}};
   streams.truth = {{0, {1.0, 2.0, 3.0}}, {kSecond, {2.0, 4.0, -3.0}}};
-  streams.instants_ns = {500 * kMilli, 750 * kMilli};
+  streams.instants_ns = {500 * kMillisecond_ns, 750 * kMillisecond_ns};
   const MeasurementLog log = steps_from_streams(streams);
   ASSERT_TRUE(log.steps[0].truth.has_value());
   EXPECT_DOUBLE_EQ(log.steps[0].truth->x_m, 1.5);
@@ -143,7 +146,9 @@ TEST(LogSteps, ThereIsNoTruthOutsideItsSpanNorInALongGap) {
   RecordedStreams streams;
   streams.odometry = {{0, 0.0, 0.0}};
   streams.truth = {{kSecond, {}}, {2 * kSecond, {}}, {3 * kSecond + 1, {}}, {4 * kSecond, {}}};
-  streams.instants_ns = {0, kSecond, 1500 * kMilli, 2500 * kMilli, 3500 * kMilli, 4 * kSecond, 5 * kSecond};
+  streams.instants_ns = {
+      0,           kSecond,    1500 * kMillisecond_ns, 2500 * kMillisecond_ns, 3500 * kMillisecond_ns,
+      4 * kSecond, 5 * kSecond};
   std::vector<bool> known;
   for (const LogStep& step : steps_from_streams(streams).steps) known.push_back(step.truth.has_value());
   EXPECT_EQ(known, (std::vector<bool>{false, true, true, false, true, true, false}));

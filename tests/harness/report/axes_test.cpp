@@ -14,7 +14,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Box kPlot = {100.0, 50.0, 400.0, 250.0};
 
@@ -23,7 +22,7 @@ double between(slam::RandomStream& random, double low, double high) {
 }
 
 /// Ranges of all sizes, far from zero and about it.
-Range any_range(slam::RandomStream& random) {
+AxisRange any_range(slam::RandomStream& random) {
   const double length = std::pow(10.0, between(random, -5.0, 5.0));
   const double low = length * between(random, -30.0, 30.0);
   return {low, low + length};
@@ -40,7 +39,7 @@ bool is_nice(double step) {
 TEST(ReportAxes, TicksCoverTheRangeInNiceSteps) {
   slam::RandomStream random(1, slam::Stream::kWorld);
   for (int trial = 0; trial < 500; ++trial) {
-    const Range range = any_range(random);
+    const AxisRange range = any_range(random);
     const int count = 2 + static_cast<int>(between(random, 0.0, 9.0));
     const std::vector<double> values = ticks(range, Scale::kLinear, count);
     ASSERT_GE(values.size(), 2u * static_cast<std::size_t>(count) / 5u);
@@ -62,7 +61,7 @@ TEST(ReportAxes, LogTicksAreNiceNumbersInTheRange) {
   slam::RandomStream random(2, slam::Stream::kWorld);
   for (int trial = 0; trial < 500; ++trial) {
     const double low = std::pow(10.0, between(random, -6.0, 4.0));
-    const Range range = {low, low * std::pow(10.0, between(random, 1.0, 6.0))};
+    const AxisRange range = {low, low * std::pow(10.0, between(random, 1.0, 6.0))};
     const std::vector<double> values = ticks(range, Scale::kLog, 6);
     ASSERT_GE(values.size(), 2u) << range.low << " " << range.high;
     ASSERT_LE(values.size(), 9u);
@@ -100,8 +99,8 @@ TEST(ReportAxes, LabelsSayTheTickAndDiffer) {
 TEST(ReportAxes, MappingIsAffineAndFillsThePlot) {
   slam::RandomStream random(4, slam::Stream::kWorld);
   for (int trial = 0; trial < 200; ++trial) {
-    const Range x = any_range(random);
-    const Range y = any_range(random);
+    const AxisRange x = any_range(random);
+    const AxisRange y = any_range(random);
     const Axes axes({"x", x}, {"y", y}, kPlot);
     EXPECT_NEAR(axes.to_pixel(x.low, y.low).x_px, 100.0, 1e-9);
     EXPECT_NEAR(axes.to_pixel(x.low, y.low).y_px, 300.0, 1e-9);
@@ -127,8 +126,8 @@ TEST(ReportAxes, LogMappingTurnsRatiosIntoDistances) {
 TEST(ReportAxes, EqualScaleShowsMetresAlikeAndKeepsAllInside) {
   slam::RandomStream random(5, slam::Stream::kWorld);
   for (int trial = 0; trial < 200; ++trial) {
-    const Range x = {-between(random, 0.1, 50.0), between(random, 0.1, 50.0)};
-    const Range y = {-between(random, 0.1, 50.0), between(random, 0.1, 50.0)};
+    const AxisRange x = {-between(random, 0.1, 50.0), between(random, 0.1, 50.0)};
+    const AxisRange y = {-between(random, 0.1, 50.0), between(random, 0.1, 50.0)};
     const Axes axes = Axes::with_equal_scale({"x", x}, {"y", y}, kPlot);
     const Point origin = axes.to_pixel(0.0, 0.0);
     const double across_px = axes.to_pixel(1.0, 0.0).x_px - origin.x_px;
@@ -144,10 +143,10 @@ TEST(ReportAxes, EqualScaleShowsMetresAlikeAndKeepsAllInside) {
 
 TEST(ReportAxes, RangeHoldsWhatCanBeDrawnAndNothingElse) {
   const std::vector<double> numbers = {3.0, kNaN, -1.0, kInfinity, 0.0, -kInfinity, 1e300};
-  const Range linear = range_of(numbers, Scale::kLinear, 0.0);
+  const AxisRange linear = range_of(numbers, Scale::kLinear, 0.0);
   EXPECT_DOUBLE_EQ(linear.low, -1.0);
   EXPECT_DOUBLE_EQ(linear.high, 3.0);
-  const Range wider = range_of(numbers, Scale::kLinear, 0.25);
+  const AxisRange wider = range_of(numbers, Scale::kLinear, 0.25);
   EXPECT_DOUBLE_EQ(wider.low, -2.0);
   EXPECT_DOUBLE_EQ(wider.high, 4.0);
   const std::vector<double> positive = {0.1, -5.0, 0.0, 10.0};
@@ -159,7 +158,7 @@ TEST(ReportAxes, RangeOfNothingOrOfOneNumberCanBeDrawn) {
   for (const Scale scale : {Scale::kLinear, Scale::kLog}) {
     for (const std::vector<double>& numbers :
          {std::vector<double>{}, {kNaN}, {0.0}, {7.0}, {-7.0, -7.0}, {1e-9, 1e-9}}) {
-      const Range range = range_of(numbers, scale);
+      const AxisRange range = range_of(numbers, scale);
       EXPECT_TRUE(range.low < range.high);
       EXPECT_NO_THROW(Axes({"x", range, scale}, {"y", range, scale}, kPlot));
       EXPECT_FALSE(ticks(range, scale).empty());

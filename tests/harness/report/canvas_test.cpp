@@ -12,8 +12,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 // Anti-aliased ink adds up to the figure's area: 60 px of a line 2.5 px wide.
 TEST(ReportCanvas, InkOfALineIsItsLengthTimesItsWidth) {
   Canvas canvas(100, 100);

@@ -11,7 +11,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> kTime_s = {0.0, 1.0, 2.0, 3.0, 4.0};
 
 ErrorCurves curves_of(const std::string& filter, const std::vector<std::vector<double>>& runs) {

@@ -14,8 +14,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// The pixels of a colour within the plot, so without the legend.
 std::vector<Point> plotted(const MapPicture& picture, const Colour& colour) {
   const Box plot = lay_out_map(picture).axes.plot();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "harness/report/canvas.h"
 
 namespace stereobench::harness {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 inline cv::Mat decoded(const std::string& png) {
   return cv::imdecode(cv::Mat(1, static_cast<int>(png.size()), CV_8UC1, const_cast<char*>(png.data())),

@@ -13,8 +13,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 SweepCurve level(const std::string& name, std::size_t values, double half_interval = kNaN) {
   return {name, std::vector<MeanInterval>(values, {1.0, 1.0 - half_interval, 1.0 + half_interval})};
 }
@@ -61,11 +59,11 @@ TEST(ReportSweep, NamesStandEvenly) {
 }
 
 /// The rows between which a filter's curve with intervals about 1 has ink; the other filter keeps the axis.
-Range rows_with_ink(double half_interval) {
+AxisRange rows_with_ink(double half_interval) {
   const SweepPicture picture = {
       "", "n", {"1", "2"}, false, {}, {level("ufastslam", 2, half_interval), level("fastslam2", 2, 0.8)}};
   const cv::Mat image = decoded(draw_sweep_picture(picture));
-  Range rows = {1e9, 0.0};
+  AxisRange rows = {1e9, 0.0};
   for (const Point& p :
        pixels_of(image(cv::Rect(0, 0, 815, image.rows)), filter_stroke("ufastslam").colour, 120.0)) {
     rows = {std::min(rows.low, p.y_px), std::max(rows.high, p.y_px)};
@@ -75,9 +73,9 @@ Range rows_with_ink(double half_interval) {
 
 // Catches: bars of half the interval, from the mean to the high end only, or none.
 TEST(ReportSweep, BarsReachFromTheLowToTheHighEnd) {
-  const Range mean = rows_with_ink(kNaN);
-  const Range small = rows_with_ink(0.4);
-  const Range large = rows_with_ink(0.8);
+  const AxisRange mean = rows_with_ink(kNaN);
+  const AxisRange small = rows_with_ink(0.4);
+  const AxisRange large = rows_with_ink(0.8);
   EXPECT_NEAR(small.high + small.low, mean.high + mean.low, 3.0);
   EXPECT_NEAR(large.high + large.low, mean.high + mean.low, 3.0);
   EXPECT_NEAR((small.high - small.low) / (large.high - large.low), 0.5, 0.02);

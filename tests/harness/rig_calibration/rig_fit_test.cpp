@@ -21,10 +21,10 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr Board kBoard{9, 6, 0.03};
+constexpr Board kFitBoard{9, 6, 0.03};
 
-FitSettings settings_for(const vision::StereoRig& rig, RigModel model) {
-  return {.board = kBoard,
+RigFitSettings fit_settings(const vision::StereoRig& rig, RigModel model) {
+  return {.board = kFitBoard,
           .width_px = rig.intrinsics.width_px,
           .height_px = rig.intrinsics.height_px,
           .model = model};
@@ -43,8 +43,8 @@ class RigFits : public testing::TestWithParam<RigModel> {};
 // its own. Mutations: p1 and p2 exchanged; the aspect that of columns.
 TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
   const vision::StereoRig rig = stretched_rig();
-  const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 1), 0.0, 1);
-  FitSettings settings = settings_for(rig, GetParam());
+  const auto views = test::seen_through(rig, kFitBoard, test::board_places(kFitBoard, 8, 1), 0.0, 1);
+  RigFitSettings settings = fit_settings(rig, GetParam());
   settings.square_pixels = false;
   const RigFit fit = fit_rig(views, settings);
   EXPECT_LT(fit.rms_px, 1e-6);
@@ -73,12 +73,12 @@ TEST_P(RigFits, FindTheRigThatTheCornersWereSeenThrough) {
 TEST_P(RigFits, KnowHowFarTheyAreOff) {
   constexpr int kSeeds = 24;
   const vision::StereoRig rig = stretched_rig();
-  FitSettings settings = settings_for(rig, GetParam());
+  RigFitSettings settings = fit_settings(rig, GetParam());
   settings.square_pixels = false;
   double squares = 0.0;
   double count = 0.0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 6, seed), 0.2, seed);
+    const auto views = test::seen_through(rig, kFitBoard, test::board_places(kFitBoard, 6, seed), 0.2, seed);
     const RigFit fit = fit_rig(views, settings);
     EXPECT_NEAR(fit.neighbour_sd_px, 0.2, 0.02);
     EXPECT_NEAR(fit.corner_sd_px, 0.2, 4.0 * 0.2 / std::sqrt(2.0 * 6 * 54 * 4));
@@ -96,9 +96,9 @@ INSTANTIATE_TEST_SUITE_P(Models, RigFits, testing::Values(RigModel::kTwoCameras,
 // Mutation: the loss left out.
 TEST(RigFit, RobustlyPassesOverCornersThatAreFarOff) {
   const vision::StereoRig rig = test::faulty_rig();
-  auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 8, 3), 0.1, 3);
+  auto views = test::seen_through(rig, kFitBoard, test::board_places(kFitBoard, 8, 3), 0.1, 3);
   for (Eigen::Vector2d& corner : views[2].corners_px[1]) corner += Eigen::Vector2d(4.0, 9.0);
-  FitSettings settings = settings_for(rig, RigModel::kTwoCameras);
+  RigFitSettings settings = fit_settings(rig, RigModel::kTwoCameras);
   settings.robust = true;
   const RigFit fit = fit_rig(views, settings);
   for (std::size_t view = 0; view < views.size(); ++view)
@@ -107,8 +107,8 @@ TEST(RigFit, RobustlyPassesOverCornersThatAreFarOff) {
 
 TEST(RigFit, RefusesViewsThatSayTooLittle) {
   const vision::StereoRig rig = test::faulty_rig();
-  const FitSettings settings = settings_for(rig, RigModel::kTwoCameras);
-  const auto two = test::seen_through(rig, kBoard, test::board_places(kBoard, 2, 1), 0.1, 1);
+  const RigFitSettings settings = fit_settings(rig, RigModel::kTwoCameras);
+  const auto two = test::seen_through(rig, kFitBoard, test::board_places(kFitBoard, 2, 1), 0.1, 1);
   EXPECT_THAT([&] { fit_rig(two, settings); },
               ThrowsMessage<std::runtime_error>(HasSubstr("at least 3 views of the board (got 2)")));
   // A board that is held up straight, again and again: neither depth nor focal length can be told.
@@ -118,7 +118,7 @@ TEST(RigFit, RefusesViewsThatSayTooLittle) {
   vision::StereoRig rectified = rig;
   rectified.right_turn_rad.setZero();
   rectified.distortion = {};
-  const auto flat = test::seen_through(rectified, kBoard, parallel, 0.1, 1);
+  const auto flat = test::seen_through(rectified, kFitBoard, parallel, 0.1, 1);
   EXPECT_THAT([&] { fit_rig(flat, settings); },
               ThrowsMessage<std::runtime_error>(HasSubstr("the views do not determine")));
 }
@@ -126,10 +126,10 @@ TEST(RigFit, RefusesViewsThatSayTooLittle) {
 // Mutation: the baseline's sign not looked at.
 TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
   const vision::StereoRig rig = test::faulty_rig();
-  auto views = test::seen_through(rig, kBoard, test::board_places(kBoard, 6, 1), 0.1, 1);
+  auto views = test::seen_through(rig, kFitBoard, test::board_places(kFitBoard, 6, 1), 0.1, 1);
   for (BoardView& view : views) std::swap(view.corners_px[0], view.corners_px[1]);
   for (const RigModel model : {RigModel::kTwoCameras, RigModel::kOneCamera}) {
-    const RigFit fit = fit_rig(views, settings_for(rig, model));
+    const RigFit fit = fit_rig(views, fit_settings(rig, model));
     EXPECT_THAT([&] { rectified_rig(fit, model, 1024, 768); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("left and right are swapped")));
   }
@@ -139,10 +139,10 @@ TEST(RectifiedRig, SaysThatLeftAndRightAreSwapped) {
 // Mutation: the right camera's turn the other way round in the fit.
 TEST(RectifiedRig, PutsPointsOnOneRow) {
   const vision::StereoRig rig = stretched_rig();
-  const auto places = test::board_places(kBoard, 6, 5);
-  const auto views = test::seen_through(rig, kBoard, places, 0.0, 1);
+  const auto places = test::board_places(kFitBoard, 6, 5);
+  const auto views = test::seen_through(rig, kFitBoard, places, 0.0, 1);
   for (const RigModel model : {RigModel::kTwoCameras, RigModel::kOneCamera}) {
-    FitSettings settings = settings_for(rig, model);
+    RigFitSettings settings = fit_settings(rig, model);
     settings.square_pixels = false;
     const RigFit fit = fit_rig(views, settings);
     const RigCalibration calibration = rectified_rig(fit, model, 1024, 768);
@@ -153,7 +153,7 @@ TEST(RectifiedRig, PutsPointsOnOneRow) {
       EXPECT_NEAR(left->y(), right->y(), 1e-5);
       const double disparity = left->x() - right->x();
       const double depth_m = calibration.rig.intrinsics.focal_px * calibration.rig.baseline_m / disparity;
-      const Eigen::Vector3d truth = places.front() * kBoard.corner_m(static_cast<int>(i));
+      const Eigen::Vector3d truth = places.front() * kFitBoard.corner_m(static_cast<int>(i));
       const double distance_m = (depth_m * vision::pixel_ray(calibration.rig.intrinsics, *left)).norm();
       EXPECT_NEAR(distance_m, truth.norm(), 1e-5);
     }

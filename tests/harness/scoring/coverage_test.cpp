@@ -9,7 +9,7 @@
 namespace stereobench::harness {
 namespace {
 
-const Eigen::Matrix2d kRoot{{0.3, 0.0}, {-0.1, 0.2}};
+const Eigen::Matrix2d kPositionRoot{{0.3, 0.0}, {-0.1, 0.2}};
 
 /// A run whose positions are drawn from the covariance that it states, times a factor.
 struct Drawn {
@@ -19,11 +19,12 @@ struct Drawn {
   Drawn(std::uint64_t seed, std::size_t steps, double factor = 1.0) {
     slam::RandomStream random(seed, slam::Stream::kWorld);
     for (std::size_t k = 0; k < steps; ++k) {
-      const Eigen::Vector2d error = factor * kRoot * Eigen::Vector2d(random.normal(), random.normal());
+      const Eigen::Vector2d error =
+          factor * kPositionRoot * Eigen::Vector2d(random.normal(), random.normal());
       log.steps.push_back({.truth = slam::Pose{1.0, -2.0, 0.3}});
       run.poses.push_back({1.0 + error.x(), -2.0 + error.y(), 0.3});
       run.covariances.push_back(Eigen::Matrix3d::Identity());
-      run.covariances.back().topLeftCorner<2, 2>() = kRoot * kRoot.transpose();
+      run.covariances.back().topLeftCorner<2, 2>() = kPositionRoot * kPositionRoot.transpose();
     }
   }
 };
@@ -36,7 +37,7 @@ double five_deviations(double p, double count) {
 // Mutations: the heading's variance in the ellipse; one degree of freedom; a box in place of an ellipse.
 TEST(CoverPath, IsTheEllipsesProbabilityWhenTheCovarianceIsHonest) {
   const Drawn honest(3, 10'002);
-  const Coverage coverage = cover_path(honest.run, honest.log);
+  const EllipseCoverage coverage = cover_path(honest.run, honest.log);
   EXPECT_EQ(coverage.positions, 10'000);
   for (std::size_t i = 0; i < kEllipses.size(); ++i)
     EXPECT_NEAR(coverage.within[i], kEllipses[i], five_deviations(kEllipses[i], 1e4)) << kEllipses[i];
@@ -45,7 +46,7 @@ TEST(CoverPath, IsTheEllipsesProbabilityWhenTheCovarianceIsHonest) {
 // Errors twice as large as claimed lie within p of chi-square at a quarter: 1 - (1 - p)^(1/4).
 TEST(CoverPath, FallsWhenTheCovarianceIsTooSmall) {
   const Drawn optimistic(4, 10'002, 2.0);
-  const Coverage coverage = cover_path(optimistic.run, optimistic.log);
+  const EllipseCoverage coverage = cover_path(optimistic.run, optimistic.log);
   for (std::size_t i = 0; i < kEllipses.size(); ++i) {
     const double expected = 1.0 - std::pow(1.0 - kEllipses[i], 0.25);
     EXPECT_NEAR(coverage.within[i], expected, five_deviations(expected, 1e4));
@@ -68,7 +69,7 @@ TEST(CoverMap, IsOfTheLandmarksThatBelongToATrueOne) {
       {7, slam::kUnknown, {1.0, 3.0}, unit},    // 1: within 50 % (1.39)
       {8, slam::kUnknown, {5.0, 8.0}, unit},    // 9: within 99 % (9.21)
       {9, slam::kUnknown, {50.0, 8.0}, unit}};  // nobody's
-  const Coverage coverage = cover_map(estimates, truth);
+  const EllipseCoverage coverage = cover_map(estimates, truth);
   EXPECT_EQ(coverage.positions, 2);
   EXPECT_DOUBLE_EQ(coverage.within[0], 0.5);
   EXPECT_DOUBLE_EQ(coverage.within[1], 0.5);

@@ -59,7 +59,7 @@ struct Scene {
 };
 
 /// What a perfect observer says of a ball.
-inline vision::BallObservation perfect(const BallOutline& outline, int colour) {
+inline vision::BallObservation perfect(const BallInPair& outline, int colour) {
   vision::BallObservation observation;
   observation.colour = colour;
   observation.left_px = outline.left.centre_px;

@@ -14,10 +14,10 @@ namespace {
 // Mutation: fractions of the bounding box.
 TEST(BallOutlines, AWholeBallHasThePixelsOfItsOutline) {
   const Scene scene({kAhead, kAtTheBack, kAside});
-  const std::vector<BallOutline> outlines = ball_outlines(scene.truth());
+  const std::vector<BallInPair> outlines = ball_outlines(scene.truth());
   ASSERT_EQ(outlines.size(), 2U);  // nothing is said of the ball at the back
   EXPECT_EQ(outlines[1].ball, 2);
-  for (const BallOutline& outline : outlines) {
+  for (const BallInPair& outline : outlines) {
     EXPECT_TRUE(outline.inside_both);
     EXPECT_NEAR(outline.left_fraction, 1.0, 0.03);
     EXPECT_NEAR(outline.right_fraction, 1.0, 0.03);
@@ -26,7 +26,7 @@ TEST(BallOutlines, AWholeBallHasThePixelsOfItsOutline) {
 
 TEST(BallOutlines, HiddenAndCutBallsHaveLess) {
   const Scene scene({kAhead, kBehindIt, kCut});
-  const std::vector<BallOutline> outlines = ball_outlines(scene.truth());
+  const std::vector<BallInPair> outlines = ball_outlines(scene.truth());
   ASSERT_EQ(outlines.size(), 3U);
   EXPECT_LT(outlines[1].left_fraction, 0.5);
   EXPECT_FALSE(outlines[2].inside_both);
@@ -37,7 +37,7 @@ TEST(BallOutlines, HiddenAndCutBallsHaveLess) {
 TEST(BallOutlines, EachCameraHasItsOwnFraction) {
   for (const double y_m : {-0.05, 0.17}) {
     const worlds::Ball in_front{{1.0, y_m, 0.3}, 0.08, 3};
-    const BallOutline outline = ball_outlines(Scene({kBehindIt, in_front}).truth()).at(0);
+    const BallInPair outline = ball_outlines(Scene({kBehindIt, in_front}).truth()).at(0);
     const double left = seen_fraction(kBehindIt, in_front, vision::Side::kLeft);
     const double right = seen_fraction(kBehindIt, in_front, vision::Side::kRight);
     EXPECT_NEAR(outline.left_fraction, left, 0.04);
@@ -63,8 +63,8 @@ TEST_P(AnyPlace, OutlinesDoNotDependOnWhereTheWorldIs) {
   worlds::Ball moved = kAside;
   const slam::Pose centre = slam::compose(pose, {kAside.centre_m.x(), kAside.centre_m.y(), 0.0});
   moved.centre_m.head<2>() = Eigen::Vector2d(centre.x_m, centre.y_m);
-  const BallOutline here = ball_outlines(Scene({kAside}).truth()).at(0);
-  const BallOutline there = ball_outlines(Scene({moved}, pose).truth()).at(0);
+  const BallInPair here = ball_outlines(Scene({kAside}).truth()).at(0);
+  const BallInPair there = ball_outlines(Scene({moved}, pose).truth()).at(0);
   EXPECT_LT((here.left.centre_px - there.left.centre_px).norm(), 1e-9);
   EXPECT_LT((here.right.centre_px - there.right.centre_px).norm(), 1e-9);
   EXPECT_NEAR(here.left_fraction, there.left_fraction, 2e-3);

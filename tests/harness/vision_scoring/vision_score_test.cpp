@@ -67,7 +67,7 @@ TEST(VisionScore, RangeAndBearingAloneTellWhichBallIsMeant) {
   const Scene scene({low, high});
   const auto outlines = ball_outlines(scene.truth());
   std::vector<vision::BallObservation> seen;
-  for (const BallOutline& outline : {outlines[1], outlines[0]}) {
+  for (const BallInPair& outline : {outlines[1], outlines[0]}) {
     seen.push_back(perfect(outline, slam::kUnknown));
     seen.back().has_pixels = false;
     seen.back().left_px = seen.back().right_px = {1.0, 1.0};
@@ -116,7 +116,7 @@ TEST(VisionScore, ABallMustBeFoundFromFivePixelsOfRadius) {
   int large = 0;
   for (double radius_px = 3.1; radius_px < 7.0; radius_px += 0.2) {
     const Scene scene({{{small_rig().intrinsics.focal_px * 0.1 / radius_px, 0.0, 0.3}, 0.1, 3}});
-    const BallOutline outline = ball_outlines(scene.truth()).at(0);
+    const BallInPair outline = ball_outlines(scene.truth()).at(0);
     if (std::min(outline.left_fraction, outline.right_fraction) < 0.95) continue;  // so few pixels are coarse
     ++(radius_px > 5.0 ? large : small);
     EXPECT_EQ(score_observations(scene.truth(), {}).visible, radius_px > 5.0 ? 1 : 0) << radius_px;

@@ -14,7 +14,7 @@
 namespace stereobench::renderer {
 namespace {
 
-constexpr double kSigmas = 3.29;  // 99.9 % of a normal distribution lies within
+constexpr double kNoiseSigmas = 3.29;  // 99.9 % of a normal distribution lies within
 
 StereoFrame grey(const cv::Size& size, int level) {
   const cv::Mat picture(size, CV_8UC3, cv::Scalar::all(level));
@@ -48,8 +48,8 @@ TEST_P(Noise, HasTheMeanAndVarianceThatWereAskedFor) {
       const double mean = mean_product(noise, std::vector<double>(noise.size(), 1.0));
       const double variance = mean_product(noise, noise) - mean * mean;
       const double expected = sd * sd + 1.0 / 12.0;  // Sheppard: rounding is noise too
-      EXPECT_NEAR(mean, 0.0, kSigmas * std::sqrt(expected / count));
-      EXPECT_NEAR(variance, expected, kSigmas * expected * std::sqrt(2.0 / count));
+      EXPECT_NEAR(mean, 0.0, kNoiseSigmas * std::sqrt(expected / count));
+      EXPECT_NEAR(variance, expected, kNoiseSigmas * expected * std::sqrt(2.0 / count));
     }
   }
 }
@@ -63,7 +63,7 @@ TEST(Expose, ChannelsNeighboursCamerasAndFramesAreUncorrelated) {
   const std::vector<double> noise = noise_of(pair.left, 0, 120);
   std::vector<double> neighbour(noise.begin() + 1, noise.end());
   neighbour.push_back(0.0);
-  const double largest = kSigmas * 16.0 / std::sqrt(static_cast<double>(noise.size()));
+  const double largest = kNoiseSigmas * 16.0 / std::sqrt(static_cast<double>(noise.size()));
   EXPECT_LE(std::abs(mean_product(noise, noise_of(pair.left, 1, 120))), largest);
   EXPECT_LE(std::abs(mean_product(noise, noise_of(pair.left, 2, 120))), largest);
   EXPECT_LE(std::abs(mean_product(noise, noise_of(pair.right, 0, 120))), largest);

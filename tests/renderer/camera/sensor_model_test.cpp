@@ -20,9 +20,9 @@ namespace {
 using worlds::CameraSensor;
 using worlds::Encoding;
 
-constexpr double kSigmas = 3.29;  // 99.9 % of a normal distribution lies within
+constexpr double kSensorSigmas = 3.29;  // 99.9 % of a normal distribution lies within
 
-cv::Mat grey(const cv::Size& size, double level) {
+cv::Mat grey_picture(const cv::Size& size, double level) {
   return {size, CV_8UC3, cv::Scalar::all(level)};
 }
 
@@ -57,12 +57,12 @@ TEST_P(GreyLevels, HaveTheMeanAndVarianceOfPhotonsAndReading) {
   const double electrons = GetParam() / 255.0 * 0.5 * 4000.0;
   const double levels_per_electron = 1.8 * 255.0 / 4000.0;
   const double variance = levels_per_electron * levels_per_electron * (electrons + 144.0);
-  const cv::Mat picture = develop(grey({1024, 768}, GetParam()), sensor, 42, 3);
+  const cv::Mat picture = develop(grey_picture({1024, 768}, GetParam()), sensor, 42, 3);
   for (int channel = 0; channel < 3; ++channel) {
     const Moments seen = moments_of(picture, channel);
     const double expected = variance + 1.0 / 12.0;  // Sheppard: rounding is noise too
-    EXPECT_NEAR(seen.mean, levels_per_electron * electrons, kSigmas * std::sqrt(expected / seen.count));
-    EXPECT_NEAR(seen.variance, expected, kSigmas * expected * std::sqrt(2.0 / seen.count));
+    EXPECT_NEAR(seen.mean, levels_per_electron * electrons, kSensorSigmas * std::sqrt(expected / seen.count));
+    EXPECT_NEAR(seen.variance, expected, kSensorSigmas * expected * std::sqrt(2.0 / seen.count));
   }
   EXPECT_NEAR(noise_sd_levels(sensor, GetParam()), std::sqrt(variance), 1e-12);
 }
@@ -72,23 +72,23 @@ INSTANTIATE_TEST_SUITE_P(Chip, GreyLevels, testing::Values(40, 60, 80, 100, 130,
 TEST(Develop, CountsPhotonsAsPoissonDoes) {
   const CameraSensor sensor{.full_well_electrons = 255.0};
   for (const double expected : {1.0, 5.0, 15.0, 17.0, 40.0}) {
-    const Moments seen = moments_of(develop(grey({1024, 768}, expected), sensor, 7, 0), 1);
+    const Moments seen = moments_of(develop(grey_picture({1024, 768}, expected), sensor, 7, 0), 1);
     const double rounding = expected < 16.0 ? 0.0 : 1.0 / 12.0;
-    EXPECT_NEAR(seen.mean, expected, kSigmas * std::sqrt(expected / seen.count)) << expected;
+    EXPECT_NEAR(seen.mean, expected, kSensorSigmas * std::sqrt(expected / seen.count)) << expected;
     const double variance_sd = std::sqrt((2.0 * expected * expected + expected) / seen.count);
-    EXPECT_NEAR(seen.variance, expected + rounding, kSigmas * variance_sd) << expected;
+    EXPECT_NEAR(seen.variance, expected + rounding, kSensorSigmas * variance_sd) << expected;
     const double third_sd = std::sqrt(20.0 * expected * expected * expected / seen.count);
-    EXPECT_NEAR(seen.third, expected, kSigmas * third_sd) << expected;
+    EXPECT_NEAR(seen.third, expected, kSensorSigmas * third_sd) << expected;
   }
 }
 
 TEST(Develop, GivesEachCountOfFewPhotonsItsProbability) {
-  const cv::Mat picture = develop(grey({1024, 768}, 2.0), {.full_well_electrons = 255.0}, 1, 0);
+  const cv::Mat picture = develop(grey_picture({1024, 768}, 2.0), {.full_well_electrons = 255.0}, 1, 0);
   double probability = std::exp(-2.0);
   for (int count = 0; count < 8; ++count) {
     const double n = static_cast<double>(3 * picture.total());
     EXPECT_NEAR(cv::countNonZero(picture.reshape(1) == count), n * probability,
-                kSigmas * std::sqrt(n * probability) + n / 65536.0)
+                kSensorSigmas * std::sqrt(n * probability) + n / 65536.0)
         << count;
     probability *= 2.0 / (count + 1);
   }
@@ -96,7 +96,7 @@ TEST(Develop, GivesEachCountOfFewPhotonsItsProbability) {
 
 TEST(Develop, ChannelsNeighboursAndCamerasAreUncorrelated) {
   const CameraSensor sensor{.full_well_electrons = 2000.0, .read_noise_electrons = 40.0};
-  const cv::Mat light = grey({1024, 768}, 120);
+  const cv::Mat light = grey_picture({1024, 768}, 120);
   cv::Mat left, right;
   develop(light, sensor, 1, 34).convertTo(left, CV_64F, 1.0, -120.0);
   develop(light, sensor, 1, 35).convertTo(right, CV_64F, 1.0, -120.0);
@@ -104,7 +104,7 @@ TEST(Develop, ChannelsNeighboursAndCamerasAreUncorrelated) {
   cv::split(left, of_left);
   cv::split(right, of_right);
   const double variance = of_left[0].dot(of_left[0]) / static_cast<double>(light.total());
-  const double largest = kSigmas * variance * std::sqrt(static_cast<double>(light.total()));
+  const double largest = kSensorSigmas * variance * std::sqrt(static_cast<double>(light.total()));
   EXPECT_LE(std::abs(of_left[0].dot(of_left[1])), largest);
   EXPECT_LE(std::abs(of_left[0].dot(of_left[2])), largest);
   EXPECT_LE(std::abs(of_left[1].dot(of_right[1])), largest);
@@ -114,11 +114,11 @@ TEST(Develop, ChannelsNeighboursAndCamerasAreUncorrelated) {
 
 TEST(Develop, BalancesWhiteInTheOrderRedGreenBlue) {
   const CameraSensor sensor{.white_balance_rgb = {1.2, 1.0, 0.8}};
-  EXPECT_EQ(develop(grey({4, 4}, 100), sensor, 0, 0).at<cv::Vec3b>(2, 2), cv::Vec3b(80, 100, 120));
+  EXPECT_EQ(develop(grey_picture({4, 4}, 100), sensor, 0, 0).at<cv::Vec3b>(2, 2), cv::Vec3b(80, 100, 120));
 }
 
 TEST(Develop, VignetteTakesTheSquareOfTheRadius) {
-  const cv::Mat picture = develop(grey({101, 81}, 200), {.vignette = 0.4}, 0, 0);
+  const cv::Mat picture = develop(grey_picture({101, 81}, 200), {.vignette = 0.4}, 0, 0);
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 50)[0], 200);
   EXPECT_EQ(picture.at<cv::Vec3b>(0, 0)[1], 120);
   EXPECT_EQ(picture.at<cv::Vec3b>(80, 100)[2], 120);
@@ -128,7 +128,7 @@ TEST(Develop, VignetteTakesTheSquareOfTheRadius) {
 TEST(Develop, EncodesAsTheStandardSays) {
   const auto stored = [](Encoding encoding, double gamma, int light) {
     const CameraSensor sensor{.encoding = encoding, .gamma = gamma};
-    return static_cast<int>(develop(grey({1, 1}, light), sensor, 0, 0).at<cv::Vec3b>(0, 0)[0]);
+    return static_cast<int>(develop(grey_picture({1, 1}, light), sensor, 0, 0).at<cv::Vec3b>(0, 0)[0]);
   };
   EXPECT_EQ(stored(Encoding::kSrgb, 2.2, 0), 0);
   EXPECT_EQ(stored(Encoding::kSrgb, 2.2, 255), 255);
@@ -173,13 +173,13 @@ TEST(Develop, DefocusSpreadsAPointToTheSizeAskedFor) {
 }
 
 TEST(Develop, DefocusLeavesEvenLightAlone) {
-  const cv::Mat picture = develop(grey({40, 30}, 77), {.defocus_sd_px = 4.0}, 0, 0);
+  const cv::Mat picture = develop(grey_picture({40, 30}, 77), {.defocus_sd_px = 4.0}, 0, 0);
   EXPECT_EQ(cv::countNonZero(picture.reshape(1) != 77), 0);
 }
 
 // The two ways to add noise of one size draw the same numbers and differ by their rounding.
 TEST(Develop, AddsTheNoiseThatExposeAddsFast) {
-  const cv::Mat light = grey({64, 48}, 120);
+  const cv::Mat light = grey_picture({64, 48}, 120);
   const CameraSensor sensor{.noise_sd_levels = 3.0};
   const cv::Mat fast = expose({{light, {}, {}}, {light, {}, {}}}, sensor, 5, 17).right;
   EXPECT_LE(cv::norm(fast, develop(light, sensor, 5, 35), cv::NORM_INF), 1.0);
@@ -187,13 +187,13 @@ TEST(Develop, AddsTheNoiseThatExposeAddsFast) {
 
 TEST(Develop, ClampsAtBlackAndWhite) {
   const CameraSensor sensor{.full_well_electrons = 300.0, .read_noise_electrons = 200.0, .gain = 50.0};
-  const cv::Mat picture = develop(grey({64, 48}, 128), sensor, 0, 0);
+  const cv::Mat picture = develop(grey_picture({64, 48}, 128), sensor, 0, 0);
   EXPECT_GT(cv::countNonZero(picture.reshape(1) == 0), 0);
   EXPECT_GT(cv::countNonZero(picture.reshape(1) == 255), 0);
 }
 
 TEST(Develop, ExposeRefusesWhatMeansNothing) {
-  const cv::Mat light = grey({8, 8}, 120);
+  const cv::Mat light = grey_picture({8, 8}, 120);
   const auto refused = [&](const CameraSensor& sensor) {
     EXPECT_THROW(expose({{light, {}, {}}, {light, {}, {}}}, sensor, 0, 0), std::invalid_argument);
   };

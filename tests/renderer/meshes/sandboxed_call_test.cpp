@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 using Work = std::function<std::string()>;
 
-std::string complaint(const Work& work, const ChildLimits& limits = {}) {
+std::string complaint_of_child(const Work& work, const ChildLimits& limits = {}) {
   try {
     call_in_child(work, limits);
   } catch (const std::runtime_error& error) {
@@ -73,29 +73,29 @@ TEST(ChildCall, ChangesNothingHere) {
 }
 
 TEST(ChildCall, PassesOnWhatWasThrown) {
-  EXPECT_EQ(complaint([]() -> std::string { throw std::runtime_error("no good"); }), "no good");
+  EXPECT_EQ(complaint_of_child([]() -> std::string { throw std::runtime_error("no good"); }), "no good");
 }
 
 // Meant to catch: the status of the child not looked at (an answer cut off counts as one); exceptions that
 // leave the child's function, which then runs the rest of these tests.
 TEST(ChildCall, SaysHowTheChildDied) {
   const Work segfault = [] { return std::raise(SIGSEGV) == 0 ? hang() : hang(); };
-  EXPECT_THAT(complaint(segfault), StartsWith("crashed ("));
-  EXPECT_EQ(complaint([]() -> std::string {
+  EXPECT_THAT(complaint_of_child(segfault), StartsWith("crashed ("));
+  EXPECT_EQ(complaint_of_child([]() -> std::string {
               ::raise(SIGKILL), hang();
               return {};
             }),
             "crashed (signal 9)");
-  EXPECT_EQ(complaint([]() -> std::string { ::_exit(3); }), "crashed (exit status 3)");
-  EXPECT_THAT(complaint([]() -> std::string { throw 7; }), StartsWith("crashed ("));
-  EXPECT_THAT(complaint([] { return std::to_string(recurse(1U << 20U)); }), StartsWith("crashed ("));
+  EXPECT_EQ(complaint_of_child([]() -> std::string { ::_exit(3); }), "crashed (exit status 3)");
+  EXPECT_THAT(complaint_of_child([]() -> std::string { throw 7; }), StartsWith("crashed ("));
+  EXPECT_THAT(complaint_of_child([] { return std::to_string(recurse(1U << 20U)); }), StartsWith("crashed ("));
   EXPECT_FALSE(has_children());
 }
 
 TEST(ChildCall, WaitsNoLongerThanItMay) {
   for (const Work& work : {Work(hang), Work(spin)}) {
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(complaint(work, {.seconds = 0.2}), "takes longer than 0.2 s");
+    EXPECT_EQ(complaint_of_child(work, {.seconds = 0.2}), "takes longer than 0.2 s");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
     EXPECT_FALSE(has_children());
   }
@@ -112,7 +112,7 @@ TEST(ChildCall, GivesNoMoreMemoryThanItMay) {
   const Work modest = [] { return std::string(std::size_t{20} << 20U, 'x'); };
   EXPECT_EQ(call_in_child(modest, limits).size(), std::size_t{20} << 20U);
 #ifndef __SANITIZE_ADDRESS__  // whose allocator has taken its terabytes of addresses before
-  EXPECT_EQ(complaint(eat_memory, limits), "needs more than 64 MiB of memory");
+  EXPECT_EQ(complaint_of_child(eat_memory, limits), "needs more than 64 MiB of memory");
 #endif
 }
 
@@ -124,7 +124,7 @@ TEST(ChildCall, OrphansDoNotLive) {
   if (parent == 0) {
     ::close(ends[0]);
     ::alarm(20);
-    complaint(
+    complaint_of_child(
         [&] {
           EXPECT_EQ(::write(ends[1], "!", 1), 1);
           return hang();

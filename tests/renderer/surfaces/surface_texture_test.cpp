@@ -105,16 +105,16 @@ std::optional<cv::Vec3b> colour_at(const Eigen::Vector2d& along_m, double tile_m
   return block_colour(wrap(low.x(), kColumns), kRows - 1 - wrap(low.y(), kRows));
 }
 
-struct Place {
+struct PlaceOnSurface {
   int wall = -1;  ///< none: the floor
   Eigen::Vector2d along_m;
 };
 
 /// A point of a surface, as a picture that lies on it counts: to the right and up a wall, east and north on
 /// the floor.
-std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d& camera_m,
-                              const Eigen::Vector3d& point_m) {
-  if (std::abs(point_m.z()) < 1e-4) return Place{-1, point_m.head<2>()};
+std::optional<PlaceOnSurface> place_of(const worlds::World& world, const Eigen::Vector3d& camera_m,
+                                       const Eigen::Vector3d& point_m) {
+  if (std::abs(point_m.z()) < 1e-4) return PlaceOnSurface{-1, point_m.head<2>()};
   for (int i = 0; i < static_cast<int>(world.walls.size()); ++i) {
     const worlds::Wall& wall = world.walls[static_cast<std::size_t>(i)];
     const Eigen::Vector2d run = wall.to_m - wall.from_m, offset = point_m.head<2>() - wall.from_m;
@@ -123,7 +123,7 @@ std::optional<Place> place_of(const worlds::World& world, const Eigen::Vector3d&
         along_m > 0.0 && along_m < run.norm()) {
       const Eigen::Vector2d sight = point_m.head<2>() - camera_m.head<2>();
       const bool to_the_right = sight.x() * run.y() - sight.y() * run.x() < 0.0;
-      return Place{i, {to_the_right ? along_m : -along_m, point_m.z()}};
+      return PlaceOnSurface{i, {to_the_right ? along_m : -along_m, point_m.z()}};
     }
   }
   return std::nullopt;

@@ -49,7 +49,7 @@ struct Room {
 };
 
 /// Disagreements, in pixels, and what was looked at.
-struct Tally {
+struct PixelTally {
   long pixels = 0;
   long other_surfaces = 0,
        other_inside = 0;  ///< inside: farther from any edge than the rasteriser snaps corners
@@ -72,7 +72,7 @@ bool is_beside(int primitive, const test::RayCaster& caster, int u, int v) {
 
 /// Counts a pixel. @return whether the ray meets the primitive that the renderer has there
 bool is_same_primitive(const Room& room, int primitive, const test::RayCaster& caster, const cv::Point& at,
-                       Tally& tally) {
+                       PixelTally& tally) {
   const int truth = caster.primitive(caster.look(at.x, at.y).surface);
   const int first_mesh = first_mesh_primitive(room.world);  // there is one mesh
   ++tally.pixels;
@@ -83,7 +83,7 @@ bool is_same_primitive(const Room& room, int primitive, const test::RayCaster& c
   return primitive == truth;
 }
 
-void compare_truth(const Room& room, const IdBuffer& ids, const test::RayCaster& caster, Tally& tally) {
+void compare_truth(const Room& room, const IdBuffer& ids, const test::RayCaster& caster, PixelTally& tally) {
   const PixelTruth truth = pixel_truth(SceneGeometry(room.world), ids);
   for (int v = 0; v < truth.range_m.rows; ++v) {
     for (int u = 0; u < truth.range_m.cols; ++u) {
@@ -115,7 +115,7 @@ Occlusion followed(const test::RayHit& ray, const test::RayCaster& to, const vis
 }
 
 void compare_fates(const Room& room, const IdBuffer& ids, const IdBuffer& other, const test::RayCaster& from,
-                   const test::RayCaster& to, Tally& tally) {
+                   const test::RayCaster& to, PixelTally& tally) {
   const Correspondence found = correspond(SceneGeometry(room.world), ids, other);
   for (int v = 0; v < found.occlusion.rows; ++v) {
     for (int u = 0; u < found.occlusion.cols; ++u) {
@@ -138,7 +138,7 @@ class EveryPixel : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(EveryPixel, HasTheRangeNormalAndSurfaceThatARayMeets) {
   const Room room(GetParam());
   const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
-  Tally tally;
+  PixelTally tally;
   compare_truth(room, ids.left, room.caster(room.pose, Side::kLeft), tally);
   compare_truth(room, ids.right, room.caster(room.pose, Side::kRight), tally);
   EXPECT_EQ(tally.wrong_ranges, 0);
@@ -150,7 +150,7 @@ TEST_P(EveryPixel, IsInTheOtherCameraWhereAnotherRaySaysItIs) {
   const Room room(GetParam());
   const StereoIdBuffers ids = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose);
   const auto left = room.caster(room.pose, Side::kLeft), right = room.caster(room.pose, Side::kRight);
-  Tally tally;
+  PixelTally tally;
   compare_fates(room, ids.left, ids.right, left, right, tally);
   compare_fates(room, ids.right, ids.left, right, left, tally);
   EXPECT_EQ(tally.wrong_shifts, 0);
@@ -164,7 +164,7 @@ TEST_P(EveryPixel, FlowsToWhereARayFromTheNextPoseMeetsIt) {
   Renderer renderer(room.world, room.rig);
   const StereoIdBuffers before = renderer.id_buffers(room.pose, room.pose);
   const StereoIdBuffers after = renderer.id_buffers(room.moved, room.moved);
-  Tally tally;
+  PixelTally tally;
   compare_fates(room, before.left, after.left, room.caster(room.pose, Side::kLeft),
                 room.caster(room.moved, Side::kLeft), tally);
   compare_fates(room, before.right, after.right, room.caster(room.pose, Side::kRight),
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Rooms, EveryPixel, testing::Range(std::uint64_t{0}, std
 // Of the pixels of whole pictures, at most five of a million see another surface than a ray does, all of them
 // at edges that the rasteriser has snapped.
 TEST(Surfaces, AreThoseThatRaysMeet) {
-  Tally tally;
+  PixelTally tally;
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
     Room room(seed);
     room.rig.intrinsics = {};

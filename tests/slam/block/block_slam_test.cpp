@@ -19,14 +19,14 @@ namespace {
 // A short drive past two landmarks that are known, with noise so small that everything is linear.
 struct KnownLandmarks {
   Pose start{0.3, -0.2, 0.4};
-  std::vector<PathStep> steps;
+  std::vector<BlockStep> steps;
 
   explicit KnownLandmarks(int controls) {
     const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {1.0, 3.0}};
     RandomStream random(11, Stream::kWorld);
     Pose truth = start;
     for (int k = 0; k < 4; ++k) {
-      PathStep step;
+      BlockStep step;
       for (int i = 0; i < controls; ++i) {
         const Control control{1.0, 0.4 - 0.3 * k, 0.5};
         truth = advance(truth, control);
@@ -51,7 +51,7 @@ struct KnownLandmarks {
     std::vector<Pose> path;
     Eigen::MatrixXd by_noise = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index k = 0; k < size / 3; ++k) {
-      const PathStep& step = steps[static_cast<std::size_t>(k)];
+      const BlockStep& step = steps[static_cast<std::size_t>(k)];
       const Pose from = k == 0 ? start : path.back();
       path.push_back(compose(from, step.motion.mean));
       Eigen::Matrix3d onward = Eigen::Matrix3d::Identity();

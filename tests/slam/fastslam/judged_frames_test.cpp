@@ -11,12 +11,12 @@ namespace {
 
 // Four landmarks around a pose that is known to some centimetres, and a frame of them in which a sighting may
 // be far off.
-struct Scene {
+struct JudgedScene {
   Particle particle;
   PoseBelief predicted{{0.2, -0.1, 0.3}, Eigen::Vector3d(4e-4, 1e-4, 1e-4).asDiagonal()};
   std::vector<Sighting> frame;
 
-  explicit Scene(std::uint64_t seed) {
+  explicit JudgedScene(std::uint64_t seed) {
     RandomStream random(seed, Stream::kWorld);
     const auto count = 1 + seed % 4;
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ struct Judged {
 };
 
 template <class Model>
-Judged outcome(const Scene& scene, Updates updates) {
+Judged outcome(const JudgedScene& scene, Updates updates) {
   Judged result{std::vector<Target>(scene.frame.size()), {}, {}};
   result.posterior =
       PoseCorrection<Model>({}, updates)
@@ -61,7 +61,7 @@ TYPED_TEST(JudgedFrames, EndLikeThoseThatCorrectThePose) {
   int contradicted = 0;
   int relocalised = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const Scene scene(seed);
+    const JudgedScene scene(seed);
     const Judged judged = outcome<TypeParam>(scene, Updates::kToJudge);
     const Judged used = outcome<TypeParam>(scene, Updates::kOneByOne);
     bool clean = true;

@@ -92,7 +92,7 @@ TEST(Projection, IsEmptyForWhatTheCameraDoesNotSee) {
 }
 
 TEST(Rig, IsUsableOnlyWithFinitePositiveSizes) {
-  EXPECT_TRUE(is_usable({}));
+  EXPECT_TRUE(is_usable(StereoRig{}));
   StereoRig rig;
   rig.baseline_m = -0.12;
   EXPECT_FALSE(is_usable(rig));

@@ -15,7 +15,7 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kRadius_m = 0.06;
+constexpr double kBallRadius_m = 0.06;
 constexpr int kBalls = 4000;
 
 /// A ball somewhere in view of both cameras, and what they measure of it.
@@ -44,7 +44,7 @@ Drawn draw(const StereoRig& rig, double radius_sd_m, std::uint64_t seed) {
   const double depth_m = 0.6 + 6.0 * random.uniform();
   const Eigen::Vector2d aside(random.uniform() - 0.5, 0.6 * random.uniform() - 0.3);
   Drawn drawn;
-  drawn.ball << aside * depth_m, depth_m, kRadius_m + radius_sd_m * random.normal();
+  drawn.ball << aside * depth_m, depth_m, kBallRadius_m + radius_sd_m * random.normal();
   drawn.left = measure(rig.intrinsics, drawn.ball, random);
   drawn.right = measure(rig.intrinsics, drawn.ball - SizedBall(rig.baseline_m, 0.0, 0.0, 0.0), random);
   return drawn;
@@ -68,9 +68,9 @@ Errors errors_with(double radius_sd_m, double told_sd_m) {
   Errors errors;
   for (int i = 0; i < kBalls; ++i) {
     const Drawn drawn = draw(rig, radius_sd_m, static_cast<std::uint64_t>(i));
-    const auto loose = fit_ball(rig, drawn.left, drawn.right, kRadius_m);
+    const auto loose = fit_ball(rig, drawn.left, drawn.right, kBallRadius_m);
     EXPECT_TRUE(loose);
-    const BallFit fit = fit_ball_of_size(rig, drawn.left, drawn.right, {kRadius_m, told_sd_m}, *loose);
+    const BallFit fit = fit_ball_of_size(rig, drawn.left, drawn.right, {kBallRadius_m, told_sd_m}, *loose);
     const Eigen::Vector3d error = fit.ball_in_camera - drawn.ball.head<3>();
     errors.relative2 += error.z() * error.z() / disparity_variance_m2(drawn) / kBalls;
     errors.nis3 += error.dot(fit.covariance_m2.inverse() * error) / 3.0 / kBalls;
@@ -85,7 +85,8 @@ constexpr double kOfMean =
 // smaller. Mutations: the size held to a tenth, as before it could be told (the ratio is 1); the cameras'
 // radii left out.
 TEST(BallOfSize, ExactlyKnownIsMeasuredByItsSizeAsWell) {
-  const double ratio = 8.0 * kRadius_m * kRadius_m / (StereoRig{}.baseline_m * StereoRig{}.baseline_m);
+  const double ratio =
+      8.0 * kBallRadius_m * kBallRadius_m / (StereoRig{}.baseline_m * StereoRig{}.baseline_m);
   const Errors errors = errors_with(0.0, 0.0);
   EXPECT_NEAR(errors.relative2 * (1.0 + ratio), 1.0, kOfMean + 0.02);
   EXPECT_NEAR(errors.nis3, 1.0, kOfMean);
@@ -110,8 +111,9 @@ TEST(BallOfSize, OfATenthMoreOrLessIsTheLooseFit) {
   const StereoRig rig;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Drawn drawn = draw(rig, 0.0, seed);
-    const BallFit loose = fit_ball(rig, drawn.left, drawn.right, kRadius_m).value();
-    const BallFit fit = fit_ball_of_size(rig, drawn.left, drawn.right, {kRadius_m, 0.1 * kRadius_m}, loose);
+    const BallFit loose = fit_ball(rig, drawn.left, drawn.right, kBallRadius_m).value();
+    const BallFit fit =
+        fit_ball_of_size(rig, drawn.left, drawn.right, {kBallRadius_m, 0.1 * kBallRadius_m}, loose);
     EXPECT_LT((fit.ball_in_camera - loose.ball_in_camera).norm(), 1e-9);
     EXPECT_LT((fit.covariance_m2 - loose.covariance_m2).norm(), 1e-6 * loose.covariance_m2.norm());
   }
@@ -125,7 +127,7 @@ TEST(BallOfSize, ThatContradictsItsDisparityClaimsSo) {
   double squares = 0.0;
   for (int i = 0; i < 400; ++i) {
     const Drawn drawn = draw(rig, 0.0, static_cast<std::uint64_t>(i));
-    const double told_m = kRadius_m / 1.02;
+    const double told_m = kBallRadius_m / 1.02;
     const BallFit loose = fit_ball(rig, drawn.left, drawn.right, told_m).value();
     const BallFit fit = fit_ball_of_size(rig, drawn.left, drawn.right, {told_m, 0.0}, loose);
     const double error_m = fit.ball_in_camera.z() - drawn.ball.z();
@@ -146,11 +148,11 @@ TEST(BallThroughATurnedCamera, IsWhereItsSizeSays) {
   for (int i = 0; i < 400; ++i) {
     Drawn drawn = draw(rig, 0.0, static_cast<std::uint64_t>(i));
     SizedBall in_right;
-    in_right << camera_point(turned, drawn.ball.head<3>(), Side::kRight), kRadius_m;
+    in_right << camera_point(turned, drawn.ball.head<3>(), Side::kRight), kBallRadius_m;
     const Eigen::Vector3d seen = seen_outline(rig.intrinsics, in_right).outline_px;
     drawn.right.centre_px = {seen.x(), drawn.left.centre_px.y()};  // rows tell of other turns
     drawn.right.radius_px = seen.z();
-    const auto fit = fit_ball(rig, drawn.left, drawn.right, kRadius_m, sd_px * sd_px);
+    const auto fit = fit_ball(rig, drawn.left, drawn.right, kBallRadius_m, sd_px * sd_px);
     ASSERT_TRUE(fit) << i;
     EXPECT_NEAR(fit->ball_in_camera.z() / drawn.ball.z(), 1.0, 0.08) << i;
   }

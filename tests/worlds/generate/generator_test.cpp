@@ -30,7 +30,8 @@ path: )" +
 }
 
 const std::string kTour = "{kind: tour, speed_mps: 1, step_s: 0.5}";
-const std::string kCircle = "{kind: circle, start_m: [0, -1.5], radius_m: 1.5, speed_mps: 0.3, step_s: 1}";
+const std::string kCirclePath =
+    "{kind: circle, start_m: [0, -1.5], radius_m: 1.5, speed_mps: 0.3, step_s: 1}";
 
 struct Kind {
   std::string name;
@@ -147,9 +148,9 @@ TEST_P(Generated, ASeedIsAWorldAndAnotherIsAnother) {
 INSTANTIATE_TEST_SUITE_P(
     Kinds, Generated,
     testing::Values(
-        Kind{"ring", "{kind: ball_ring, balls: 9, ring_radius_m: 4, balls_in_view: 2}", kCircle, 2, 0.0},
+        Kind{"ring", "{kind: ball_ring, balls: 9, ring_radius_m: 4, balls_in_view: 2}", kCirclePath, 2, 0.0},
         Kind{"field", "{kind: ball_field, balls: 20, low_m: [-6, -6], high_m: [6, 6], balls_in_view: 2}",
-             kCircle, 2, 0.0},
+             kCirclePath, 2, 0.0},
         Kind{"loop",
              "{kind: corridor_loop, columns: 4, rows: 3, pitch_m: 6, width_m: 2.4, turns: 8, doors: 10, "
              "balls_in_view: 2}",
@@ -180,11 +181,11 @@ TEST(Generator, SaysWhatIsImpossible) {
               HasSubstr("world.generator: expected 90 balls in view at step"));
   EXPECT_THAT(complaint("{kind: corridor_loop, balls_in_view: 2, most_balls: 3}", kTour),
               HasSubstr("more balls than it may have"));
-  EXPECT_THAT(complaint("{kind: ball_ring, balls: 9, ring_radius_m: 1.5, centre_m: [0, 0]}", kCircle),
+  EXPECT_THAT(complaint("{kind: ball_ring, balls: 9, ring_radius_m: 1.5, centre_m: [0, 0]}", kCirclePath),
               HasSubstr("expected room for a ball at"));
-  EXPECT_THAT(complaint("{kind: ball_field, balls: 3, low_m: [1, 1], high_m: [0, 0]}", kCircle),
+  EXPECT_THAT(complaint("{kind: ball_field, balls: 3, low_m: [1, 1], high_m: [0, 0]}", kCirclePath),
               HasSubstr("high_m above low_m"));
-  EXPECT_THAT(complaint("{kind: ball_field, balls: 200, low_m: [2, 2], high_m: [4, 4]}", kCircle),
+  EXPECT_THAT(complaint("{kind: ball_field, balls: 200, low_m: [2, 2], high_m: [4, 4]}", kCirclePath),
               HasSubstr("expected fewer balls"));
   EXPECT_THAT(complaint("{kind: maze, width_m: 2}", kTour), HasSubstr("width_m: unknown key"));
   EXPECT_THAT(complaint("{kind: ball_ring, balls: 9, ring_radius_m: 4}", kTour),

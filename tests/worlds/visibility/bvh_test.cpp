@@ -13,7 +13,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A disc that faces along an axis.
-struct Disc {
+struct HiddenDisc {
   Eigen::Vector3d centre;
   Eigen::Index axis;
   double radius;
@@ -36,7 +36,7 @@ TEST(Bvh, MeetsFirstWhatALineEntersFirst) {
   int met = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     slam::RandomStream random(seed, slam::Stream::kWorld);
-    std::vector<Disc> discs;
+    std::vector<HiddenDisc> discs;
     std::vector<Eigen::AlignedBox3d> boxes;
     for (std::uint64_t i = 0; i < seed * 5; ++i) {
       discs.push_back(
