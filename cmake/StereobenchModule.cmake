@@ -24,6 +24,26 @@ endif()
 set(STEREOBENCH_COMMON_HEADERS <algorithm> <cmath> <filesystem> <functional> <limits> <map> <memory> <optional> <set>
     <span> <sstream> <stdexcept> <string> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 
+# The compiler reads up to six sources of one folder at once, where CMAKE_UNITY_BUILD is on: it then makes templates
+# that they share once. Names in anonymous namespaces are therefore unique within a folder.
+function(stereobench_unite target sources)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set(count 0)
+  set(last_room "")
+  foreach(source IN LISTS sources)
+    get_filename_component(room ${source} DIRECTORY)
+    if(NOT room STREQUAL last_room)
+      set(count 0)
+      set(last_room ${room})
+    endif()
+    math(EXPR part "${count} / 6")
+    math(EXPR count "${count} + 1")
+    file(RELATIVE_PATH group ${CMAKE_SOURCE_DIR} ${room})
+    string(REPLACE "/" "_" group ${group})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
+  endforeach()
+endfunction()
+
 # stereobench_module(<name> LINKS <libraries...> HEADERS <more headers to parse once...>): the library
 # stereobench_<name>.
 function(stereobench_module name)
@@ -33,6 +53,7 @@ function(stereobench_module name)
   add_library(stereobench_${name} STATIC ${sources})
   target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
   target_precompile_headers(stereobench_${name} PRIVATE ${STEREOBENCH_COMMON_HEADERS} ${ARG_HEADERS})
+  stereobench_unite(stereobench_${name} "${sources}")
 endfunction()
 
 # stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable
@@ -46,5 +67,6 @@ function(stereobench_tests module)
                              STEREOBENCH_BINARY_DIR="${CMAKE_BINARY_DIR}")
   target_precompile_headers(${module}_tests PRIVATE ${STEREOBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>
                             ${ARG_HEADERS})
+  stereobench_unite(${module}_tests "${sources}")
   gtest_discover_tests(${module}_tests PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 120)
 endfunction()
