@@ -62,67 +62,81 @@ Generator made(Line line) {
   return generator;
 }
 
+std::vector<Field<Line>> general_fields() {
+  return {
+      choice("kind", {"ball_ring", "ball_field", "corridor_loop", "office_grid", "maze"},
+             "What is made; the last three have walls, and a tour to drive.")
+          .needed()
+          .fills(&Line::kind),
+      whole("seed", 0, 2147483647, "The same seed makes the same world, bit for bit.")
+          .fills(&Line::rules, &PlacementRules::seed),
+      whole("balls_in_view", 0, 254, "Balls are placed until at each step so many are in view, at least.")
+          .fills(&Line::rules, &PlacementRules::in_view),
+      whole("most_balls", 1, 254, "How many balls may be placed.")
+          .fills(&Line::rules, &PlacementRules::most_balls),
+      number("clearance_m", {0.0, 100.0}, "Distance between the drive and a ball, in metres.")
+          .fills(&Line::rules, &PlacementRules::clearance_m),
+  };
+}
+
+/// Of balls without walls.
+std::vector<Field<Line>> ring_and_field_fields() {
+  const Key::Kinds both = {"ball_ring", "ball_field"};
+  return {
+      whole("balls", 1, 254, "How many balls stand on the ring, or in the field.")
+          .only_for(both)
+          .needed_for(both)
+          .fills(&Line::balls),
+      number("centre_m", kPlace_m, "Middle of the ring: x, y in metres.")
+          .only_for({"ball_ring"})
+          .fills(&Line::centre_m),
+      number("ring_radius_m", kSize_m, "Radius of the ring, in metres.")
+          .only_for({"ball_ring"})
+          .needed_for({"ball_ring"})
+          .fills(&Line::ring_radius_m),
+      number("low_m", kPlace_m, "South-west corner of the field: x, y in metres.")
+          .only_for({"ball_field"})
+          .needed_for({"ball_field"})
+          .fills(&Line::low_m),
+      number("high_m", kPlace_m, "North-east corner of the field: x, y in metres.")
+          .only_for({"ball_field"})
+          .needed_for({"ball_field"})
+          .fills(&Line::high_m),
+  };
+}
+
+/// Of corridors between walls.
+std::vector<Field<Line>> lattice_fields() {
+  const Key::Kinds lattices = {"corridor_loop", "office_grid", "maze"};
+  const Key::Kinds corridors = {"corridor_loop", "office_grid"};
+  return {
+      whole("columns", 1, 50, "Cells from west to east.")
+          .only_for(lattices)
+          .fills(&Line::lattice, &LatticeConfig::columns),
+      whole("rows", 1, 50, "Cells from south to north.")
+          .only_for(lattices)
+          .fills(&Line::lattice, &LatticeConfig::rows),
+      number("pitch_m", kSize_m, "Side of a cell, in metres.")
+          .only_for(lattices)
+          .fills(&Line::lattice, &LatticeConfig::pitch_m),
+      number("width_m", {0.5, 100.0}, "Width of corridors, in metres.")
+          .only_for(corridors)
+          .fills(&Line::lattice, &LatticeConfig::width_m),
+      whole("turns", 4, 200, "Turns of the tour, at least.")
+          .only_for(corridors)
+          .fills(&Line::lattice, &LatticeConfig::turns),
+      whole("doors", 0, 1000, "Panels of wood on the walls.")
+          .only_for({"corridor_loop"})
+          .fills(&Line::lattice, &LatticeConfig::doors),
+      number("height_m", kSize_m, "Height of the walls, in metres.")
+          .only_for(lattices)
+          .fills(&Line::lattice, &LatticeConfig::height_m),
+  };
+}
+
 const Fields<Line>& line_keys() {
-  static const std::vector<std::string_view> lattices = {"corridor_loop", "office_grid", "maze"};
-  static const std::vector<std::string_view> corridors = {"corridor_loop", "office_grid"};
-  static const std::vector<std::string_view> fields = {"ball_ring", "ball_field"};
   static const Fields<Line> keys(
-      "kind",
-      {
-          choice("kind", {"ball_ring", "ball_field", "corridor_loop", "office_grid", "maze"},
-                 "What is made; the last three have walls, and a tour to drive.")
-              .needed()
-              .fills(&Line::kind),
-          whole("seed", 0, 2147483647, "The same seed makes the same world, bit for bit.")
-              .fills(&Line::rules, &PlacementRules::seed),
-          whole("balls_in_view", 0, 254, "Balls are placed until at each step so many are in view, at least.")
-              .fills(&Line::rules, &PlacementRules::in_view),
-          whole("most_balls", 1, 254, "How many balls may be placed.")
-              .fills(&Line::rules, &PlacementRules::most_balls),
-          number("clearance_m", {0.0, 100.0}, "Distance between the drive and a ball, in metres.")
-              .fills(&Line::rules, &PlacementRules::clearance_m),
-          whole("balls", 1, 254, "How many balls stand on the ring, or in the field.")
-              .only_for(fields)
-              .needed_for(fields)
-              .fills(&Line::balls),
-          number("centre_m", kPlace_m, "Middle of the ring: x, y in metres.")
-              .only_for({"ball_ring"})
-              .fills(&Line::centre_m),
-          number("ring_radius_m", kSize_m, "Radius of the ring, in metres.")
-              .only_for({"ball_ring"})
-              .needed_for({"ball_ring"})
-              .fills(&Line::ring_radius_m),
-          number("low_m", kPlace_m, "South-west corner of the field: x, y in metres.")
-              .only_for({"ball_field"})
-              .needed_for({"ball_field"})
-              .fills(&Line::low_m),
-          number("high_m", kPlace_m, "North-east corner of the field: x, y in metres.")
-              .only_for({"ball_field"})
-              .needed_for({"ball_field"})
-              .fills(&Line::high_m),
-          whole("columns", 1, 50, "Cells from west to east.")
-              .only_for(lattices)
-              .fills(&Line::lattice, &LatticeConfig::columns),
-          whole("rows", 1, 50, "Cells from south to north.")
-              .only_for(lattices)
-              .fills(&Line::lattice, &LatticeConfig::rows),
-          number("pitch_m", kSize_m, "Side of a cell, in metres.")
-              .only_for(lattices)
-              .fills(&Line::lattice, &LatticeConfig::pitch_m),
-          number("width_m", {0.5, 100.0}, "Width of corridors, in metres.")
-              .only_for(corridors)
-              .fills(&Line::lattice, &LatticeConfig::width_m),
-          whole("turns", 4, 200, "Turns of the tour, at least.")
-              .only_for(corridors)
-              .fills(&Line::lattice, &LatticeConfig::turns),
-          whole("doors", 0, 1000, "Panels of wood on the walls.")
-              .only_for({"corridor_loop"})
-              .fills(&Line::lattice, &LatticeConfig::doors),
-          number("height_m", kSize_m, "Height of the walls, in metres.")
-              .only_for(lattices)
-              .fills(&Line::lattice, &LatticeConfig::height_m),
-      },
-      check_field);
+      "kind", joined<Line>({general_fields(), ring_and_field_fields(), lattice_fields()}), check_field);
   return keys;
 }
 

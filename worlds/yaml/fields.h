@@ -154,6 +154,15 @@ Field<Struct> Key::fills(Outer Struct::*outer, Inner... inner) const {
       [=](const Struct& object) { return written(key, member(object)); });
 }
 
+/// The fields of several groups, one after the other.
+template <class Struct>
+std::vector<Field<Struct>> joined(const std::vector<std::vector<Field<Struct>>>& groups) {
+  std::vector<Field<Struct>> fields;
+  for (const std::vector<Field<Struct>>& group : groups)
+    fields.insert(fields.end(), group.begin(), group.end());
+  return fields;
+}
+
 /// The fields of a member, as fields of the struct that has it.
 template <class Outer, class Inner>
 std::vector<Field<Outer>> lifted(Inner Outer::*member, const std::vector<Field<Inner>>& fields) {
