@@ -43,10 +43,6 @@ slam::RangeBearing imagined(const World& world, const OracleSensor& sensor, Iden
 
 }  // namespace
 
-slam::SensorSector sector_of(const OracleSensor& sensor) {
-  return {sensor.max_range_m, sensor.field_of_view_rad / 2.0, sensor.miss_probability, sensor.false_per_look};
-}
-
 Sightings sense(const World& world, const slam::Pose& world_from_robot, const OracleSensor& sensor,
                 Identity identity, slam::RandomStream& noise) {
   Sightings look;

@@ -9,9 +9,6 @@
 
 namespace stereobench::worlds {
 
-/// The sector and the rates of an oracle, as filters would have to know them.
-slam::SensorSector sector_of(const OracleSensor& sensor);
-
 /// The measurements of one instant, and the true ball of each, which no filter is told.
 struct Sightings {
   std::vector<slam::RangeBearing> measurements;

@@ -12,8 +12,6 @@
 
 #include <Eigen/Core>
 
-#include "slam/filter_config.h"
-#include "slam/filter_registry.h"
 #include "slam/types.h"
 #include "vision/types.h"
 #include "worlds/camera_sensor.h"
@@ -150,21 +148,7 @@ enum class Identity {
   kNone,         ///< a sighting says where something is, and nothing of what it is
 };
 
-/// A limit on a metric of run.json, e.g. {"filters.ufastslam.ate_rms_m.mean", <=, 0.05}.
-struct Gate {
-  std::string metric;
-  enum class Relation { kAtMost, kAtLeast } relation = Relation::kAtMost;
-  double limit = 0.0;
-};
-
-/// Somebody's program that finds the balls in the pictures.
-struct DetectorProgram {
-  std::string command;      ///< of the shell; empty: the vision stage looks itself
-  double timeout_s = 30.0;  ///< for the answer to a frame
-  double start_s = 90.0;    ///< so much longer the first answer may take: libraries and models load
-};
-
-/// Everything that a run is made from.
+/// What can be seen, what looks, and how the robot moves. What is run in it is the harness's to say.
 struct Scenario {
   std::string name;
   std::string description;
@@ -175,28 +159,14 @@ struct Scenario {
   vision::StereoRig believed_rig;   ///< as vision takes it to be
   double rows_within_px = 10.0;     ///< that this may be off by: vision matches balls within so many rows
   GroundTruth path;
-  slam::OdometryNoise odometry_noise;                        ///< what the odometry really has
-  slam::OdometryNoise believed_odometry_noise;               ///< what the filters are told
-  std::optional<slam::NoiseLaw> believed_measurement_noise;  ///< none: each sighting states its own
-  /// By how much (range, bearing) are worse than sightings state.
-  Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();
+  slam::OdometryNoise odometry_noise;  ///< what the odometry really has
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
-  /// What filters are told of the oracle's sector and rates; none: what they are. A camera declares nothing.
-  std::optional<slam::SensorSector> believed_sector;
   CameraSensor camera;
   Shutter shutter;
-  DetectorProgram detector;
   Identity identity = Identity::kKnown;
   /// kColourClass: two balls of one colour are at least this far apart; kNone: any two.
   double colour_spacing_m = 0.0;
-  slam::Association association = slam::Association::kJoint;
-  std::vector<std::string> filters = slam::usual_filter_names();
-  int particles = 100;
-  int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block, of the filters that have blocks
-  bool refit = slam::FilterConfig{}.refit;  ///< whether filters fit a frame with a refused sighting once more
-  std::vector<std::uint64_t> seeds = {0};
-  std::vector<Gate> gates;
 };
 
 }  // namespace stereobench::worlds

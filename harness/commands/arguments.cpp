@@ -9,10 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "harness/commands/talk.h"
+#include "harness/experiment/seeds.h"
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
 #include "slam/filter_registry.h"
-#include "worlds/scenario/seeds.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -36,9 +36,9 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+std::vector<std::uint64_t> parse_seeds_option(const std::string& text) {
   try {
-    return worlds::parse_seeds(text);
+    return parse_seeds(text);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
   }
@@ -84,7 +84,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 void add_seed_options(CLI::App& command, RunArguments& arguments) {
   command.add_option_function<std::string>(
-      "--seeds,--seed", [&arguments](const std::string& text) { arguments.seeds = parse_seeds(text); },
+      "--seeds,--seed", [&arguments](const std::string& text) { arguments.seeds = parse_seeds_option(text); },
       "which seeds to run: 0..9, or 0,2,5");
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   command.add_option("--jobs,-j", arguments.jobs, "processes at a time; the results do not depend on it")
@@ -96,7 +96,7 @@ void add_seed_options(CLI::App& command, RunArguments& arguments) {
   add_quiet_option(command);
 }
 
-void add_gate_option(CLI::App& command, std::vector<worlds::Gate>& gates) {
+void add_gate_option(CLI::App& command, std::vector<Gate>& gates) {
   command
       .add_option_function<std::vector<std::string>>(
           "--gate",

@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/experiment/types.h"
 #include "renderer/types.h"
-#include "worlds/types.h"
 
 namespace stereobench::harness {
 
@@ -21,9 +21,9 @@ struct RunArguments {
   std::optional<bool> refit;  ///< none: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
-  std::filesystem::path out;        ///< empty: out/<name>
-  bool dry_run = false;             ///< check everything, say what would be done, and stop
-  std::vector<worlds::Gate> gates;  ///< beside those of the scenario
+  std::filesystem::path out;  ///< empty: out/<name>
+  bool dry_run = false;       ///< check everything, say what would be done, and stop
+  std::vector<Gate> gates;    ///< beside those of the scenario
 };
 
 /// The filter that is always run, as the yardstick of the others.
@@ -39,7 +39,7 @@ std::vector<std::string> parse_filters(const std::string& text);
 void check_identities(const std::vector<std::string>& filters, bool known, const std::string& whose);
 
 /// Reads "0..9", "3" or "0,4,7". @throws std::runtime_error that begins with "--seeds: "
-std::vector<std::uint64_t> parse_seeds(const std::string& text);
+std::vector<std::uint64_t> parse_seeds_option(const std::string& text);
 
 /// Adds --seeds, --jobs, --out, --dry-run and --quiet to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
@@ -48,7 +48,7 @@ void add_seed_options(CLI::App& command, RunArguments& arguments);
 void add_run_options(CLI::App& command, RunArguments& arguments);
 
 /// Adds --gate, a limit on the result; may be repeated.
-void add_gate_option(CLI::App& command, std::vector<worlds::Gate>& gates);
+void add_gate_option(CLI::App& command, std::vector<Gate>& gates);
 
 /// Adds --set KEY=VALUE, a change of the scenario.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);

@@ -9,11 +9,11 @@
 #include "harness/commands/talk.h"
 #include "harness/detector_noise/calibration_result.h"
 #include "harness/detector_noise/calibration_scenes.h"
+#include "harness/experiment/seeds.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "vision/observe.h"
 #include "worlds/generate/calibration_scene.h"
-#include "worlds/scenario/seeds.h"
 
 namespace stereobench::harness {
 namespace {
@@ -26,20 +26,21 @@ struct CalibrateArguments {
   bool plain = false;
 };
 
-worlds::Scenario read_stereo_scenario(const CalibrateArguments& arguments) {
-  worlds::Scenario scenario = read_scenario(arguments.scenario);
-  if (scenario.sensor != worlds::SensorKind::kStereo)
+Experiment read_stereo_experiment(const CalibrateArguments& arguments) {
+  Experiment experiment = read_experiment(arguments.scenario);
+  if (experiment.scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format("{}: sensor: expected stereo, since the oracle has no pictures",
                                          arguments.scenario.scenario.string()));
-  return scenario;
+  return experiment;
 }
 
 int run_calibration(const CalibrateArguments& arguments) {
-  const worlds::Scenario scenario = read_stereo_scenario(arguments);
+  const Experiment experiment = read_stereo_experiment(arguments);
+  const worlds::Scenario& scenario = experiment.scenario;
   const std::vector<std::uint64_t>& seeds = arguments.scenario.run.seeds;
   if (seeds.size() < 2)
     throw std::runtime_error("--seeds: expected at least two, one of them to be held out");
-  const std::vector<worlds::Gate>& gates = arguments.scenario.run.gates;
+  const std::vector<Gate>& gates = arguments.scenario.run.gates;
   check_metrics(gates, calibration_json({}));
   const std::filesystem::path out = output_folder(arguments.scenario.run, scenario.name + "_calibration");
   if (arguments.scenario.run.dry_run) {
@@ -50,11 +51,11 @@ int run_calibration(const CalibrateArguments& arguments) {
   prepare_output_folder(out);
   const worlds::CalibrationDepths depths = worlds::measurable_depths(
       scenario.rig, scenario.world.ball_radius_m(), vision::ObserverSettings{}.min_radius_px);
-  const auto takes = take_calibration_scenes(scenario, {depths, arguments.plain}, seeds,
+  const auto takes = take_calibration_scenes(experiment, {depths, arguments.plain}, seeds,
                                              arguments.scenario.backend, arguments.scenario.run.jobs);
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;
-  result.detector = scenario.detector.command.empty() ? "stereobench" : scenario.detector.command;
+  result.detector = experiment.detector.command.empty() ? "stereobench" : experiment.detector.command;
   const NoiseKind kind = arguments.law == "stereo" ? NoiseKind::kStereo : NoiseKind::kScaled;
   write_file_atomically(out / "noise.yaml", noise_yaml(result, kind, scenario.believed_rig));
   write_file_atomically(out / "calibration.json", calibration_json(result).dump(2) + "\n");
@@ -76,7 +77,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       "calibrate", "measure a detector's noise on rendered balls, and write it for the filters");
   auto arguments = std::make_shared<CalibrateArguments>();
   ScenarioArguments& scenario = arguments->scenario;
-  scenario.run.seeds = worlds::parse_seeds(kUsualSeeds);
+  scenario.run.seeds = parse_seeds(kUsualSeeds);
   add_camera_options(*command, scenario);
   add_seed_options(*command, scenario.run);
   add_gate_option(*command, scenario.run.gates);

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/standard_streams.h"
+#include "harness/experiment/write_experiment.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
 #include "harness/process/interruption.h"
 #include "harness/process/process_pool.h"
 #include "renderer/backend.h"
-#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -22,16 +22,16 @@ constexpr const char* kFile = "unfinished.drives";
 /// All that the command line says of a scenario, as lines of it.
 std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
                                        const std::vector<std::string>& more_overrides,
-                                       const worlds::Scenario& scenario) {
+                                       const Experiment& experiment) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-  overrides.push_back(fmt::format("filters=[{}]", fmt::join(scenario.filters, ", ")));
-  overrides.push_back(fmt::format("particles={}", scenario.particles));
-  overrides.push_back(fmt::format("seeds={}", fmt::join(scenario.seeds, ",")));
-  if (scenario.detector.command.empty()) return overrides;
-  overrides.push_back("detector=" + nlohmann::json(scenario.detector.command).dump());
-  overrides.push_back(fmt::format("detector_timeout_s={}", scenario.detector.timeout_s));
-  overrides.push_back(fmt::format("detector_start_s={}", scenario.detector.start_s));
+  overrides.push_back(fmt::format("filters=[{}]", fmt::join(experiment.filters, ", ")));
+  overrides.push_back(fmt::format("particles={}", experiment.particles));
+  overrides.push_back(fmt::format("seeds={}", fmt::join(experiment.seeds, ",")));
+  if (experiment.detector.command.empty()) return overrides;
+  overrides.push_back("detector=" + nlohmann::json(experiment.detector.command).dump());
+  overrides.push_back(fmt::format("detector_timeout_s={}", experiment.detector.timeout_s));
+  overrides.push_back(fmt::format("detector_start_s={}", experiment.detector.start_s));
   return overrides;
 }
 
@@ -40,7 +40,7 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
 std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& scenario,
                                                          const std::vector<std::string>& overrides) {
   std::map<std::string, std::string> hashes;
-  for (const std::string& name : worlds::files_named_in(scenario, overrides))
+  for (const std::string& name : files_named_in(scenario, overrides))
     hashes[name] = sha256_of_file(scenario.parent_path() / name);
   return hashes;
 }
@@ -55,31 +55,31 @@ std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backen
 }
 
 Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
-                         const worlds::Scenario& scenario, const std::string& pixels) {
+                         const Experiment& experiment, const std::string& pixels) {
   const std::filesystem::path& file = arguments.scenario;
-  const auto overrides = all_overrides(arguments, more_overrides, scenario);
-  Provenance provenance{.scenario = worlds::with_overrides(file, overrides), .set = arguments.overrides};
+  const auto overrides = all_overrides(arguments, more_overrides, experiment);
+  Provenance provenance{.scenario = with_overrides(file, overrides), .set = arguments.overrides};
   provenance.set.insert(provenance.set.end(), more_overrides.begin(), more_overrides.end());
   provenance.files = hashes_of_named_files(file, overrides);
-  if (scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;
+  if (experiment.scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;
   return provenance;
 }
 
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
-                                   const worlds::Scenario& scenario, const std::string& pixels,
+                                   const Experiment& experiment, const std::string& pixels,
                                    const SeedParts& parts) {
-  worlds::Scenario any_seed = scenario;
+  Experiment any_seed = experiment;
   any_seed.seeds = {0};
   std::vector<std::string> overrides = more_overrides;
   overrides.push_back("gates=[]");
   const std::string basis = basis_of(provenance_of(arguments, overrides, any_seed, pixels),
-                                     renderer::name_of(arguments.backend), scenario.detector.command);
+                                     renderer::name_of(arguments.backend), experiment.detector.command);
   std::vector<DriveTask> tasks;
-  for (const std::uint64_t seed : scenario.seeds) {
-    const bool is_first = seed == scenario.seeds.front();
+  for (const std::uint64_t seed : experiment.seeds) {
+    const bool is_first = seed == experiment.seeds.front();
     const SeedParts wanted = is_first ? parts : SeedParts{.steps = parts.steps};
-    tasks.push_back({&scenario, seed, wanted, arguments.backend});
+    tasks.push_back({&experiment, seed, wanted, arguments.backend});
     tasks.back().key = sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {}", basis, seed,
                                              wanted.steps, wanted.map, wanted.snapshots));
   }

@@ -21,18 +21,18 @@ std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backen
 std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& scenario,
                                                          const std::vector<std::string>& overrides);
 
-/// What a scenario was read from.
-/// @param scenario as read_scenario gives it for the same arguments
+/// What an experiment was read from.
+/// @param experiment as read_experiment gives it for the same arguments
 /// @param pixels as of pixels_of
 Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
-                         const worlds::Scenario& scenario, const std::string& pixels);
+                         const Experiment& experiment, const std::string& pixels);
 
-/// One task a seed of a scenario, with its key. The outcome of a drive depends neither on the other seeds nor
-/// on gates, and so does the key.
+/// One task a seed of an experiment, with its key. The outcome of a drive depends neither on the other seeds
+/// nor on gates, and so does the key.
 /// @param parts wanted of each seed; the map and the snapshots of the first alone
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
-                                   const worlds::Scenario& scenario, const std::string& pixels,
+                                   const Experiment& experiment, const std::string& pixels,
                                    const SeedParts& parts);
 
 /// The store of an output folder. What a killed program left half-written there is removed.

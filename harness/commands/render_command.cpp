@@ -17,7 +17,6 @@
 #include "harness/run/provenance.h"
 #include "renderer/backend.h"
 #include "vision/observe.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -31,12 +30,13 @@ struct RenderArguments {
 /// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
 /// own text, what was changed of it, the files that it names, what renders, who looks, what was asked for,
 /// and the program's version. The size of balls is what `detect` is told.
-nlohmann::ordered_json identity_of(const RenderArguments& arguments, const worlds::Scenario& scenario,
+nlohmann::ordered_json identity_of(const RenderArguments& arguments, const Experiment& experiment,
                                    const FrameChoice& frames) {
+  const worlds::Scenario& scenario = experiment.scenario;
   const ScenarioArguments& asked = arguments.scenario;
   std::ostringstream text;
   text << std::ifstream(asked.scenario, std::ios::binary).rdbuf();
-  const std::string& detector = scenario.detector.command;
+  const std::string& detector = experiment.detector.command;
   nlohmann::ordered_json identity = {
       {"schema", 2},
       {"stereobench", STEREOBENCH_VERSION},
@@ -58,17 +58,17 @@ nlohmann::ordered_json identity_of(const RenderArguments& arguments, const world
 }
 
 /// One task a seed; of several, each has a folder of its own.
-std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const worlds::Scenario& scenario,
+std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const Experiment& experiment,
                                      const std::filesystem::path& out) {
-  const FrameChoice frames = frames_of_drive(arguments.frames, scenario.path.size());
+  const FrameChoice frames = frames_of_drive(arguments.frames, experiment.scenario.path.size());
   std::vector<std::uint64_t> seeds = arguments.scenario.run.seeds;
-  if (seeds.empty()) seeds = {scenario.seeds.front()};
-  const RenderTask any_seed = {.scenario = &scenario,
+  if (seeds.empty()) seeds = {experiment.seeds.front()};
+  const RenderTask any_seed = {.experiment = &experiment,
                                .frames = frames,
                                .truth = arguments.truth,
                                .backend = arguments.scenario.backend,
                                .folder = out,
-                               .identity = identity_of(arguments, scenario, frames)};
+                               .identity = identity_of(arguments, experiment, frames)};
   std::vector<RenderTask> tasks;
   for (const std::uint64_t seed : seeds) {
     tasks.push_back(any_seed);
@@ -98,12 +98,13 @@ void say_what_was_done(const RenderTask& task, const RenderedSeed& rendered) {
   if (rendered.was_complete)
     fmt::print("{} is complete and is left as it is\n", folder);
   else
-    fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n", task.scenario->name,
-               rendered.pairs, folder);
+    fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n",
+               task.experiment->scenario.name, rendered.pairs, folder);
 }
 
 int render(const RenderArguments& arguments) {
-  const worlds::Scenario scenario = read_scenario(arguments.scenario);
+  const Experiment experiment = read_experiment(arguments.scenario);
+  const worlds::Scenario& scenario = experiment.scenario;
   const RunArguments& run = arguments.scenario.run;
   if (scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format(
@@ -111,7 +112,7 @@ int render(const RenderArguments& arguments) {
         arguments.scenario.scenario.string()));
   require_truth(arguments.truth, scenario);
   const std::filesystem::path out = output_folder(run, scenario.name + "_dataset");
-  const std::vector<RenderTask> tasks = render_tasks(arguments, scenario, out);
+  const std::vector<RenderTask> tasks = render_tasks(arguments, experiment, out);
   check_folders(tasks, out);
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   warn_of_missing_textures(scenario, *arguments.scenario.meshes);

@@ -19,29 +19,30 @@ namespace {
 constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4};
 
 int run(const ScenarioArguments& arguments) {
-  const worlds::Scenario scenario = read_scenario(arguments);
+  const Experiment experiment = read_experiment(arguments);
+  const worlds::Scenario& scenario = experiment.scenario;
   const std::filesystem::path out = output_folder(arguments.run, scenario.name);
-  const auto gates = gates_of(scenario);
-  check_metrics(gates, result_without_values(scenario));
+  const auto gates = gates_of(experiment);
+  check_metrics(gates, result_without_values(experiment));
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   warn_of_missing_textures(scenario, *arguments.meshes);
   if (arguments.run.dry_run) {
-    fmt::print("{}: would run {}; {} gates; results: {}\n", scenario.name, work_of(scenario), gates.size(),
+    fmt::print("{}: would run {}; {} gates; results: {}\n", scenario.name, work_of(experiment), gates.size(),
                (out / "").string());
     return kPassed;
   }
   prepare_output_folder(out);
   KeptDrives kept(out);
   const std::string pixels = pixels_of(scenario, arguments.backend);
-  const auto tasks = drive_tasks(arguments, {}, scenario, pixels, kParts);
+  const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kParts);
   RunOutput output(out, RunTally(scenario.name, rendered_by(scenario, arguments.backend)));
   kept.complete(tasks, arguments.run.jobs, "run " + scenario.name,
                 [&](std::size_t, const SeedResult& seed) { output.add(seed); });
   RunResult result = output.result();
   warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
-  result.made_from = provenance_of(arguments, {}, scenario, pixels);
+  result.made_from = provenance_of(arguments, {}, experiment, pixels);
   output.write(result, scenario.world.walls);
-  const std::string draws = draws_jsonl(scenario, scenario.seeds);
+  const std::string draws = draws_jsonl(scenario, experiment.seeds);
   if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   kept.discard();
   fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "harness/experiment/experiment.h"
 #include "harness/run/run_result.h"
 #include "renderer/backend.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 
@@ -40,37 +40,38 @@ void add_camera_options(CLI::App& command, ScenarioArguments& arguments) {
       ->check(CLI::Range(0.0, 1e6));
 }
 
-worlds::Scenario read_scenario(const ScenarioArguments& arguments,
-                               const std::vector<std::string>& more_overrides) {
+Experiment read_experiment(const ScenarioArguments& arguments,
+                           const std::vector<std::string>& more_overrides) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-  worlds::Scenario scenario =
-      worlds::read_scenario(arguments.scenario, overrides, arguments.meshes->occluders());
+  Experiment experiment = read_experiment(arguments.scenario, overrides, arguments.meshes->occluders());
   const RunArguments& run = arguments.run;
-  if (!run.filters.empty()) scenario.filters = run.filters;
-  if (std::find(scenario.filters.begin(), scenario.filters.end(), kBaselineFilter) == scenario.filters.end())
-    scenario.filters.insert(scenario.filters.begin(), kBaselineFilter);
-  check_identities(scenario.filters, scenario.identity == worlds::Identity::kKnown,
+  std::vector<std::string>& filters = experiment.filters;
+  if (!run.filters.empty()) filters = run.filters;
+  if (std::find(filters.begin(), filters.end(), kBaselineFilter) == filters.end())
+    filters.insert(filters.begin(), kBaselineFilter);
+  check_identities(filters, experiment.scenario.identity == worlds::Identity::kKnown,
                    arguments.scenario.string());
-  if (run.particles > 0) scenario.particles = run.particles;
-  if (run.refit) scenario.refit = *run.refit;
-  if (!run.seeds.empty()) scenario.seeds = run.seeds;
-  scenario.gates.insert(scenario.gates.end(), run.gates.begin(), run.gates.end());
-  if (arguments.detector_timeout_s > 0.0) scenario.detector.timeout_s = arguments.detector_timeout_s;
-  if (arguments.detector_start_s) scenario.detector.start_s = *arguments.detector_start_s;
-  if (arguments.detector.empty()) return scenario;
-  if (scenario.sensor != worlds::SensorKind::kStereo)
+  if (run.particles > 0) experiment.particles = run.particles;
+  if (run.refit) experiment.refit = *run.refit;
+  if (!run.seeds.empty()) experiment.seeds = run.seeds;
+  experiment.gates.insert(experiment.gates.end(), run.gates.begin(), run.gates.end());
+  if (arguments.detector_timeout_s > 0.0) experiment.detector.timeout_s = arguments.detector_timeout_s;
+  if (arguments.detector_start_s) experiment.detector.start_s = *arguments.detector_start_s;
+  if (arguments.detector.empty()) return experiment;
+  if (experiment.scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format("--detector: the sensor of {} is the oracle, which has no pictures",
                                          arguments.scenario.string()));
-  scenario.detector.command = arguments.detector;
-  return scenario;
+  experiment.detector.command = arguments.detector;
+  return experiment;
 }
 
-std::string work_of(const worlds::Scenario& scenario) {
-  return fmt::format("seed{} {} of {} steps{} with {} ({} particles)", scenario.seeds.size() == 1 ? "" : "s",
-                     fmt::join(scenario.seeds, ", "), scenario.path.size(),
-                     scenario.seeds.size() == 1 ? "" : " each", fmt::join(scenario.filters, ", "),
-                     scenario.particles);
+std::string work_of(const Experiment& experiment) {
+  const std::vector<std::uint64_t>& seeds = experiment.seeds;
+  return fmt::format("seed{} {} of {} steps{} with {} ({} particles)", seeds.size() == 1 ? "" : "s",
+                     fmt::join(seeds, ", "), experiment.scenario.path.size(),
+                     seeds.size() == 1 ? "" : " each", fmt::join(experiment.filters, ", "),
+                     experiment.particles);
 }
 
 void warn_of_crossings(std::span<const worlds::Crossing> crossings) {

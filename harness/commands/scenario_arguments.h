@@ -9,6 +9,7 @@
 
 #include "harness/commands/arguments.h"
 #include "harness/drive/recording.h"
+#include "harness/experiment/types.h"
 #include "renderer/surfaces/mesh_cache.h"
 #include "worlds/drive/wall_crossings.h"
 #include "worlds/types.h"
@@ -35,12 +36,12 @@ void add_camera_options(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Reads the scenario and lets the command line have the last word on filters, particles and seeds.
-/// @throws std::runtime_error as worlds::read_scenario and check_identities do
-worlds::Scenario read_scenario(const ScenarioArguments& arguments,
-                               const std::vector<std::string>& more_overrides = {});
+/// @throws std::runtime_error as the reader of files and check_identities do
+Experiment read_experiment(const ScenarioArguments& arguments,
+                           const std::vector<std::string>& more_overrides = {});
 
 /// What is to be done, for --dry-run: "seeds 0, 1 of 145 steps each with ufastslam (100 particles)".
-std::string work_of(const worlds::Scenario& scenario);
+std::string work_of(const Experiment& experiment);
 
 /// Says on standard error where the drive goes through a wall, or through a mesh; nothing where it does not.
 void warn_of_crossings(std::span<const worlds::Crossing> crossings);

@@ -35,9 +35,9 @@ void write_sweep(const std::filesystem::path& out, const SweepResult& sweep,
 struct CellPlan {
   Cell values;
   std::vector<std::string> overrides;
-  worlds::Scenario scenario;
+  Experiment experiment;
   Provenance made_from;
-  std::vector<DriveTask> tasks;  ///< they refer to the scenario
+  std::vector<DriveTask> tasks;  ///< they refer to the experiment
 };
 
 /// @throws std::runtime_error when a cell's scenario cannot be read, or its gates name no number of run.json
@@ -45,22 +45,22 @@ std::vector<CellPlan> plans_of(const SweepArguments& arguments, const std::vecto
   std::vector<CellPlan> plans;
   for (const Cell& cell : grid(variations)) {
     const auto overrides = overrides_of(variations, cell);
-    plans.push_back({cell, overrides, read_scenario(arguments.scenario, overrides)});
-    const worlds::Scenario& scenario = plans.back().scenario;
-    check_metrics(gates_of(scenario), result_without_values(scenario));
+    plans.push_back({cell, overrides, read_experiment(arguments.scenario, overrides)});
+    const Experiment& experiment = plans.back().experiment;
+    check_metrics(gates_of(experiment), result_without_values(experiment));
   }
   return plans;
 }
 
-/// Holds each cell against the gates of its scenario. @return a line for each broken gate, and how many there
-/// are
+/// Holds each cell against the gates of its experiment. @return a line for each broken gate, and how many
+/// there are
 std::pair<std::string, std::size_t> gates_of_cells(const SweepResult& sweep,
                                                    const std::vector<CellPlan>& plans) {
   std::string lines;
   std::size_t broken = 0;
   std::size_t gates = 0;
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    const auto limits = gates_of(plans[i].scenario);
+    const auto limits = gates_of(plans[i].experiment);
     const auto off = broken_gates(run_json(sweep.cells[i].result), limits);
     if (!off.empty())
       lines += gate_report(off, limits.size(), name_of(sweep.variations, sweep.cells[i].values) + ": ");
@@ -73,7 +73,9 @@ std::pair<std::string, std::size_t> gates_of_cells(const SweepResult& sweep,
 
 std::string pixels_of_any(const std::vector<CellPlan>& plans, renderer::Backend backend) {
   for (const CellPlan& plan : plans)
-    if (plan.scenario.sensor == worlds::SensorKind::kStereo) return pixels_of(plan.scenario, backend);
+    if (const worlds::Scenario& scenario = plan.experiment.scenario;
+        scenario.sensor == worlds::SensorKind::kStereo)
+      return pixels_of(scenario, backend);
   return {};
 }
 
@@ -82,8 +84,8 @@ std::vector<DriveTask> add_tasks(std::vector<CellPlan>& plans, const ScenarioArg
                                  const std::string& pixels) {
   std::vector<DriveTask> all;
   for (CellPlan& plan : plans) {
-    plan.made_from = provenance_of(base, plan.overrides, plan.scenario, pixels);
-    plan.tasks = drive_tasks(base, plan.overrides, plan.scenario, pixels, {});
+    plan.made_from = provenance_of(base, plan.overrides, plan.experiment, pixels);
+    plan.tasks = drive_tasks(base, plan.overrides, plan.experiment, pixels, {});
     all.insert(all.end(), plan.tasks.begin(), plan.tasks.end());
   }
   return all;
@@ -97,7 +99,7 @@ class CellsOfSweep {
 
   void add(const SeedResult& seed) {
     const CellPlan& plan = plans_[sweep_.cells.size()];
-    if (!tally_) tally_.emplace(sweep_.name, rendered_by(plan.scenario, backend_));
+    if (!tally_) tally_.emplace(sweep_.name, rendered_by(plan.experiment.scenario, backend_));
     tally_->add(seed);
     if (++seeds_ == plan.tasks.size()) end_cell(plan);
   }
@@ -126,12 +128,12 @@ int run_sweep(const SweepArguments& arguments) {
   SweepResult sweep;
   for (const std::string& text : arguments.variations) sweep.variations.push_back(parse_variation(text));
   std::vector<CellPlan> plans = plans_of(arguments, sweep.variations);
-  sweep.name = plans.front().scenario.name;
-  warn_of_missing_textures(plans.front().scenario, *base.meshes);
+  sweep.name = plans.front().experiment.scenario.name;
+  warn_of_missing_textures(plans.front().experiment.scenario, *base.meshes);
   const std::filesystem::path out = output_folder(base.run, sweep.name + "_sweep");
   if (base.run.dry_run) {
     for (const CellPlan& plan : plans)
-      fmt::print("{}: would run {}\n", name_of(sweep.variations, plan.values), work_of(plan.scenario));
+      fmt::print("{}: would run {}\n", name_of(sweep.variations, plan.values), work_of(plan.experiment));
     fmt::print("{} cells; results: {}\n", plans.size(), (out / "").string());
     return kPassed;
   }
@@ -143,9 +145,9 @@ int run_sweep(const SweepArguments& arguments) {
   kept.complete(tasks, base.run.jobs, "sweep " + sweep.name,
                 [&](std::size_t, const SeedResult& seed) { cells.add(seed); });
   for (std::size_t i = 0; i < plans.size(); ++i)
-    warn_of_blur(plans[i].scenario.shutter, sweep.cells[i].result.blur.value_or(CoarseBlur{}));
+    warn_of_blur(plans[i].experiment.scenario.shutter, sweep.cells[i].result.blur.value_or(CoarseBlur{}));
   write_sweep(out, sweep, timing_json(cells.timing(), tasks.size()),
-              provenance_of(base, {}, plans.front().scenario, pixels));
+              provenance_of(base, {}, plans.front().experiment, pixels));
   kept.discard();
   const auto [gate_lines, broken] = gates_of_cells(sweep, plans);
   fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, plans.size(), kIntervalNote, sweep_table(sweep));

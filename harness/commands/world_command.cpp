@@ -11,12 +11,13 @@
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/draws_file.h"
+#include "harness/experiment/experiment.h"
+#include "harness/experiment/write_experiment.h"
 #include "harness/io/atomic_file.h"
 #include "harness/report/plan_picture.h"
 #include "renderer/surfaces/mesh_cache.h"
 #include "worlds/drive/path.h"
 #include "worlds/scenario/scenario.h"
-#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -57,7 +58,7 @@ void print_summary(const worlds::Scenario& scenario, const worlds::World& world,
 int show_world(const WorldArguments& arguments) {
   renderer::MeshCache meshes;
   worlds::Scenario scenario =
-      worlds::read_scenario(arguments.scenario, arguments.overrides, meshes.occluders());
+      read_experiment(arguments.scenario, arguments.overrides, meshes.occluders()).scenario;
   if (scenario.sensor == worlds::SensorKind::kStereo)
     worlds::give_occluders(scenario.world, meshes.occluders());
   const worlds::World world =
@@ -67,8 +68,8 @@ int show_world(const WorldArguments& arguments) {
   if (!arguments.out.empty())
     write_file_atomically(arguments.out, draw_plan(scenario, world, coverage, outlines));
   if (!arguments.written.empty())
-    write_file_atomically(arguments.written, worlds::written_out(arguments.scenario, arguments.overrides,
-                                                                 arguments.seed, meshes.occluders()));
+    write_file_atomically(arguments.written, written_out(arguments.scenario, arguments.overrides,
+                                                         arguments.seed, meshes.occluders()));
   if (!arguments.draws.empty())
     write_file_atomically(arguments.draws, draws_jsonl(scenario, std::array{*arguments.seed}));
   print_summary(scenario, world, coverage);
@@ -90,7 +91,7 @@ void add_world_command(CLI::App& program, Action& action) {
   CLI::Option* const seed = command->add_option_function<std::string>(
       "--seeds,--seed",
       [arguments](const std::string& text) {
-        const auto seeds = parse_seeds(text);
+        const auto seeds = parse_seeds_option(text);
         if (seeds.size() > 1)
           throw std::runtime_error(fmt::format("--seeds: a plan is of one seed (got {})", seeds.size()));
         arguments->seed = seeds.front();

@@ -23,7 +23,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt, bl
 namespace {
 
 RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
-  const worlds::Scenario& scenario = *task.scenario;
+  const worlds::Scenario& scenario = task.experiment->scenario;
   const worlds::World world = worlds::world_for_seed(scenario, task.seed);
   const RenderedDataset dataset(task.folder, task.identity);
   if (dataset.is_complete()) return {.was_complete = true};
@@ -40,7 +40,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
     if (truth) truth->write(event);
     ++rendered.pairs;
   };
-  const Recording recording = record(scenario, task.seed, listeners, task.backend, {}, read);
+  const Recording recording = record(*task.experiment, task.seed, listeners, task.backend, {}, read);
   prepare_output_folder(task.folder);  // where the shutter dropped every frame it is not there yet
   if (truth) truth->finish();
   const std::string draws = draws_jsonl(scenario, std::array{task.seed});

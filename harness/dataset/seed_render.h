@@ -11,14 +11,14 @@
 #include "harness/dataset/truth_request.h"
 #include "harness/drive/frame_choice.h"
 #include "harness/drive/recording.h"
+#include "harness/experiment/types.h"
 #include "renderer/types.h"
-#include "worlds/types.h"
 
 namespace stereobench::harness {
 
 /// A data set that is wanted.
 struct RenderTask {
-  const worlds::Scenario* scenario = nullptr;
+  const Experiment* experiment = nullptr;
   std::uint64_t seed = 0;
   FrameChoice frames;  ///< as of frames_of_drive
   TruthRequest truth;

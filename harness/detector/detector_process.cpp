@@ -75,7 +75,7 @@ bool never_started(int status) {
 
 }  // namespace
 
-DetectorProcess::DetectorProcess(const worlds::DetectorProgram& program, const DetectorSetup& setup,
+DetectorProcess::DetectorProcess(const DetectorProgram& program, const DetectorSetup& setup,
                                  std::string where)
     : program_(program),
       setup_(setup),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/detector/detector.h"
+#include "harness/experiment/types.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/supervised_process.h"
 
@@ -27,7 +28,7 @@ class DetectorProcess {
   /// Starts the program.
   /// @param where messages say that it was, e.g. "seed 3"
   /// @throws std::runtime_error when there is no place for pictures, or no process left
-  DetectorProcess(const worlds::DetectorProgram& program, const DetectorSetup& setup, std::string where);
+  DetectorProcess(const DetectorProgram& program, const DetectorSetup& setup, std::string where);
 
   /// Shows it a frame.
   /// @throws DetectorFault: what was expected, what came instead, its last error; below, up to ten lines of
@@ -49,7 +50,7 @@ class DetectorProcess {
   [[noreturn]] void fail(const std::string& when, Heard heard, const std::string& line);
   [[noreturn]] void fault(const std::string& when, const std::string& what);
 
-  worlds::DetectorProgram program_;
+  DetectorProgram program_;
   DetectorSetup setup_;
   std::string where_;
   std::filesystem::path scratch_;

@@ -6,13 +6,15 @@
 
 namespace stereobench::harness {
 
-std::vector<CalibrationTake> take_calibration_scenes(const worlds::Scenario& scenario,
+std::vector<CalibrationTake> take_calibration_scenes(const Experiment& experiment,
                                                      const worlds::CalibrationSceneSettings& settings,
                                                      const std::vector<std::uint64_t>& seeds,
                                                      renderer::Backend backend, int jobs) {
-  Progress progress("calibrate " + scenario.name, static_cast<double>(seeds.size()));
+  Progress progress("calibrate " + experiment.scenario.name, static_cast<double>(seeds.size()));
   const auto take = [&](std::size_t index, const std::function<void(double)>&) {
-    return to_bytes(take_samples(worlds::calibration_scene(scenario, settings, seeds[index]), backend));
+    Experiment scene = experiment;
+    scene.scenario = worlds::calibration_scene(experiment.scenario, settings, seeds[index]);
+    return to_bytes(take_samples(scene, seeds[index], backend));
   };
   std::vector<CalibrationTake> takes;
   for (const std::string& bytes :

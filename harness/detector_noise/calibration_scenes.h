@@ -11,11 +11,11 @@
 namespace stereobench::harness {
 
 /// Looks around in one calibration scene a seed, with progress, in processes of their own.
-/// @param scenario whose cameras and detector look
+/// @param experiment whose cameras and detector look
 /// @param jobs processes at a time; the outcome does not depend on it
 /// @return one take a seed, in their order
 /// @throws as run_in_processes
-std::vector<CalibrationTake> take_calibration_scenes(const worlds::Scenario& scenario,
+std::vector<CalibrationTake> take_calibration_scenes(const Experiment& experiment,
                                                      const worlds::CalibrationSceneSettings& settings,
                                                      const std::vector<std::uint64_t>& seeds,
                                                      renderer::Backend backend, int jobs);

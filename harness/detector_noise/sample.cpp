@@ -51,11 +51,12 @@ CalibrationSample compare(const BallInPair& ball, const vision::BallObservation&
 
 }  // namespace
 
-CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend backend) {
+CalibrationTake take_samples(const Experiment& experiment, std::uint64_t seed, renderer::Backend backend) {
+  const worlds::Scenario& scene = experiment.scenario;
   CalibrationTake take;
   const double noise_sd_levels = detector_setup(scene).noise_sd_levels;
   Listeners listeners;
-  const worlds::World world = worlds::world_for_seed(scene, scene.seeds.front());
+  const worlds::World world = worlds::world_for_seed(scene, seed);
   listeners.on_frame = [&](const FrameEvent& event) {
     for (const MatchedObservation& seen : event.match.observations) {
       if (!seen.undistorted.trusted() || !seen.colour_agrees) continue;
@@ -66,7 +67,7 @@ CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend ba
       take.samples.push_back(sample);
     }
   };
-  take.score = *record(scene, scene.seeds.front(), listeners, backend).vision;
+  take.score = *record(experiment, seed, listeners, backend).vision;
   return take;
 }
 

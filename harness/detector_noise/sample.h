@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "harness/detector_noise/ball_bound.h"
+#include "harness/experiment/types.h"
 #include "harness/vision_scoring/vision_score.h"
 #include "renderer/types.h"
-#include "worlds/types.h"
 
 namespace stereobench::harness {
 
@@ -31,8 +31,8 @@ struct CalibrationTake {
   VisionScore score;
 };
 
-/// Looks around in a calibration scene (worlds::calibration_scene) with the scenario's detector.
-/// @param scene its single seed is that of the noise
-CalibrationTake take_samples(const worlds::Scenario& scene, renderer::Backend backend);
+/// Looks around in a calibration scene (worlds::calibration_scene) with the experiment's detector.
+/// @param seed of the noise
+CalibrationTake take_samples(const Experiment& experiment, std::uint64_t seed, renderer::Backend backend);
 
 }  // namespace stereobench::harness

@@ -116,8 +116,9 @@ void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& se
 
 }  // namespace
 
-Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
+Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector, const renderer::FormReader& read) {
+  const worlds::Scenario& scenario = experiment.scenario;
   Recording recording;
   const worlds::World world = worlds::world_for_seed(scenario, seed);
   recording.log.landmarks = landmarks_of(world);
@@ -127,10 +128,10 @@ Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Lis
     return recording;
   }
   const DetectorSetup setup = detector_setup(scenario);
-  const std::string& command = scenario.detector.command;
+  const std::string& command = experiment.detector.command;
   const DetectorKind* const linked = find_detector(command.empty() ? kOurs : command);
   std::optional<DetectorProcess> program;
-  if (!detector && !linked) program.emplace(scenario.detector, setup, fmt::format("seed {}", seed));
+  if (!detector && !linked) program.emplace(experiment.detector, setup, fmt::format("seed {}", seed));
   StereoSense stereo(scenario, world, seed, backend,
                      program    ? Detector(std::ref(*program))
                      : detector ? detector

@@ -10,6 +10,7 @@
 
 #include "harness/detector/detector.h"
 #include "harness/drive/coarse_blur.h"
+#include "harness/experiment/types.h"
 #include "harness/types.h"
 #include "harness/vision_scoring/vision_score.h"
 #include "renderer/renderer.h"
@@ -58,11 +59,11 @@ struct Recording {
 /// @param listeners told of each look (sensors with pixels only) and of the progress
 /// @param backend what renders, for a sensor with pixels
 /// @param read meshes
-/// @param detector who looks at the pairs; empty: the program that the scenario names, or the vision stage
+/// @param detector who looks at the pairs; empty: the program that the experiment names, or the vision stage
 /// @return the log with truth, and how vision scored
 /// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read; DetectorFault
 ///   when the program does not do what it should
-Recording record(const worlds::Scenario& scenario, std::uint64_t seed, const Listeners& listeners,
+Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {},
                  const renderer::FormReader& read = renderer::read_form);
 

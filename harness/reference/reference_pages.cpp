@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/experiment/experiment.h"
 #include "harness/run/metric_keys.h"
 #include "worlds/yaml/key_group.h"
 
@@ -111,7 +112,7 @@ std::string scenario_reference() {
   std::string page =
       "# Scenario keys\n\n"
       "Made by `stereobench schema --markdown`; do not edit. [scenarios](scenarios.md) explains them.\n";
-  add_group(worlds::scenario_keys(), "", page);
+  add_group(experiment_keys(), "", page);
   return page;
 }
 

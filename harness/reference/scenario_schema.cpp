@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/experiment/experiment.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -116,7 +118,7 @@ Json json_schema(const KeyGroup& group) {
 Json scenario_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "A scenario of stereobench"}};
-  schema.update(json_schema(worlds::scenario_keys()));
+  schema.update(json_schema(experiment_keys()));
   return schema;
 }
 

@@ -38,10 +38,10 @@ std::string filter_of(const std::string& metric) {
 }
 
 /// Has all the keys that a result has.
-RunResult result_without_runs(const worlds::Scenario& scenario) {
+RunResult result_without_runs(const Experiment& experiment) {
   RunResult nothing_yet;
-  if (scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
-  for (const std::string& filter : scenario.filters) nothing_yet.filters.push_back({.filter = filter});
+  if (experiment.scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
+  for (const std::string& filter : experiment.filters) nothing_yet.filters.push_back({.filter = filter});
   return nothing_yet;
 }
 
@@ -53,8 +53,8 @@ void append_metrics(const Json& json, const std::string& path, std::vector<std::
     append_metrics(child, path.empty() ? key : path + "." + key, metrics);
 }
 
-std::string broken_message(const worlds::Gate& gate, const Json& metric) {
-  const bool at_most = gate.relation == worlds::Gate::Relation::kAtMost;
+std::string broken_message(const Gate& gate, const Json& metric) {
+  const bool at_most = gate.relation == Gate::Relation::kAtMost;
   const std::string limit = fmt::format("{} {}", at_most ? "at most" : "at least", gate.limit);
   if (metric.is_null()) return fmt::format("{} has no value, expected {}", gate.metric, limit);
   const double value = metric.get<double>();
@@ -62,32 +62,32 @@ std::string broken_message(const worlds::Gate& gate, const Json& metric) {
                      format_number(std::abs(value - gate.limit)));
 }
 
-bool holds(const worlds::Gate& gate, const Json& metric) {
+bool holds(const Gate& gate, const Json& metric) {
   if (metric.is_null()) return false;
   const double value = metric.get<double>();
-  return gate.relation == worlds::Gate::Relation::kAtMost ? value <= gate.limit : value >= gate.limit;
+  return gate.relation == Gate::Relation::kAtMost ? value <= gate.limit : value >= gate.limit;
 }
 
 }  // namespace
 
-std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario) {
+std::vector<Gate> gates_of(const Experiment& experiment) {
   const std::vector<std::string> known = slam::filter_names();
-  std::vector<worlds::Gate> gates;
-  for (const worlds::Gate& gate : scenario.gates) {
+  std::vector<Gate> gates;
+  for (const Gate& gate : experiment.gates) {
     const std::string filter = filter_of(gate.metric);
     const bool left_out =
-        std::ranges::count(known, filter) > 0 && std::ranges::count(scenario.filters, filter) == 0;
+        std::ranges::count(known, filter) > 0 && std::ranges::count(experiment.filters, filter) == 0;
     if (!left_out) gates.push_back(gate);
   }
   return gates;
 }
 
-worlds::Gate parse_gate(const std::string& text) {
-  for (const auto& [sign, relation] : {std::pair("<=", worlds::Gate::Relation::kAtMost),
-                                       std::pair(">=", worlds::Gate::Relation::kAtLeast)}) {
+Gate parse_gate(const std::string& text) {
+  for (const auto& [sign, relation] :
+       {std::pair("<=", Gate::Relation::kAtMost), std::pair(">=", Gate::Relation::kAtLeast)}) {
     const std::size_t at = text.find(sign);
     if (at == std::string::npos || at == 0) continue;
-    worlds::Gate gate{.metric = text.substr(0, at), .relation = relation};
+    Gate gate{.metric = text.substr(0, at), .relation = relation};
     const char* const end = text.data() + text.size();
     const auto [read, error] = std::from_chars(text.data() + at + 2, end, gate.limit);
     if (error == std::errc() && read == end && std::isfinite(gate.limit)) return gate;
@@ -96,12 +96,12 @@ worlds::Gate parse_gate(const std::string& text) {
       "--gate: expected a metric, <= or >=, and a limit, e.g. 'vision.recall>=0.98' (got '{}')", text));
 }
 
-Json result_without_values(const worlds::Scenario& scenario) {
-  return run_json(result_without_runs(scenario));
+Json result_without_values(const Experiment& experiment) {
+  return run_json(result_without_runs(experiment));
 }
 
-void check_metrics(std::span<const worlds::Gate> gates, const Json& result) {
-  for (const worlds::Gate& gate : gates) {
+void check_metrics(std::span<const Gate> gates, const Json& result) {
+  for (const Gate& gate : gates) {
     if (find_metric(result, gate.metric) != nullptr) continue;
     std::vector<std::string> metrics;
     append_metrics(result, "", metrics);
@@ -113,10 +113,9 @@ void check_metrics(std::span<const worlds::Gate> gates, const Json& result) {
   }
 }
 
-std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json,
-                                     std::span<const worlds::Gate> gates) {
+std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const Gate> gates) {
   std::vector<BrokenGate> broken;
-  for (const worlds::Gate& gate : gates) {
+  for (const Gate& gate : gates) {
     const Json* metric = find_metric(json, gate.metric);
     if (metric == nullptr) throw std::invalid_argument("broken_gates: no metric " + gate.metric);
     if (holds(gate, *metric)) continue;

@@ -1,4 +1,4 @@
-/// Limits that a scenario puts on its run's metrics.
+/// Limits that an experiment puts on its run's metrics.
 #pragma once
 
 #include <optional>
@@ -8,36 +8,36 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/experiment/types.h"
 #include "harness/run/run_result.h"
-#include "worlds/types.h"
 
 namespace stereobench::harness {
 
 /// A limit that a result does not keep.
 struct BrokenGate {
-  worlds::Gate gate;
+  Gate gate;
   std::optional<double> value;  ///< empty: the metric has no value
   std::string message;          ///< one line: the metric, its value, the limit, by how much
 };
 
 /// The gates that speak of a run: not those of a filter that was left out.
-std::vector<worlds::Gate> gates_of(const worlds::Scenario& scenario);
+std::vector<Gate> gates_of(const Experiment& experiment);
 
 /// Reads a gate of the command line: "vision.recall>=0.98", "filters.ufastslam.ate_rms_m.mean<=0.05".
 /// @throws std::runtime_error that says what was expected
-worlds::Gate parse_gate(const std::string& text);
+Gate parse_gate(const std::string& text);
 
-/// What a run of a scenario would give, without values: run.json with all keys that gates can name.
-nlohmann::ordered_json result_without_values(const worlds::Scenario& scenario);
+/// What a run of an experiment would give, without values: run.json with all keys that gates can name.
+nlohmann::ordered_json result_without_values(const Experiment& experiment);
 
 /// Makes sure, before any work is done, that each gate names a number of a result.
 /// @param result its values do not matter
 /// @throws std::runtime_error that names the gate which does not, and a number that may be meant
-void check_metrics(std::span<const worlds::Gate> gates, const nlohmann::ordered_json& result);
+void check_metrics(std::span<const Gate> gates, const nlohmann::ordered_json& result);
 
 /// Holds a result against limits.
 /// @param json as run_json gives it
-std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const worlds::Gate> gates);
+std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const Gate> gates);
 
 /// A line for each broken gate, or one that says that all hold; empty where there are none.
 /// @param where of a sweep, the cell that the gates are about, e.g. "gain = 2: "

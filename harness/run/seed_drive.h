@@ -1,4 +1,4 @@
-/// One seed of one scenario, driven and filtered: the unit of work that is spread over processes.
+/// One seed of one experiment, driven and filtered: the unit of work that is spread over processes.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "harness/drive/recording.h"
+#include "harness/experiment/types.h"
 #include "harness/types.h"
-#include "slam/filter_registry.h"
-#include "worlds/types.h"
+#include "slam/filter_config.h"
 
 namespace stereobench::harness {
 
@@ -19,7 +19,7 @@ struct Snapshot {
   std::string png;
 };
 
-/// What one seed gave: the drive, each filter's run over it, in the scenario's order of filters, and what
+/// What one seed gave: the drive, each filter's run over it, in the experiment's order of filters, and what
 /// they are held against.
 struct SeedDrive {
   std::uint64_t seed = 0;
@@ -38,16 +38,13 @@ struct SeedParts {
 
 /// A seed to drive, what is wanted of it, and what renders it.
 struct DriveTask {
-  const worlds::Scenario* scenario = nullptr;
+  const Experiment* experiment = nullptr;
   std::uint64_t seed = 0;
   SeedParts parts = {};
   renderer::Backend backend = renderer::Backend::kOsmesa;
-  Detector detector = {};  ///< who looks; empty: as the scenario says
+  Detector detector = {};  ///< who looks; empty: as the experiment says
   std::string key = {};    ///< SHA-256 of all that the drive is made from; needed to keep it
 };
-
-/// The settings that a scenario gives its filters.
-slam::FilterConfig filter_config(const worlds::Scenario& scenario);
 
 /// Runs each filter over a log.
 /// @param seed of the filters' own random streams

@@ -15,7 +15,7 @@ namespace stereobench::renderer {
 /// Reads each file once, whoever asks. What it hands out asks it, and must not outlive it.
 class MeshCache {
  public:
-  /// For worlds::read_scenario. @throws std::runtime_error as read_form
+  /// For the reader of scenarios. @throws std::runtime_error as read_form
   worlds::OccluderReader occluders();
 
   /// For place_meshes. @throws std::runtime_error as read_form

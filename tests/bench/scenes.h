@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "worlds/scenario/scenario.h"
+#include "tests/worlds/scenario/read_scenario.h"
 
 namespace stereobench {
 

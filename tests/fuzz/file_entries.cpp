@@ -9,11 +9,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "harness/dataset/colour_marks.h"
+#include "harness/experiment/experiment.h"
 #include "harness/logs/measurement_log_reader.h"
 #include "renderer/meshes/mesh_file.h"
 #include "tests/fuzz/promises.h"
 #include "worlds/drive/smooth_path.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::fuzz {
 namespace {
@@ -68,7 +68,7 @@ void check_scenario(Bytes bytes) {
   const OwnFile file("scenario.yaml", text_of(bytes));
   try {
     read_or_complain([&] {
-      const worlds::Scenario scenario = worlds::read_scenario(file.path());
+      const worlds::Scenario scenario = harness::read_experiment(file.path()).scenario;
       expect(!scenario.path.empty() && !scenario.world.balls.empty(), "a scenario has a drive and balls");
       for (const worlds::Ball& ball : scenario.world.balls)
         expect(ball.centre_m.allFinite() && ball.radius_m > 0.0, "a ball is somewhere, and has a size");

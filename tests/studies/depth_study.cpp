@@ -92,14 +92,14 @@ const Quantity kQuantities[] = {
 };
 
 /// @param radius_sd_m tolerance of the balls
-worlds::Scenario cameras(double radius_sd_m) {
+harness::Experiment cameras(double radius_sd_m) {
   harness::ScenarioArguments arguments;
   arguments.scenario = STEREOBENCH_SOURCE_DIR "/assets/scenarios/ball_circle.yaml";
   arguments.overrides = {
       fmt::format("world={{floor: tiles, ball_radius_m: 0.09, ball_radius_sd_m: {}, balls: "
                   "[{{colour: 0, at_m: [2, 0, 0.09]}}]}}",
                   radius_sd_m)};
-  return harness::read_scenario(arguments);
+  return harness::read_experiment(arguments);
 }
 
 std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<std::uint64_t>& seeds,

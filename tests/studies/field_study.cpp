@@ -19,7 +19,7 @@ struct Balance {
 constexpr Balance kBalances[] = {{5, 0.9988}, {10, 0.998}};
 
 /// @param number of the field, from 0
-worlds::Scenario field(int number, int off_percent) {
+harness::Experiment field(int number, int off_percent) {
   harness::ScenarioArguments arguments;
   arguments.scenario = STEREOBENCH_SOURCE_DIR "/assets/scenarios/ball_circle.yaml";
   arguments.run.seeds = {0, 1, 2, 3};
@@ -34,9 +34,9 @@ worlds::Scenario field(int number, int off_percent) {
       fmt::format("camera.white_balance_rgb=[{}, 1, {}]", 1.0 + off_percent / 100.0,
                   1.0 - off_percent / 100.0),
       "randomise={walls: {}, floor: {}, light: {}, clutter: {}, distractors: {}}"};
-  worlds::Scenario scenario = harness::read_scenario(arguments);
-  scenario.filters.clear();
-  return scenario;
+  harness::Experiment experiment = harness::read_experiment(arguments);
+  experiment.filters.clear();
+  return experiment;
 }
 
 /// What vision made of some drives.
@@ -45,10 +45,10 @@ struct Seen {
   long pairs = 0;
 };
 
-Seen drive_through(const std::vector<worlds::Scenario>& fields, int jobs, const std::string& what) {
+Seen drive_through(const std::vector<harness::Experiment>& fields, int jobs, const std::string& what) {
   std::vector<harness::DriveTask> tasks;
-  for (const worlds::Scenario& scenario : fields)
-    for (const std::uint64_t seed : scenario.seeds) tasks.push_back({&scenario, seed});
+  for (const harness::Experiment& experiment : fields)
+    for (const std::uint64_t seed : experiment.seeds) tasks.push_back({&experiment, seed});
   Seen seen;
   harness::drive_seeds(tasks, jobs, what, [&](std::size_t, const harness::SeedResult& seed) {
     seen.score += *seed.vision;
@@ -83,10 +83,10 @@ Section section_of(const Seen& seen, const Balance& balance) {
 std::vector<Section> study_fields(int fields, int jobs) {
   std::vector<Section> sections;
   for (const Balance& balance : kBalances) {
-    std::vector<worlds::Scenario> scenarios;
-    for (int i = 0; i < fields; ++i) scenarios.push_back(field(i, balance.off_percent));
+    std::vector<harness::Experiment> experiments;
+    for (int i = 0; i < fields; ++i) experiments.push_back(field(i, balance.off_percent));
     const std::string what = fmt::format("fields, white balance off by {} %", balance.off_percent);
-    sections.push_back(section_of(drive_through(scenarios, jobs, what), balance));
+    sections.push_back(section_of(drive_through(experiments, jobs, what), balance));
   }
   return sections;
 }

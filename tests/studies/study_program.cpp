@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/experiment/seeds.h"
 #include "harness/io/atomic_file.h"
 #include "harness/process/process_pool.h"
-#include "worlds/scenario/seeds.h"
 
 namespace stereobench {
 namespace {
@@ -33,7 +33,7 @@ void add_study_options(CLI::App& program, StudyArguments& arguments, const std::
 std::vector<std::uint64_t> seeds_of(const StudyArguments& arguments) {
   std::vector<std::uint64_t> seeds;
   try {
-    seeds = worlds::parse_seeds(arguments.seeds);
+    seeds = harness::parse_seeds(arguments.seeds);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("--seeds: {}", error.what()));
   }

@@ -126,7 +126,6 @@ Scenario calibration_scene(const Scenario& scenario, const CalibrationSceneSetti
                            std::uint64_t seed) {
   SceneSampler draws(seed);
   Scenario made = scenario;
-  made.seeds = {seed};
   made.shutter = {};
   made.identity = Identity::kColourClass;
   made.colour_spacing_m = 0.0;

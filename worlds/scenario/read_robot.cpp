@@ -217,23 +217,4 @@ const Fields<OracleSensor>& oracle_keys() {
   return keys;
 }
 
-const Fields<slam::SensorSector>& believed_oracle_keys() {
-  static const Fields<slam::SensorSector> keys({
-      number("max_range_m", {0.0, kSize_m.most}, "How far filters believe it to see, in metres; 0: no limit.")
-          .otherwise_as("oracle.max_range_m")
-          .fills(&slam::SensorSector::range_m),
-      number("field_of_view_deg", kFieldOfView_deg, "Whole angle of its believed sector, in degrees.")
-          .otherwise_as("oracle.field_of_view_deg")
-          .times(slam::kRadPerDegree / 2.0)
-          .fills(&slam::SensorSector::half_angle_rad),
-      number("miss_probability", kMisses, "Believed probability that it misses a ball in view.")
-          .otherwise_as("oracle.miss_probability")
-          .fills(&slam::SensorSector::miss_probability),
-      number("false_per_look", kFalse, "Believed mean number of sightings of nothing in a look.")
-          .otherwise_as("oracle.false_per_look")
-          .fills(&slam::SensorSector::false_per_look),
-  });
-  return keys;
-}
-
 }  // namespace stereobench::worlds

@@ -1,32 +1,31 @@
-/// Scenario files: everything a run is made from, read from strict YAML.
+/// Scenarios: what can be seen and how the robot moves, read from strict YAML.
+///
+/// The file may hold keys of others beside these, whose reader puts the two tables together
+/// (harness/experiment/experiment.h).
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "worlds/types.h"
 #include "worlds/visibility/occluders.h"
+#include "worlds/yaml/fields.h"
 
 namespace stereobench::worlds {
 
-/// Reads a scenario file, with some of its values replaced.
-///
-/// Strict: an unknown or repeated key, a wrong type, a value that is out of range or not finite, a required
-/// key or a mesh file that is missing, and a world that breaks the promises of its `identity` are all errors.
-///
-/// @param file the YAML file; paths of meshes in it are relative to its folder
-/// @param overrides "key.path=value", put in place before reading, e.g. "camera.noise_sd_levels=4"; a list is
-///        replaced whole
+/// The keys of a scenario at the top of its file, and below them all others. `randomise`, `path` and `world`
+/// are declared here and read by read_world_and_path.
+const Fields<Scenario>& scenario_keys();
+
+/// Reads what needs the other keys to be read before: `randomise`, `path` and `world`. The path is driven
+/// (poses and exact controls), and a generator's world is made.
+/// @param top the whole file, whose keys are checked (check_keys)
 /// @param occluders reads mesh files; asked only where a generator, or things that are scattered, must know
 /// of them
-/// @return the scenario, its path already driven (poses and exact controls)
-/// @throws std::runtime_error of one line, "file:line: key.path: expected ... (got ...)", or
-///         "--set key.path: ..." when an override is to blame
+/// @param scenario what scenario_keys() has read
+/// @throws std::runtime_error of one line, "file:line: key.path: expected ... (got ...)", also where the
+///   world breaks the promises of its `identity`
 /// @throws std::invalid_argument when there is no such reader and it would be asked
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                       const OccluderReader& occluders = {});
+void read_world_and_path(const YamlMap& top, const OccluderReader& occluders, Scenario& scenario);
 
 /// The world of one seed (randomise.h): the scenario's, with each ball moved by a uniform draw of up to
 /// +-placement_jitter_m in x and in y, made as exactly as `ball_radius_sd_m` says (its lowest point stays

@@ -1,4 +1,4 @@
-/// The parts of a scenario file, each read from its group of keys.
+/// The parts of a scenario, each read from its group of keys.
 #pragma once
 
 #include <optional>
@@ -32,15 +32,6 @@ GroundTruth read_path(const YamlValue& value, const Layout* layout);
 /// @param value of `rig:`, which the rig was read from
 void check_lens(const YamlValue& value, const vision::StereoRig& rig);
 
-/// `believed_measurement_noise:` what the filters are told of sightings.
-struct MeasurementNoise {
-  std::optional<slam::NoiseLaw> law;  ///< none: each sighting is taken at its word, to scale
-  Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();  ///< of range, bearing
-};
-
-/// @param rig where there is one: the stereo law is about its focal length and baseline
-MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optional<vision::StereoRig>& rig);
-
 /// A line of corners: a wall from each to the next.
 struct WallLine {
   std::vector<Eigen::Vector2d> corners_m;
@@ -63,10 +54,7 @@ const Fields<Scenario>& believed_rig_keys();  ///< whose believed rig is the tru
 const Fields<CameraSensor>& camera_keys();
 const Fields<Shutter>& shutter_keys();
 const Fields<slam::OdometryNoise>& odometry_noise_keys();
-const KeyGroup& measurement_noise_keys();
 const Fields<OracleSensor>& oracle_keys();
-const Fields<slam::SensorSector>& believed_oracle_keys();
-const Fields<Gate>& gate_keys();
 const Fields<Randomisation>& randomisation_keys();
 const Fields<SurfaceLooks>& surface_keys();
 const Fields<BallColours>& ball_colour_keys();

@@ -67,72 +67,44 @@ void write_drawn(const Randomisation& randomise, const World& world, std::size_t
     lines["meshes"].push_back(mesh_keys().write(world.meshes[i]));
 }
 
-void name_file_from_anywhere(const std::filesystem::path& folder, YAML::Node named) {
-  if (named && named.IsMap() && named["file"])
-    named["file"] =
-        std::filesystem::absolute(folder / named["file"].as<std::string>()).lexically_normal().string();
+std::string from_anywhere(const YamlDocument& document, const YAML::Node& path) {
+  return std::filesystem::absolute(document.file.parent_path() / path.as<std::string>())
+      .lexically_normal()
+      .string();
 }
 
 /// What is written may lie in another folder than what was read.
-void name_files_from_anywhere(const std::filesystem::path& folder, YAML::Node root) {
-  for (const char* group : {"path", "believed_measurement_noise"})
-    name_file_from_anywhere(folder, root[group]);
+void name_files_from_anywhere(const YamlDocument& document) {
+  const YAML::Node root = document.root;
+  name_file_from_anywhere(document, root["path"]);
   YAML::Node world = root["world"];
-  name_file_from_anywhere(folder, world["floor_texture"]);
-  for (YAML::Node wall : world["walls"]) name_file_from_anywhere(folder, wall["texture"]);
-  for (YAML::Node searched : world["texture_folders"])
-    searched = std::filesystem::absolute(folder / searched.as<std::string>()).lexically_normal().string();
+  name_file_from_anywhere(document, world["floor_texture"]);
+  for (YAML::Node wall : world["walls"]) name_file_from_anywhere(document, wall["texture"]);
+  for (YAML::Node searched : world["texture_folders"]) searched = from_anywhere(document, searched);
   for (const char* surface : {"walls", "floor"}) {
     if (!root["randomise"] || !root["randomise"][surface]) continue;
     for (YAML::Node texture : root["randomise"][surface]["textures"])
-      name_file_from_anywhere(folder, texture);
-  }
-}
-
-std::string text_of(const YAML::Node& root) {
-  YAML::Emitter text;
-  text << root;
-  return std::string(text.c_str()) + "\n";
-}
-
-void gather_files(const YAML::Node& node, std::set<std::string>& files) {
-  for (const auto& entry : node) {
-    const YAML::Node& value = node.IsMap() ? entry.second : entry;
-    if (node.IsMap() && value.IsScalar() && entry.first.Scalar() == "file") files.insert(value.Scalar());
-    if (value.IsMap() || value.IsSequence()) gather_files(value, files);
+      name_file_from_anywhere(document, texture);
   }
 }
 
 }  // namespace
 
-std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return text_of(load_yaml(file, overrides).root);
+void name_file_from_anywhere(const YamlDocument& document, YAML::Node group) {
+  if (group && group.IsMap() && group["file"]) group["file"] = from_anywhere(document, group["file"]);
 }
 
-std::set<std::string> files_named_in(const std::filesystem::path& file,
-                                     const std::vector<std::string>& overrides) {
-  std::set<std::string> files;
-  gather_files(load_yaml(file, overrides).root, files);
-  return files;
-}
-
-std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                        std::optional<std::uint64_t> seed, const OccluderReader& occluders) {
-  const Scenario scenario = read_scenario(file, overrides, occluders);
-  YamlDocument document = load_yaml(file, overrides, &scenario_keys());
+void write_world(const Scenario& scenario, std::optional<std::uint64_t> seed, YamlDocument& document) {
   YAML::Node lines = document.root["world"];
-  name_files_from_anywhere(file.parent_path(), document.root);
+  name_files_from_anywhere(document);
   const std::vector<MeshInstance>& meshes = scenario.world.meshes;
   for (std::size_t i = 0; i < meshes.size(); ++i)
     if (meshes[i].shape == MeshShape::kFile) lines["meshes"][i]["file"] = meshes[i].file;
   if (lines["generator"]) write_generated(document, scenario.world, lines);
-  if (seed) {
-    write_drawn(scenario.randomise, world_for_seed(scenario, *seed), meshes.size(), lines);
-    document.root.remove("randomise");
-    document.root["placement_jitter_m"] = 0;
-    document.root["seeds"] = *seed;
-  }
-  return text_of(document.root);
+  if (!seed) return;
+  write_drawn(scenario.randomise, world_for_seed(scenario, *seed), meshes.size(), lines);
+  document.root.remove("randomise");
+  document.root["placement_jitter_m"] = 0;
 }
 
 }  // namespace stereobench::worlds

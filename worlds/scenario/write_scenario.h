@@ -1,37 +1,24 @@
-/// Scenarios written out, so that what a generator made can be edited.
+/// Worlds written out, so that what a generator made can be edited.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <set>
-#include <string>
-#include <vector>
 
-#include "worlds/visibility/occluders.h"
+#include "worlds/types.h"
+#include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::worlds {
 
-/// The lines of a scenario with its overrides put in place, mesh files by their absolute paths and, where
-/// there is a generator, its balls, walls and tour in its stead. Comments are lost. Read again it is the same
-/// world and the same drive, bit for bit.
+/// Puts the world of a scenario into its document: files by their absolute paths and, where there is a
+/// generator, its balls, walls and tour in its stead. Read again it is the same world and the same drive, bit
+/// for bit. Keys of others stay as they are.
+/// @param scenario as read from that document
 /// @param seed where there is one, nothing is left to chance: the world as that seed has it, line by line,
-///   without jitter and without `randomise:`; the only seed is that one
-/// @param occluders reads mesh files, as for read_scenario
-/// @throws std::runtime_error, std::invalid_argument as read_scenario
-std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                        std::optional<std::uint64_t> seed = std::nullopt,
-                        const OccluderReader& occluders = {});
+///   without jitter and without `randomise:`
+void write_world(const Scenario& scenario, std::optional<std::uint64_t> seed, YamlDocument& document);
 
-/// The lines of a scenario with its overrides put in place, and nothing else changed but that comments are
-/// lost: files have the names that they have there.
-/// @throws std::runtime_error as load_yaml
-std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides);
-
-/// The files that a scenario names, each once, as they are named: meshes, textures, paths, noise. Those that
-/// lie within a mesh file are not among them.
-/// @throws std::runtime_error as load_yaml
-std::set<std::string> files_named_in(const std::filesystem::path& file,
-                                     const std::vector<std::string>& overrides);
+/// Makes the `file` of a group absolute, where it has one: what is written may lie in another folder than
+/// what was read.
+void name_file_from_anywhere(const YamlDocument& document, YAML::Node group);
 
 }  // namespace stereobench::worlds

@@ -16,7 +16,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -163,14 +165,30 @@ std::vector<Field<Struct>> joined(const std::vector<std::vector<Field<Struct>>>&
   return fields;
 }
 
-/// The fields of a member, as fields of the struct that has it.
+/// Puts fields into a list, behind the one with this name, which must be there.
+template <class Struct>
+void insert_behind(std::string_view name, const std::vector<Field<Struct>>& more,
+                   std::vector<Field<Struct>>& fields) {
+  const auto has_name = [name](const Field<Struct>& field) { return field.key.name == name; };
+  const auto found = std::ranges::find_if(fields, has_name);
+  if (found == fields.end()) throw std::logic_error("insert_behind: no key " + std::string(name));
+  fields.insert(found + 1, more.begin(), more.end());
+}
+
+/// The fields of a member, as fields of the struct that has it. What is read or written by hand stays so.
 template <class Outer, class Inner>
 std::vector<Field<Outer>> lifted(Inner Outer::*member, const std::vector<Field<Inner>>& fields) {
   std::vector<Field<Outer>> outer;
-  for (const Field<Inner>& field : fields)
-    outer.push_back(field.key.template by<Outer>(
-        [read = field.read, member](const YamlValue& value, Outer& object) { read(value, object.*member); },
-        [write = field.write, member](const Outer& object) { return write(object.*member); }));
+  for (const Field<Inner>& field : fields) {
+    Field<Outer> whole(field.key);
+    if (field.read)
+      whole.read = [read = field.read, member](const YamlValue& value, Outer& object) {
+        read(value, object.*member);
+      };
+    if (field.write)
+      whole.write = [write = field.write, member](const Outer& object) { return write(object.*member); };
+    outer.push_back(with_default(std::move(whole)));
+  }
   return outer;
 }
 

@@ -135,9 +135,6 @@ bool belongs(const Key& key, std::string_view kind);
 /// @return whether groups of a kind need the key (or its alternative)
 bool is_needed(const Key& key, std::string_view kind);
 
-/// The keys at the top of a scenario file, and below them all others.
-const KeyGroup& scenario_keys();
-
 /// The declaration of a key.
 /// @param path e.g. "camera.gain", "world.balls[3].colour"
 /// @return null when there is no such key

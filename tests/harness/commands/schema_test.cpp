@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <yaml-cpp/yaml.h>
 
+#include "harness/experiment/experiment.h"
 #include "harness/reference/scenario_schema.h"
 #include "tests/harness/commands/program.h"
 #include "tests/worlds/scenario/minimal_group.h"
 #include "tests/worlds/scenario/scenario_text.h"
-#include "worlds/scenario/scenario.h"
 #include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::harness {
@@ -90,7 +90,7 @@ with open(sys.argv[1] + "/verdicts", "w") as out:
 
 bool is_read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   try {
-    worlds::read_scenario(file, overrides);
+    read_experiment(file, overrides);
   } catch (const std::exception&) {
     return false;
   }
@@ -121,7 +121,7 @@ struct Probe {
 /// For each key of each group: nothing that it could be, and numbers at and beyond their bounds.
 std::vector<Probe> probes() {
   std::vector<Probe> probes;
-  for (const Context& context : worlds::all_contexts())
+  for (const Context& context : worlds::all_contexts(experiment_keys()))
     for (const Key* const key : worlds::keys_of(context)) {
       const auto probe = [&](const std::string& value, bool is_right) {
         probes.push_back({path_of(context, key->name) + "=" + value,
@@ -150,7 +150,7 @@ TEST_F(Schema, AndReaderAgreeAboutEveryKey) {
   const std::vector<Probe> all = probes();
   ASSERT_GT(all.size(), 400U);
   for (const Probe& probe : all)
-    validator.add(json_of(worlds::load_yaml(file, probe.overrides, &worlds::scenario_keys()).root));
+    validator.add(json_of(worlds::load_yaml(file, probe.overrides, &experiment_keys()).root));
   const auto verdicts = validator.verdicts();
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(verdicts[i].empty(), all[i].is_right) << all[i].path << ": " << verdicts[i];

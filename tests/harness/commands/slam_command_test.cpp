@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/drive/recording.h"
+#include "harness/experiment/experiment.h"
 #include "harness/logs/measurement_log_writer.h"
 #include "tests/harness/commands/program.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -26,7 +26,7 @@ class SlamCommand : public testing::Test {
 
   SlamCommand() {
     std::filesystem::create_directories(log_);
-    write_log(log_, record(worlds::read_scenario(scenario_path("open_field"), {}), 3, {}).log);
+    write_log(log_, record(read_experiment(scenario_path("open_field"), {}), 3, {}).log);
   }
 
   std::vector<std::string> lines_of(const std::string& file) const {

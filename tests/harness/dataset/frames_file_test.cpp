@@ -48,7 +48,7 @@ TEST(FramesFile, SaysWhichFramesWereLateOrDroppedAndFromWhereTheyWereTaken) {
             (std::vector<std::string>{"step", "t_s", "has_pictures", "late_s", "x_m", "y_m", "theta_rad"}));
   renderer::Renderer renderer(scenario.world, scenario.rig);
   std::size_t seen = 0, late = 0;
-  record(scenario, seed, {.on_frame = [&](const FrameEvent& look) {
+  record({.scenario = scenario}, seed, {.on_frame = [&](const FrameEvent& look) {
            const auto& row = rows.at(look.step + 1);
            ASSERT_EQ(row[0], std::to_string(look.step));
            ASSERT_EQ(row[2], "1");

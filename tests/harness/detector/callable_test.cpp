@@ -5,23 +5,24 @@
 
 #include "harness/detector/detector.h"
 #include "harness/drive/recording.h"
+#include "harness/experiment/experiment.h"
 #include "tests/harness/commands/program.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {
 
-worlds::Scenario short_drive() {
-  return worlds::read_scenario(scenario_path("ball_circle"),
-                               {"path.laps=0.06", "rig.width_px=512", "rig.height_px=384", "rig.focal_px=443",
-                                "believed_rig={baseline_m: 0.121}"});
+Experiment short_drive() {
+  return read_experiment(scenario_path("ball_circle"),
+                         {"path.laps=0.06", "rig.width_px=512", "rig.height_px=384", "rig.focal_px=443",
+                          "believed_rig={baseline_m: 0.121}"});
 }
 
 // A callable that looks as ours does, and is wrong on purpose by what the score must then say. Mutations:
 // ours is run all the same; the true rig is handed out; frames are counted from 1.
 TEST(CallableDetector, IsAskedInPlaceOfOursAndScoredAlike) {
   constexpr double kOff_m = 0.25;
-  const worlds::Scenario scenario = short_drive();
+  const Experiment experiment = short_drive();
+  const worlds::Scenario& scenario = experiment.scenario;
   const Detector ours = our_detector(detector_setup(scenario));
   std::vector<std::size_t> frames;
   std::vector<std::int64_t> stamps;
@@ -39,8 +40,8 @@ TEST(CallableDetector, IsAskedInPlaceOfOursAndScoredAlike) {
     if (whole != balls.end()) whole->colour = slam::kUnknown;
     return balls;
   };
-  const Recording plain = record(scenario, 0, {});
-  const Recording wrong = record(scenario, 0, {}, renderer::Backend::kOsmesa, off);
+  const Recording plain = record(experiment, 0, {});
+  const Recording wrong = record(experiment, 0, {}, renderer::Backend::kOsmesa, off);
   EXPECT_EQ(plain.detector, "stereobench");
   EXPECT_EQ(wrong.detector, "callable");
   ASSERT_EQ(frames.size(), scenario.path.size());

@@ -230,13 +230,13 @@ TEST(Shutter, LooksLateAsOftenAsAsked) {
     EXPECT_NE(is_late, looks_like(0.0));
     late += is_late ? 1 : 0;
   };
-  record(scenario, 1, {.on_frame = count_late});
+  record({.scenario = scenario}, 1, {.on_frame = count_late});
   const double steps = static_cast<double>(scenario.path.size() - 1);
   EXPECT_NEAR(late, 0.5 * steps, 3.29 * std::sqrt(0.25 * steps));
 }
 
 double mean_range_ratio(const worlds::Scenario& scenario) {
-  const MeasurementLog log = record(scenario, 0, {}).log;
+  const MeasurementLog log = record({.scenario = scenario}, 0, {}).log;
   double sum = 0.0;
   int count = 0;
   for (const LogStep& step : log.steps) {
@@ -321,7 +321,7 @@ TEST(Rigs, ABallThatTheBorderCutsIsNotMeasuredBehindALens) {
         measured += seen.trusted() ? 1 : 0;
       }
     };
-    record(scenario, 0, {.on_frame = check});
+    record({.scenario = scenario}, 0, {.on_frame = check});
     EXPECT_GT(measured, 5);
   }
 }
@@ -331,7 +331,8 @@ TEST(Frames, AreLostAsOftenAsAsked) {
   scenario.shutter.drop_probability = 1.0;
   const auto looks = [&] {
     int count = 0;
-    const Recording recording = record(scenario, 1, {.on_frame = [&](const FrameEvent&) { ++count; }});
+    const Recording recording =
+        record({.scenario = scenario}, 1, {.on_frame = [&](const FrameEvent&) { ++count; }});
     EXPECT_EQ(recording.log.steps.size(), scenario.path.size());
     return count;
   };

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "harness/detector/detector.h"
+#include "harness/experiment/experiment.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/run/assemble.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -76,12 +76,13 @@ vision::BallObservation imagined() {
 
 // End to end: what a detector imagines is in the filters' maps, as nobody's. Mutation: as above.
 TEST(SightingsOf, WhatADetectorImaginesIsInTheMap) {
-  worlds::Scenario scenario = worlds::read_scenario(
+  Experiment experiment = read_experiment(
       scenario_path("ball_circle"),
       {"path.laps=0.05", "rig.width_px=256", "rig.height_px=192", "rig.focal_px=222", "filters=[fastslam2]"});
+  worlds::Scenario& scenario = experiment.scenario;
   std::erase_if(scenario.world.balls, [](const worlds::Ball& ball) { return ball.colour == 17; });
   scenario.world.meshes.clear();  // stands name their balls by place
-  const DriveTask task{.scenario = &scenario, .detector = [](const DetectorInput&) {
+  const DriveTask task{.experiment = &experiment, .detector = [](const DetectorInput&) {
                          return std::vector<vision::BallObservation>{imagined()};
                        }};
   const RunResult result = assemble("name", "osmesa", {drive_seed(task, [](double) {})});

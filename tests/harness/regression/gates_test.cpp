@@ -13,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using worlds::Gate;
 
 const Gate kAtMostHalf{"filters.ufastslam.ate_rms_m.mean", Gate::Relation::kAtMost, 0.5};
 
@@ -60,12 +59,12 @@ TEST(Gates, AMetricWithoutValueIsBroken) {
 
 // Mutation: keeping all gates.
 TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
-  worlds::Scenario scenario;
-  scenario.gates = {
+  Experiment experiment;
+  experiment.gates = {
       kAtMostHalf, {"vision.recall"}, {"filters.fastslam2.failures"}, {"filters.nobody.failures"}};
-  EXPECT_EQ(gates_of(scenario).size(), 4U);
-  scenario.filters = {"dead_reckoning", "fastslam2"};
-  const auto gates = gates_of(scenario);
+  EXPECT_EQ(gates_of(experiment).size(), 4U);
+  experiment.filters = {"dead_reckoning", "fastslam2"};
+  const auto gates = gates_of(experiment);
   ASSERT_EQ(gates.size(), 3U);
   EXPECT_EQ(gates[0].metric, "vision.recall");
   EXPECT_EQ(gates[1].metric, "filters.fastslam2.failures");
@@ -74,9 +73,9 @@ TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
 
 // Mutations: no check; letting objects and text pass as numbers.
 TEST(Gates, NameANumberOfTheResultBeforeAnythingIsRun) {
-  worlds::Scenario scenario;
+  Experiment experiment;
   const auto check = [&](const std::string& metric) {
-    check_metrics(std::vector{Gate{metric}}, result_without_values(scenario));
+    check_metrics(std::vector{Gate{metric}}, result_without_values(experiment));
   };
   for (const char* metric : {"vision.recall", "vision.flagged", "filters.ufastslam.ate_rms_m.mean",
                              "filters.dead_reckoning.landmarks.missed", "filters.fastslam2.failures"})

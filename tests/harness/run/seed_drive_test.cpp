@@ -12,14 +12,13 @@ namespace stereobench::harness {
 namespace {
 
 /// A short drive through three balls that each seed moves a little, sensed without pixels.
-worlds::Scenario short_drive() {
-  worlds::Scenario scenario{.name = "short"};
+Experiment short_drive() {
+  Experiment experiment{.scenario = {.name = "short"}, .particles = 5};
+  worlds::Scenario& scenario = experiment.scenario;
   scenario.world.balls = {{{2.0, 1.0, 0.3}, 0.1, 0}, {{3.0, -1.0, 0.3}, 0.1, 1}, {{4.0, 0.5, 0.3}, 0.1, 2}};
   scenario.placement_jitter_m = 0.1;
   scenario.sensor = worlds::SensorKind::kOracle;
   scenario.odometry_noise = {.v_constant_mps = 0.05, .w_constant_radps = 0.05};
-  scenario.believed_odometry_noise = scenario.odometry_noise;
-  scenario.particles = 5;
   slam::Pose pose{0.5, 0.0, 0.1};
   for (int k = 0; k < 30; ++k) {
     worlds::PathStep step{.stamp_ns = k * 500'000'000LL, .pose = pose};
@@ -27,7 +26,7 @@ worlds::Scenario short_drive() {
     for (const slam::Control& control : step.controls) step.pose = pose = slam::advance(pose, control);
     scenario.path.push_back(step);
   }
-  return scenario;
+  return experiment;
 }
 
 constexpr SeedParts kAll = {.steps = true, .map = true};
@@ -51,8 +50,9 @@ std::vector<SeedResult> results_of(const std::vector<DriveTask>& tasks, int jobs
   return results;
 }
 
-double largest_odometry_error_mps(const worlds::Scenario& scenario) {
-  const MeasurementLog log = record(scenario, 3, {}).log;
+double largest_odometry_error_mps(const Experiment& experiment) {
+  const worlds::Scenario& scenario = experiment.scenario;
+  const MeasurementLog log = record(experiment, 3, {}).log;
   double largest = 0.0;
   for (std::size_t k = 0; k < log.steps.size(); ++k)
     for (std::size_t i = 0; i < log.steps[k].odometry.size(); ++i)
@@ -63,10 +63,11 @@ double largest_odometry_error_mps(const worlds::Scenario& scenario) {
 
 // Mutation: true odometry in place of the measured one.
 TEST(Record, OdometryIsMeasuredAndTruthIsNot) {
-  worlds::Scenario scenario = short_drive();
-  EXPECT_GT(largest_odometry_error_mps(scenario), 0.02);
+  Experiment experiment = short_drive();
+  worlds::Scenario& scenario = experiment.scenario;
+  EXPECT_GT(largest_odometry_error_mps(experiment), 0.02);
   scenario.odometry_noise = {};
-  EXPECT_EQ(largest_odometry_error_mps(scenario), 0.0);
+  EXPECT_EQ(largest_odometry_error_mps(experiment), 0.0);
   const MeasurementLog log = record(short_drive(), 3, {}).log;
   ASSERT_EQ(log.steps.size(), scenario.path.size());
   for (std::size_t k = 0; k < log.steps.size(); ++k) {
@@ -79,8 +80,8 @@ TEST(Record, OdometryIsMeasuredAndTruthIsNot) {
 
 // What is varied in a sweep must not move the world or the odometry of a seed.
 TEST(Record, WorldAndOdometryOfASeedDoNotDependOnTheSensor) {
-  worlds::Scenario noisy = short_drive();
-  noisy.oracle.range_sd_m *= 3.0;
+  Experiment noisy = short_drive();
+  noisy.scenario.oracle.range_sd_m *= 3.0;
   const MeasurementLog log = record(short_drive(), 3, {}).log;
   const MeasurementLog other = record(noisy, 3, {}).log;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(log.landmarks[i].position_m, other.landmarks[i].position_m);
@@ -93,11 +94,12 @@ TEST(Record, WorldAndOdometryOfASeedDoNotDependOnTheSensor) {
 // each other: the sum of 400 products of independent unit normals has a standard deviation of 20, and of 400
 // squares of 28.
 TEST(Record, OdometryAndSensorErrAnewWithEachSeedAndEachOnItsOwn) {
-  const worlds::Scenario scenario = short_drive();
+  const Experiment experiment = short_drive();
+  const worlds::Scenario& scenario = experiment.scenario;
   double squares = 0.0;
   double products = 0.0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const MeasurementLog log = record(scenario, seed, {}).log;
+    const MeasurementLog log = record(experiment, seed, {}).log;
     const slam::RangeBearing& sighting = log.steps[0].measurements.at(0);
     const Eigen::Vector2d place_m =
         log.landmarks[static_cast<std::size_t>(sighting.landmark_id)].position_m - Eigen::Vector2d(0.5, 0.0);
@@ -122,55 +124,39 @@ TEST(Record, ProgressGrowsToOne) {
 // The bound is that of the odometry's real noise, whatever the filters believe; the batch believes what they
 // do. Mutation: either one told the other's.
 TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
-  const worlds::Scenario honest = short_drive();
-  worlds::Scenario deceived = honest;
-  deceived.believed_odometry_noise.v_constant_mps *= 5.0;
+  const Experiment honest = short_drive();
+  Experiment deceived = honest;
+  deceived.believed.odometry_noise = honest.scenario.odometry_noise;
+  deceived.believed.odometry_noise->v_constant_mps *= 5.0;
   const References one = drive_seed({&honest, 3}, [](double) {}).references;
   const References two = drive_seed({&deceived, 3}, [](double) {}).references;
-  ASSERT_EQ(one.bound.value().poses.size(), honest.path.size());
+  ASSERT_EQ(one.bound.value().poses.size(), honest.scenario.path.size());
   EXPECT_EQ(one.bound->landmarks.size(), 3U);
   EXPECT_EQ(one.bound->poses.back(), two.bound.value().poses.back());
-  EXPECT_EQ(one.batch.poses.size(), honest.path.size());
+  EXPECT_EQ(one.batch.poses.size(), honest.scenario.path.size());
   EXPECT_NE(one.batch.poses.back().x_m, two.batch.poses.back().x_m);
   EXPECT_FALSE(one.batch.failed);
 }
 
-// Mutation: a scenario's law that the filters are not told.
+// Mutation: an experiment's law that the filters are not told.
 TEST(DriveSeed, TellsTheFiltersWhatToBelieveOfTheSensor) {
-  worlds::Scenario scenario = short_drive();
-  const SeedDrive stated = drive_seed({&scenario, 3}, [](double) {});
-  scenario.believed_measurement_noise = {.range_sd_m = scenario.oracle.range_sd_m,
-                                         .bearing_sd_rad = scenario.oracle.bearing_sd_rad};
-  const SeedDrive same = drive_seed({&scenario, 3}, [](double) {});
+  Experiment experiment = short_drive();
+  const worlds::OracleSensor& oracle = experiment.scenario.oracle;
+  const SeedDrive stated = drive_seed({&experiment, 3}, [](double) {});
+  experiment.believed.measurement_noise = {.range_sd_m = oracle.range_sd_m,
+                                           .bearing_sd_rad = oracle.bearing_sd_rad};
+  const SeedDrive same = drive_seed({&experiment, 3}, [](double) {});
   EXPECT_EQ(bytes_without_timing(stated), bytes_without_timing(same));
-  scenario.believed_measurement_noise->range_sd_per_m2 = 0.1;
-  const SeedDrive other = drive_seed({&scenario, 3}, [](double) {});
+  experiment.believed.measurement_noise->range_sd_per_m2 = 0.1;
+  const SeedDrive other = drive_seed({&experiment, 3}, [](double) {});
   EXPECT_NE(stated.runs.back().poses.back().x_m, other.runs.back().poses.back().x_m);
-}
-
-// The oracle is what it is, and filters may be told otherwise. Mutations: the true sector, or the default
-// refit, whatever the scenario says; a sector for cameras.
-TEST(FilterConfigOfAScenario, IsWhatFiltersAreToBelieve) {
-  worlds::Scenario scenario = short_drive();
-  scenario.oracle.max_range_m = 12.0;
-  scenario.oracle.false_per_look = 2.0;
-  EXPECT_EQ(filter_config(scenario).sector.range_m, 12.0);
-  EXPECT_EQ(filter_config(scenario).sector.false_per_look, 2.0);
-  EXPECT_TRUE(filter_config(scenario).refit);
-  scenario.believed_sector = slam::SensorSector{6.0, 0.5, 0.2, 0.1};
-  scenario.refit = false;
-  EXPECT_EQ(filter_config(scenario).sector.range_m, 6.0);
-  EXPECT_EQ(filter_config(scenario).sector.false_per_look, 0.1);
-  EXPECT_FALSE(filter_config(scenario).refit);
-  scenario.sensor = worlds::SensorKind::kStereo;
-  EXPECT_EQ(filter_config(scenario).sector.range_m, 0.0);
 }
 
 // Mutations: filters seeded by the worker's process, or all alike.
 TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
-  const worlds::Scenario scenario = short_drive();
+  const Experiment experiment = short_drive();
   std::vector<DriveTask> tasks;
-  for (const std::uint64_t seed : {4U, 2U, 9U, 0U}) tasks.push_back({&scenario, seed, kAll});
+  for (const std::uint64_t seed : {4U, 2U, 9U, 0U}) tasks.push_back({&experiment, seed, kAll});
   const auto one = results_of(tasks, 1);
   ASSERT_EQ(one.size(), tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i)
@@ -183,9 +169,9 @@ TEST(DriveSeeds, GivesTheSameBytesForAnyNumberOfJobs) {
 // Cells of a sweep differ in what is varied alone: here in pixel noise, which the oracle does not have.
 // Mutation: filter seeds that depend on the cell.
 TEST(DriveSeeds, CellsOfASweepShareTheirSeeds) {
-  const worlds::Scenario cell = short_drive();
-  worlds::Scenario other = cell;
-  other.camera.noise_sd_levels = 4.0;
+  const Experiment cell = short_drive();
+  Experiment other = cell;
+  other.scenario.camera.noise_sd_levels = 4.0;
   const std::vector<DriveTask> tasks = {
       {&cell, 1, kAll}, {&cell, 2, kAll}, {&other, 1, kAll}, {&other, 2, kAll}};
   const auto drives = results_of(tasks, 2);

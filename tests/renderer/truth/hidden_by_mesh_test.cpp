@@ -13,7 +13,7 @@
 #include "renderer/truth/ball_truth.h"
 #include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
-#include "worlds/scenario/scenario.h"
+#include "tests/worlds/scenario/read_scenario.h"
 #include "worlds/visibility/visibility.h"
 
 namespace stereobench::renderer {

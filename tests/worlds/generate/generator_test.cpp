@@ -5,12 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "tests/worlds/visibility/obj_solids.h"
 #include "tests/worlds/visibility/views.h"
 #include "worlds/drive/path.h"
-#include "worlds/scenario/scenario.h"
-#include "worlds/scenario/write_scenario.h"
 #include "worlds/visibility/visibility.h"
 
 namespace stereobench::worlds {

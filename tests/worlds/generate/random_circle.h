@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/visibility/obj_solids.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::worlds {
 

@@ -13,7 +13,6 @@
 #include "tests/worlds/visibility/views.h"
 #include "worlds/generate/paint.h"
 #include "worlds/generate/randomise.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::worlds {
 namespace {

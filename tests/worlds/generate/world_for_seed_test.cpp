@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
-#include "worlds/scenario/scenario.h"
 
 namespace stereobench::worlds {
 namespace {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 
 namespace stereobench::worlds {
@@ -38,24 +39,11 @@ constexpr BadOverride kBadOverrides[] = {
     {"world.balls.0=3", "--set world.balls.0: expected an entry of the list, e.g. world.balls[0]"},
     {"path.lap=3", "--set path.lap: unknown key, did you mean laps?"},
     {"colour=3", "--set colour: unknown key"},
-    {"particles=many", "--set particles: expected a whole number from 1 to 100000 (got many)"},
-    {"particles=", "--set particles: expected a whole number from 1 to 100000 (got nothing)"},
+    {"rig.width_px=many", "--set rig.width_px: expected a whole number from 16 to 4096 (got many)"},
+    {"rig.width_px=", "--set rig.width_px: expected a whole number from 16 to 4096 (got nothing)"},
     {"world.sky_rgb=[0, 1, 7]", "--set world.sky_rgb[2]: expected a number from 0 to 1 (got 7)"},
     {"camera=[1", "--set camera: expected a YAML value ("},
     {"path.radius_m=10000", "--set path.radius_m: expected at most"},
-    {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
-    {"believed_oracle.range_sd_m=8", "--set believed_oracle.range_sd_m: unknown key"},
-    {"refit=maybe", "--set refit: expected true or false (got maybe)"},
-    {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
-    {"believed_measurement_noise.kind=laser",
-     "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got "
-     "laser)"},
-    {"believed_measurement_noise={kind: per_observation, range_sd_m: 1}",
-     "--set believed_measurement_noise.range_sd_m: unknown key"},
-    {"believed_measurement_noise={kind: constant, disparity_sd_px: 1}",
-     "--set believed_measurement_noise.disparity_sd_px: unknown key"},
-    {"believed_measurement_noise={kind: stereo, disparity_sd_px: -1, bearing_sd_px: 1}",
-     "--set believed_measurement_noise.disparity_sd_px: expected a number from 0 to 100 (got -1)"},
 };
 INSTANTIATE_TEST_SUITE_P(All, BadOverrides, testing::ValuesIn(kBadOverrides));
 

@@ -110,9 +110,9 @@ inline std::vector<Context> contexts_of(const Context& above) {
   return contexts;
 }
 
-/// All groups of a scenario.
-inline std::vector<Context> all_contexts() {
-  return contexts_of({.group = &scenario_keys()});
+/// All groups of a scenario. @param top the keys of its file
+inline std::vector<Context> all_contexts(const KeyGroup& top) {
+  return contexts_of({.group = &top});
 }
 
 /// The keys that groups of the context's kind have.

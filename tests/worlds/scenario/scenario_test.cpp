@@ -1,6 +1,4 @@
 // A scenario says what its file says.
-#include "worlds/scenario/scenario.h"
-
 #include <locale>
 #include <numbers>
 #include <string>
@@ -10,15 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "slam/math/angles.h"
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "worlds/drive/path.h"
-#include "worlds/scenario/seeds.h"
-#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::worlds {
 namespace {
-
-using testing::ElementsAre;
 
 Scenario read_small(const std::vector<std::string>& overrides = {}) {
   const ScenarioFolder folder;
@@ -28,15 +23,9 @@ Scenario read_small(const std::vector<std::string>& overrides = {}) {
 TEST(Scenario, SaysWhoLooksHow) {
   const Scenario scenario = read_small();
   EXPECT_EQ(scenario.name, "small");
-  EXPECT_THAT(scenario.seeds, ElementsAre(0, 1, 2));
-  EXPECT_THAT(scenario.filters, ElementsAre("dead_reckoning", "ufastslam"));
-  EXPECT_EQ(scenario.particles, 20);
   EXPECT_EQ(scenario.sensor, SensorKind::kStereo);
   EXPECT_EQ(scenario.identity, Identity::kKnown);
   EXPECT_EQ(scenario.camera.noise_sd_levels, 1.0);
-  EXPECT_EQ(scenario.gates.at(0).metric, "vision.recall");
-  EXPECT_EQ(scenario.gates.at(0).relation, Gate::Relation::kAtLeast);
-  EXPECT_EQ(scenario.gates.at(0).limit, 0.9);
 }
 
 // Catches: degrees taken for radians, a principal point at width / 2.
@@ -53,13 +42,11 @@ TEST(Scenario, TurnsDegreesIntoRadiansAndCentresTheCamera) {
 
 // Mutations: the two lists of names in another order than what they name.
 TEST(Scenario, SaysHowLandmarksAreToldApart) {
-  EXPECT_EQ(read_small().association, slam::Association::kJoint);
   EXPECT_EQ(read_small().oracle.false_per_look, 0.0);
   EXPECT_EQ(read_small().oracle.miss_probability, 0.0);
-  const Scenario scenario = read_small({"identity=none", "association=individual",
-                                        "oracle.false_per_look=0.5", "oracle.miss_probability=0.1"});
+  const Scenario scenario =
+      read_small({"identity=none", "oracle.false_per_look=0.5", "oracle.miss_probability=0.1"});
   EXPECT_EQ(scenario.identity, Identity::kNone);
-  EXPECT_EQ(scenario.association, slam::Association::kIndividual);
   EXPECT_EQ(scenario.oracle.false_per_look, 0.5);
   EXPECT_EQ(scenario.oracle.miss_probability, 0.1);
 }
@@ -82,16 +69,13 @@ TEST(Scenario, BuildsTheWorld) {
 }
 
 TEST(Scenario, OverridesReplaceWhatTheFileSaysAndAddWhatItLeavesOut) {
-  const Scenario scenario =
-      read_small({"path.laps=2", "camera.noise_sd_levels=4", "particles=7", "seeds=3,5",
-                  "filters=[fastslam2]", "believed_odometry_noise.v_per_v=0.5", "particles=8"});
-  EXPECT_NEAR(length_m(scenario.path), 4 * std::numbers::pi, 1e-12);
+  const Scenario scenario = read_small({"path.laps=3", "camera.noise_sd_levels=4", "colour_spacing_m=0.5",
+                                        "odometry_noise.w_per_w=0.5", "path.laps=2"});
+  EXPECT_NEAR(length_m(scenario.path), 4 * std::numbers::pi, 1e-12) << "the last one counts";
   EXPECT_EQ(scenario.camera.noise_sd_levels, 4.0);
-  EXPECT_EQ(scenario.particles, 8) << "the last one counts";
-  EXPECT_THAT(scenario.seeds, ElementsAre(3, 5));
-  EXPECT_THAT(scenario.filters, ElementsAre("fastslam2"));
+  EXPECT_EQ(scenario.colour_spacing_m, 0.5);
   EXPECT_EQ(scenario.odometry_noise.v_per_v, 0.1);
-  EXPECT_EQ(scenario.believed_odometry_noise.v_per_v, 0.5);
+  EXPECT_EQ(scenario.odometry_noise.w_per_w, 0.5);
 }
 
 TEST(Scenario, ReadsHowOftenTheOdometryIsRead) {
@@ -102,68 +86,6 @@ TEST(Scenario, ReadsHowOftenTheOdometryIsRead) {
                 .path.at(1)
                 .controls.size(),
             8U);
-}
-
-// Catches: a belief that stays at the file's noise when the true noise is overridden.
-TEST(Scenario, BelievesTheTrueNoiseUnlessToldOtherwise) {
-  const Scenario scenario = read_small({"odometry_noise.v_per_v=0.02"});
-  EXPECT_EQ(scenario.believed_odometry_noise.v_per_v, 0.02);
-  EXPECT_EQ(scenario.believed_odometry_noise.w_constant_radps, scenario.odometry_noise.w_constant_radps);
-}
-
-// What filters are told of an oracle's sector and rates is a line of its own. Catches: the truth told in any
-// case, and what is left out taken for 0.
-TEST(Scenario, BelievesTheTrueOracleUnlessToldOtherwise) {
-  const std::vector<std::string> oracle = {
-      "sensor=oracle",
-      "oracle={range_sd_m: 0.1, bearing_sd_deg: 1, max_range_m: 8, field_of_view_deg: 90, "
-      "miss_probability: 0.1, false_per_look: 2}"};
-  EXPECT_FALSE(read_small(oracle).believed_sector);
-  std::vector<std::string> lines = oracle;
-  lines.emplace_back("believed_oracle.false_per_look=0.5");
-  const slam::SensorSector rarer = read_small(lines).believed_sector.value();
-  EXPECT_EQ(rarer.false_per_look, 0.5);
-  EXPECT_EQ(rarer.range_m, 8.0);
-  EXPECT_EQ(rarer.half_angle_rad, std::numbers::pi / 4.0);
-  EXPECT_EQ(rarer.miss_probability, 0.1);
-  lines.back() = "believed_oracle={max_range_m: 0, field_of_view_deg: 60, miss_probability: 0.3}";
-  const slam::SensorSector none = read_small(lines).believed_sector.value();
-  EXPECT_EQ(none.range_m, 0.0) << "nothing is declared";
-  EXPECT_NEAR(none.half_angle_rad, std::numbers::pi / 6.0, 1e-15);
-  EXPECT_EQ(none.miss_probability, 0.3);
-  EXPECT_EQ(none.false_per_look, 2.0);
-  EXPECT_EQ(read_small(lines).oracle.false_per_look, 2.0) << "the sensor stays as it is";
-}
-
-TEST(Scenario, SaysWhetherFiltersRefit) {
-  EXPECT_TRUE(read_small().refit);
-  EXPECT_FALSE(read_small({"refit=false"}).refit);
-}
-
-// 500 px and 0.1 m. Catches: pixels that are taken for metres, and a law that is told to nobody's rig.
-TEST(Scenario, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
-  EXPECT_FALSE(read_small().believed_measurement_noise);
-  EXPECT_FALSE(read_small({"believed_measurement_noise={kind: per_observation}"}).believed_measurement_noise);
-  const auto constant =
-      read_small({"believed_measurement_noise={kind: constant, range_sd_m: 0.3, bearing_sd_deg: 3}"})
-          .believed_measurement_noise.value();
-  EXPECT_EQ(constant.range_sd_m, 0.3);
-  EXPECT_EQ(constant.range_sd_per_m2, 0.0);
-  EXPECT_NEAR(constant.bearing_sd_rad, 0.0523598775598299, 1e-15);
-  const auto stereo =
-      read_small({"believed_measurement_noise={kind: stereo, disparity_sd_px: 0.2, bearing_sd_px: 0.1}"})
-          .believed_measurement_noise.value();
-  EXPECT_EQ(stereo.range_sd_m, 0.0);
-  EXPECT_NEAR(stereo.range_sd_per_m2, 0.004, 1e-15);
-  EXPECT_NEAR(stereo.bearing_sd_rad, 0.0002, 1e-15);
-}
-
-TEST(Scenario, ReadsByHowMuchStatedNoiseIsTooSmall) {
-  EXPECT_EQ(read_small().stated_sd_scale, Eigen::Vector2d::Ones());
-  const Scenario scenario = read_small(
-      {"believed_measurement_noise={kind: per_observation, range_sd_scale: 1.5, bearing_sd_scale: 0.9}"});
-  EXPECT_FALSE(scenario.believed_measurement_noise);
-  EXPECT_EQ(scenario.stated_sd_scale, Eigen::Vector2d(1.5, 0.9));
 }
 
 TEST(Scenario, ReadsTheCameraAndItsShutter) {
@@ -235,21 +157,6 @@ TEST(Scenario, ReadsNumbersWithoutTheLocale) {
   std::locale::global(before);
   EXPECT_EQ(scenario.rig.baseline_m, 0.15);
   EXPECT_EQ(scenario.rig.height_m, 0.3);
-}
-
-TEST(Seeds, AreReadAsPeopleWriteThem) {
-  EXPECT_THAT(parse_seeds("0..3"), ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(parse_seeds("7"), ElementsAre(7));
-  EXPECT_THAT(parse_seeds("4,0,18446744073709551615"), ElementsAre(4, 0, 18446744073709551615ULL));
-  EXPECT_THAT(parse_seeds("18446744073709551615..18446744073709551615"),
-              ElementsAre(18446744073709551615ULL));
-}
-
-TEST(Seeds, ThatAreNoneAreRefused) {
-  for (const char* text : {"", ",", "1,", "..", "1..", "..2", "3..1", "a", "-1", "1.5", "1,1", "0..10000",
-                           " 1", "18446744073709551616", "0..1..2"}) {
-    EXPECT_THROW(parse_seeds(text), std::invalid_argument) << text;
-  }
 }
 
 TEST(ScenarioMesh, SaysUnitUpAxisPoseScaleAndMaterial) {

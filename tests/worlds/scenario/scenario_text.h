@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include "worlds/scenario/scenario.h"
-
 namespace stereobench::worlds {
 
 /// A scenario with every group of keys. Line 1 is `name`.
@@ -89,15 +87,10 @@ inline std::string small_scenario_with(const std::string& piece, const std::stri
   return text.replace(at, piece.size(), instead);
 }
 
-/// What reading a file is refused with.
-inline std::string complaint_about(const std::filesystem::path& file,
-                                   const std::vector<std::string>& overrides = {}) {
-  try {
-    read_scenario(file, overrides);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+/// The small scenario without floor and meshes, which a key may be set beside.
+inline std::string bare_small_scenario() {
+  std::string text = small_scenario_with("  floor: bricks\n", "");
+  return text.erase(text.find("  meshes:"), text.find("  ball_radius_m") - text.find("  meshes:"));
 }
 
 }  // namespace stereobench::worlds

@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "worlds/generate/randomise.h"
-#include "worlds/scenario/scenario.h"
-#include "worlds/scenario/write_scenario.h"
 
 namespace stereobench::worlds {
 namespace {

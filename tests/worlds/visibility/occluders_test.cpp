@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/worlds/generate/random_circle.h"
+#include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "tests/worlds/visibility/obj_solids.h"
 #include "tests/worlds/visibility/views.h"
-#include "worlds/scenario/scenario.h"
 #include "worlds/visibility/visibility.h"
 
 namespace stereobench::worlds {

@@ -103,6 +103,36 @@ TEST(Fields, HaveTheDefaultsOfTheirMembers) {
   EXPECT_EQ(lamp_keys().find("at_m")->lengths.most, 2U) << "as long as the member";
 }
 
+/// A lamp that hangs somewhere.
+struct HungLamp {
+  Lamp lamp = {.blinks = 5};
+  double cable_m = 1.5;
+};
+
+std::vector<Field<HungLamp>> hung_lamp_fields() {
+  std::vector<Field<HungLamp>> fields = lifted(&HungLamp::lamp, lamp_keys().fields());
+  insert_behind("blinks", {number("cable_m", {0.0, 9.0}, "Length.").fills(&HungLamp::cable_m)}, fields);
+  return joined<HungLamp>({fields, {group("read_by_hand", bulb_keys(), "A bulb.")}});
+}
+
+// A table may be made of another one's. Mutations: a lifted default that is not the outer struct's; a key
+// that is read by hand read by nobody's function; a key put before the named one.
+TEST(Fields, OfAMemberStandAmongOthers) {
+  const Fields<HungLamp> keys(hung_lamp_fields());
+  EXPECT_EQ(keys.keys.at(2).name, "cable_m");
+  EXPECT_EQ(keys.keys.size(), lamp_keys().keys.size() + 2);
+  EXPECT_EQ(keys.find("blinks")->fallback, "5");
+  EXPECT_EQ(keys.find("angle")->fallback, "1");
+  const YamlDocument document{"lamp.yaml", {}, YAML::Load("{angle: 3, cable_m: 2, read_by_hand: {}}")};
+  const HungLamp hung = keys.read(YamlValue(document, "", document.root, document.root.Mark()));
+  EXPECT_EQ(hung.lamp.angle_rad, 1.5);
+  EXPECT_EQ(hung.lamp.blinks, 5);
+  EXPECT_EQ(hung.cable_m, 2.0);
+  EXPECT_FALSE(keys.write(hung)["read_by_hand"]);
+  std::vector<Field<HungLamp>> none;
+  EXPECT_THROW(insert_behind("blinks", {}, none), std::logic_error);
+}
+
 TEST(Fields, RefuseWhatTheirKeysDoNotDeclare) {
   const auto complaint = [](const std::string& yaml) {
     try {

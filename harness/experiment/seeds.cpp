@@ -1,10 +1,10 @@
-#include "worlds/scenario/seeds.h"
+#include "harness/experiment/seeds.h"
 
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
-namespace stereobench::worlds {
+namespace stereobench::harness {
 namespace {
 
 constexpr std::size_t kMostSeeds = 10000;
@@ -42,4 +42,4 @@ std::vector<std::uint64_t> parse_seeds(std::string_view text) {
   }
 }
 
-}  // namespace stereobench::worlds
+}  // namespace stereobench::harness

@@ -1,10 +1,16 @@
-#include "worlds/scenario/scenario_parts.h"
+#include "harness/experiment/experiment_parts.h"
 
-namespace stereobench::worlds {
-
+namespace stereobench::harness {
 namespace {
 
-constexpr Interval kLimit = {-1e12, 1e12};
+using worlds::Fields;
+using worlds::Key;
+using worlds::number;
+using worlds::text;
+using worlds::YamlMap;
+using worlds::YamlValue;
+
+constexpr worlds::Interval kLimit = {-1e12, 1e12};
 
 std::function<void(const YamlValue&, Gate&)> limit(Gate::Relation relation) {
   return [relation](const YamlValue& value, Gate& gate) {
@@ -44,4 +50,4 @@ const Fields<Gate>& gate_keys() {
   return keys;
 }
 
-}  // namespace stereobench::worlds
+}  // namespace stereobench::harness

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stereobench::worlds {
+namespace stereobench::harness {
 
 /// Reads "0..9" (both ends included), "3" or "0,4,7".
 ///
@@ -14,4 +14,4 @@ namespace stereobench::worlds {
 ///         than 10000 of them
 std::vector<std::uint64_t> parse_seeds(std::string_view text);
 
-}  // namespace stereobench::worlds
+}  // namespace stereobench::harness

@@ -1,9 +1,16 @@
-
+#include "harness/experiment/experiment_parts.h"
 #include "slam/math/angles.h"
-#include "worlds/scenario/scenario_parts.h"
 
-namespace stereobench::worlds {
+namespace stereobench::harness {
 namespace {
+
+using worlds::choice;
+using worlds::Fields;
+using worlds::Interval;
+using worlds::number;
+using worlds::text;
+using worlds::YamlMap;
+using worlds::YamlValue;
 
 constexpr Interval kNoise = {0.0, 100.0};
 constexpr Interval kScale = {1e-3, 1e3};
@@ -94,7 +101,7 @@ MeasurementNoise noise_of(const Lines& lines, const YamlValue& value,
 
 }  // namespace
 
-const KeyGroup& measurement_noise_keys() {
+const worlds::KeyGroup& measurement_noise_keys() {
   return line_keys();
 }
 
@@ -103,10 +110,10 @@ MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optio
   if (lines.kind != Kind::kFile) return noise_of(lines, value, rig);
   if (!std::filesystem::is_regular_file(lines.file))
     YamlMap(value, line_keys()).at("file").fail("expected a file that `stereobench calibrate` wrote");
-  const YamlDocument document = load_yaml(lines.file);
+  const worlds::YamlDocument document = worlds::load_yaml(lines.file);
   const YamlValue law(document, "", document.root, document.root.Mark());
   check_keys(law, line_keys());
   return noise_of(line_keys().read(law), law, rig);
 }
 
-}  // namespace stereobench::worlds
+}  // namespace stereobench::harness

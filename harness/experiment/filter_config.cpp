@@ -1,0 +1,26 @@
+#include "harness/experiment/filter_config.h"
+
+namespace stereobench::harness {
+
+slam::SensorSector sector_of(const worlds::OracleSensor& sensor) {
+  return {sensor.max_range_m, sensor.field_of_view_rad / 2.0, sensor.miss_probability, sensor.false_per_look};
+}
+
+slam::FilterConfig filter_config(const Experiment& experiment) {
+  const worlds::Scenario& scenario = experiment.scenario;
+  const FilterBeliefs& believed = experiment.believed;
+  slam::FilterConfig config;
+  config.particles = experiment.particles;
+  config.draw_every = experiment.draw_every;
+  config.refit = experiment.refit;
+  config.odometry_noise = believed.odometry_noise.value_or(scenario.odometry_noise);
+  config.noise_law = believed.measurement_noise;
+  config.stated_sd_scale = believed.stated_sd_scale;
+  config.colour_spacing_m = scenario.colour_spacing_m;
+  config.association = experiment.association;
+  if (scenario.sensor == worlds::SensorKind::kOracle)
+    config.sector = believed.sector.value_or(sector_of(scenario.oracle));
+  return config;
+}
+
+}  // namespace stereobench::harness

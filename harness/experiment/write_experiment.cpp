@@ -1,0 +1,48 @@
+#include "harness/experiment/write_experiment.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include "harness/experiment/experiment.h"
+#include "worlds/scenario/write_scenario.h"
+
+namespace stereobench::harness {
+namespace {
+
+std::string text_of(const YAML::Node& root) {
+  YAML::Emitter text;
+  text << root;
+  return std::string(text.c_str()) + "\n";
+}
+
+void gather_files(const YAML::Node& node, std::set<std::string>& files) {
+  for (const auto& entry : node) {
+    const YAML::Node& value = node.IsMap() ? entry.second : entry;
+    if (node.IsMap() && value.IsScalar() && entry.first.Scalar() == "file") files.insert(value.Scalar());
+    if (value.IsMap() || value.IsSequence()) gather_files(value, files);
+  }
+}
+
+}  // namespace
+
+std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return text_of(worlds::load_yaml(file, overrides).root);
+}
+
+std::set<std::string> files_named_in(const std::filesystem::path& file,
+                                     const std::vector<std::string>& overrides) {
+  std::set<std::string> files;
+  gather_files(worlds::load_yaml(file, overrides).root, files);
+  return files;
+}
+
+std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                        std::optional<std::uint64_t> seed, const worlds::OccluderReader& occluders) {
+  const Experiment experiment = read_experiment(file, overrides, occluders);
+  worlds::YamlDocument document = worlds::load_yaml(file, overrides, &experiment_keys());
+  worlds::name_file_from_anywhere(document, document.root["believed_measurement_noise"]);
+  worlds::write_world(experiment.scenario, seed, document);
+  if (seed) document.root["seeds"] = *seed;
+  return text_of(document.root);
+}
+
+}  // namespace stereobench::harness

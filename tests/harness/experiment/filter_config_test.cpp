@@ -1,0 +1,37 @@
+#include "harness/experiment/filter_config.h"
+
+#include <gtest/gtest.h>
+
+namespace stereobench::harness {
+namespace {
+
+// The oracle is what it is, and filters may be told otherwise. Mutations: the true sector, or the default
+// refit, whatever the experiment says; a sector for cameras.
+TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
+  Experiment experiment;
+  experiment.scenario.sensor = worlds::SensorKind::kOracle;
+  experiment.scenario.oracle.max_range_m = 12.0;
+  experiment.scenario.oracle.false_per_look = 2.0;
+  EXPECT_EQ(filter_config(experiment).sector.range_m, 12.0);
+  EXPECT_EQ(filter_config(experiment).sector.false_per_look, 2.0);
+  EXPECT_TRUE(filter_config(experiment).refit);
+  experiment.believed.sector = slam::SensorSector{6.0, 0.5, 0.2, 0.1};
+  experiment.refit = false;
+  EXPECT_EQ(filter_config(experiment).sector.range_m, 6.0);
+  EXPECT_EQ(filter_config(experiment).sector.false_per_look, 0.1);
+  EXPECT_FALSE(filter_config(experiment).refit);
+  experiment.scenario.sensor = worlds::SensorKind::kStereo;
+  EXPECT_EQ(filter_config(experiment).sector.range_m, 0.0);
+}
+
+// Mutations: the true noise in any case; none where nothing is said.
+TEST(FilterConfigOfAnExperiment, TellsTheTrueOdometryUnlessAnotherIsBelieved) {
+  Experiment experiment;
+  experiment.scenario.odometry_noise.v_per_v = 0.25;
+  EXPECT_EQ(filter_config(experiment).odometry_noise.v_per_v, 0.25);
+  experiment.believed.odometry_noise = slam::OdometryNoise{.v_per_v = 0.5};
+  EXPECT_EQ(filter_config(experiment).odometry_noise.v_per_v, 0.5);
+}
+
+}  // namespace
+}  // namespace stereobench::harness
