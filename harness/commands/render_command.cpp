@@ -9,9 +9,9 @@
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/standard_streams.h"
+#include "harness/dataset/formats/format_registry.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/seed_render.h"
-#include "harness/dataset/truth_limits.h"
 #include "harness/io/file_list.h"
 #include "harness/process/interruption.h"
 #include "harness/run/provenance.h"
@@ -24,6 +24,7 @@ namespace {
 struct RenderArguments {
   ScenarioArguments scenario;
   FrameChoice frames;
+  const DatasetFormat* format = &dataset_formats().front();
   TruthRequest truth;
 };
 
@@ -54,6 +55,7 @@ nlohmann::ordered_json identity_of(const RenderArguments& arguments, const Exper
     identity[kRowsWithin] = scenario.rows_within_px;
   for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
   if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
+  if (arguments.format != &dataset_formats().front()) identity["format"] = arguments.format->name;
   return identity;
 }
 
@@ -64,6 +66,7 @@ std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const Exp
   std::vector<std::uint64_t> seeds = arguments.scenario.run.seeds;
   if (seeds.empty()) seeds = {experiment.seeds.front()};
   const RenderTask any_seed = {.experiment = &experiment,
+                               .format = arguments.format,
                                .frames = frames,
                                .truth = arguments.truth,
                                .backend = arguments.scenario.backend,
@@ -98,8 +101,8 @@ void say_what_was_done(const RenderTask& task, const RenderedSeed& rendered) {
   if (rendered.was_complete)
     fmt::print("{} is complete and is left as it is\n", folder);
   else
-    fmt::print("{}: {} stereo pairs with ids, depth, calibration and truth in {}\n",
-               task.experiment->scenario.name, rendered.pairs, folder);
+    fmt::print("{}: {} stereo pairs with {} in {}\n", task.experiment->scenario.name, rendered.pairs,
+               task.format->holds, folder);
 }
 
 int render(const RenderArguments& arguments) {
@@ -110,7 +113,7 @@ int render(const RenderArguments& arguments) {
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
         arguments.scenario.scenario.string()));
-  require_truth(arguments.truth, scenario);
+  arguments.format->check(scenario, arguments.truth);
   const std::filesystem::path out = output_folder(run, scenario.name + "_dataset");
   const std::vector<RenderTask> tasks = render_tasks(arguments, experiment, out);
   check_folders(tasks, out);
@@ -133,6 +136,18 @@ int render(const RenderArguments& arguments) {
   return kPassed;
 }
 
+void add_format_option(CLI::App& command, const std::shared_ptr<RenderArguments>& arguments) {
+  std::string formats;
+  for (const DatasetFormat& format : dataset_formats())
+    formats += fmt::format("{}{} ({})", formats.empty() ? "" : ", ", format.name, format.holds);
+  command
+      .add_option_function<std::string>(
+          "--format", [arguments](const std::string& name) { arguments->format = &dataset_format(name); },
+          "how the files are laid out: " + formats)
+      ->type_name("NAME")
+      ->default_str(std::string(dataset_formats().front().name));
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& program, Action& action) {
@@ -147,6 +162,7 @@ void add_render_command(CLI::App& program, Action& action) {
           "which steps of the drive get pictures: 7, 0..90 or 0..90:10, every tenth of them (default: all); "
           "their files are the same as those of the whole drive")
       ->type_name("A..B:STEP");
+  add_format_option(*command, arguments);
   CLI::Option* const truth = command->add_option_function<std::string>(
       "--truth", [arguments](const std::string& text) { arguments->truth.kinds = parse_truth(text); },
       "further truth, comma-separated, of: balls, surface, range, normal, disparity, match, flow; or all");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/surfaces/primitives.h"
+#include "worlds/generate/paint.h"
 
 namespace stereobench::harness {
 namespace {
@@ -40,6 +41,17 @@ std::string ball_lines(const worlds::World& world, std::span<const renderer::Bal
   std::string lines;
   for (const renderer::BallTruth& truth : truths) lines += line(world, truth).dump() + "\n";
   return lines;
+}
+
+std::string balls_csv(const worlds::World& world) {
+  std::string csv = "ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m\n";
+  for (std::size_t i = 0; i < world.balls.size(); ++i) {
+    const worlds::Ball& ball = world.balls[i];
+    const Eigen::Vector3d rgb = 255.0 * worlds::paint_of(ball);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.x(), rgb.y(), rgb.z(),
+                       ball.centre_m.x(), ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
+  }
+  return csv;
 }
 
 std::string surfaces_csv(const worlds::World& world) {

@@ -1,4 +1,4 @@
-/// Truth of balls as JSON lines, and of surfaces as CSV.
+/// Truth of balls as JSON lines and CSV, and of surfaces as CSV.
 #pragma once
 
 #include <span>
@@ -12,6 +12,9 @@ namespace stereobench::harness {
 /// outline (an ellipse: centre_px, semi_axes_px, angle_rad), and by BOP's names px_count_all, px_count_visib,
 /// visib_fract, bbox_obj, bbox_visib ([left, top, width, height], four times -1 for none); truncated.
 std::string ball_lines(const worlds::World& world, std::span<const renderer::BallTruth> truths);
+
+/// The balls as CSV: ball_id, colour, its RGB, centre and radius.
+std::string balls_csv(const worlds::World& world);
 
 /// What each number of a surface picture is: surface_id, kind, index in the scenario's list of that kind.
 std::string surfaces_csv(const worlds::World& world);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/formats/stereobench_format.h"
 #include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
 #include "harness/io/json_line.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::size_t> frames_in(const fs::path& folder) {
   std::vector<std::size_t> frames;
-  if (!fs::is_directory(folder)) throw std::runtime_error(fmt::format("{}: no such folder", folder.string()));
+  if (!fs::is_directory(folder)) return frames;  // of a drive all of whose frames were dropped
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
     std::size_t frame = 0;
@@ -77,7 +78,7 @@ void read_finished(const fs::path& folder, const char* key,
 
 worlds::World read_balls(const fs::path& folder) {
   worlds::World world;
-  world.balls = balls_in(folder / "balls.csv");
+  world.balls = balls_in(folder / kBallsFile);
   read_finished(folder, kBallSize, [&](const JsonValue& value) {
     constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
     world.usual_radius_m = value.at("radius_m").number(kLeast_m, kMost_m);
@@ -93,22 +94,22 @@ std::optional<double> read_rows_within_px(const fs::path& folder) {
 }
 
 DatasetTruth read_dataset_truth(const fs::path& folder) {
-  if (!fs::exists(folder / "dataset.json"))
+  if (!fs::exists(folder / kFinishedDataset))
     throw std::runtime_error(fmt::format(
         "{}: expected a whole data set of `stereobench render` (it has no dataset.json)", folder.string()));
   DatasetTruth truth;
   truth.world = read_balls(folder);
-  truth.rig = read_calibration(folder / "true_calibration.yaml");
-  truth.believed_rig = read_calibration(folder / "calibration.yaml");
-  truth.frames = frames_in(folder / "left_id");
+  truth.rig = read_calibration(folder / kTrueCalibrationFile);
+  truth.believed_rig = read_calibration(folder / kCalibrationFile);
+  truth.frames = frames_in(folder / picture_folder(vision::Side::kLeft, "id"));
   return truth;
 }
 
 renderer::StereoFrame read_ball_ids(const fs::path& folder, std::size_t frame, const vision::StereoRig& rig) {
   const std::string name = fmt::format("{:06}.png", frame);
   renderer::StereoFrame ids;
-  ids.left.ball_id = read_ids(folder / "left_id" / name, rig.intrinsics);
-  ids.right.ball_id = read_ids(folder / "right_id" / name, rig.intrinsics);
+  ids.left.ball_id = read_ids(folder / picture_folder(vision::Side::kLeft, "id") / name, rig.intrinsics);
+  ids.right.ball_id = read_ids(folder / picture_folder(vision::Side::kRight, "id") / name, rig.intrinsics);
   return ids;
 }
 

@@ -1,22 +1,15 @@
 #include "harness/dataset/rendered_dataset.h"
 
-#include <array>
-#include <charconv>
+#include <algorithm>
 #include <stdexcept>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <opencv2/core.hpp>
 
 #include "harness/io/atomic_file.h"
-#include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
 #include "harness/io/json_line.h"
-#include "harness/io/picture_file.h"
 #include "harness/io/text_file.h"
-#include "harness/logs/measurement_log_writer.h"
-#include "worlds/generate/paint.h"
 
 namespace stereobench::harness {
 namespace {
@@ -49,9 +42,14 @@ nlohmann::json read_marker(const std::filesystem::path& path) {
       fmt::format("{}: is not what `render` writes; choose another folder or remove it", path.string()));
 }
 
-/// Whether something of a data set lies in a folder.
+/// Whether files lie in a folder, its markers aside.
 bool holds_files(const std::filesystem::path& folder) {
-  return std::filesystem::is_directory(folder) && !product_names(folder).empty();
+  if (!std::filesystem::is_directory(folder)) return false;
+  const auto is_other = [&](const std::filesystem::directory_entry& entry) {
+    return entry.is_regular_file() && entry.path() != folder / kFinishedDataset &&
+           entry.path() != folder / kUnfinished;
+  };
+  return std::ranges::any_of(std::filesystem::recursive_directory_iterator(folder), is_other);
 }
 
 /// The keys that one of two objects has not, or with another value.
@@ -62,18 +60,6 @@ std::vector<std::string> differing_keys(const nlohmann::json& one, const nlohman
   for (const auto& [key, value] : other.items())
     if (!one.contains(key)) keys.push_back(key);
   return keys;
-}
-
-/// The frames whose left picture is among the files.
-std::vector<std::size_t> frames_among(const std::vector<std::string>& names) {
-  std::vector<std::size_t> frames;
-  for (const std::string& name : names) {
-    std::size_t frame = 0;
-    if (name.starts_with("left/") &&
-        std::from_chars(name.data() + 5, name.data() + name.size(), frame).ec == std::errc())
-      frames.push_back(frame);
-  }
-  return frames;
 }
 
 }  // namespace
@@ -104,15 +90,16 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered
   if (std::filesystem::exists(folder_)) remove_leftovers(folder_);
   if (is_complete() || !holds_files(folder_)) std::filesystem::remove(folder_ / kUnfinished);
   if (spoilt_.empty()) return;
-  begin();
+  begin({});
   std::filesystem::remove(folder_ / kFinishedDataset);
   for (const std::string& name : spoilt_) std::filesystem::remove(folder_ / name);
 }
 
-void RenderedDataset::begin() const {
-  for (const char* part : {"left", "right", "left_id", "right_id", "left_depth", "right_depth"})
-    prepare_output_folder(folder_ / part);
-  write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
+/// Makes the folders of files, and says that there is a data set which is not finished.
+void RenderedDataset::begin(const std::vector<DatasetFile>& files) {
+  for (const DatasetFile& file : files) prepare_output_folder((folder_ / file.name).parent_path());
+  if (!std::filesystem::exists(folder_ / kUnfinished))
+    write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
 }
 
 void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
@@ -126,46 +113,29 @@ void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
   }
 }
 
-void RenderedDataset::write(const FrameEvent& event) const {
-  if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
-  const std::string name = fmt::format("{:06}", event.step);
-  const std::array<std::pair<const char*, const renderer::RenderedImage*>, 2> images = {
-      {{"left", &event.frame.left}, {"right", &event.frame.right}}};
-  for (const auto& [side, frame] : images) {
-    const cv::Mat& picture = frame == &event.frame.left ? event.pair.left : event.pair.right;
-    write_once(folder_ / side / (name + ".png"), picture);
-    write_once(folder_ / (std::string(side) + "_id") / (name + ".png"), frame->ball_id);
-    write_once(folder_ / (std::string(side) + "_depth") / (name + ".pfm"), frame->depth_m);
+void RenderedDataset::write(std::size_t step, const std::vector<DatasetFile>& files) {
+  begin(files);
+  frames_.insert(step);
+  for (const DatasetFile& file : files) {
+    names_.insert(file.name);
+    if (!std::filesystem::exists(folder_ / file.name))
+      write_file_atomically(folder_ / file.name, file.bytes());
   }
 }
 
-void RenderedDataset::finish(const worlds::World& world, const vision::StereoRig& rig,
-                             const vision::StereoRig& believed_rig, const MeasurementLog& log,
-                             const CoarseBlur& blur) const {
-  if (!std::filesystem::exists(folder_ / kUnfinished)) begin();
-  write_file_atomically(folder_ / "calibration.yaml", calibration_yaml(believed_rig));
-  write_file_atomically(folder_ / "true_calibration.yaml", calibration_yaml(rig));
-  write_file_atomically(folder_ / "balls.csv", balls_csv(world));
-  write_log(folder_, log);
+void RenderedDataset::finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur) {
+  begin(files);
+  for (const DatasetFile& file : files) {
+    names_.insert(file.name);
+    write_file_atomically(folder_ / file.name, file.bytes());
+  }
   remove_leftovers(folder_);  // of one that was just dying when this one began
   nlohmann::ordered_json marker = identity_;
-  const std::vector<std::string> names = product_names(folder_);
-  marker[kFrames] = frames_among(names);
+  marker[kFrames] = frames_;
   marker[kBlur] = blur_json(blur);
-  marker[kFiles] = file_list(folder_, names);
+  marker[kFiles] = file_list(folder_, names_);
   write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
   std::filesystem::remove(folder_ / kUnfinished);
-}
-
-std::string balls_csv(const worlds::World& world) {
-  std::string csv = "ball_id,colour,red,green,blue,x_m,y_m,z_m,radius_m\n";
-  for (std::size_t i = 0; i < world.balls.size(); ++i) {
-    const worlds::Ball& ball = world.balls[i];
-    const Eigen::Vector3d rgb = 255.0 * worlds::paint_of(ball);
-    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, ball.colour, rgb.x(), rgb.y(), rgb.z(),
-                       ball.centre_m.x(), ball.centre_m.y(), ball.centre_m.z(), ball.radius_m);
-  }
-  return csv;
 }
 
 }  // namespace stereobench::harness

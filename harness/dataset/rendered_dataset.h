@@ -2,29 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "harness/drive/recording.h"
-#include "worlds/types.h"
+#include "harness/dataset/formats/dataset_writer.h"
+#include "harness/drive/coarse_blur.h"
 
 namespace stereobench::harness {
 
-/// A folder of stereo pairs:
-///
-///     left/000000.png         right/000000.png        what the sensor saw, 8-bit BGR
-///     left_id/000000.png      right_id/000000.png     0 = no ball, k = ball_id k - 1 of balls.csv
-///     left_depth/000000.pfm   right_depth/000000.pfm  planar Z in metres, +inf = nothing
-///     calibration.yaml        true_calibration.yaml   the rig as it is believed to be, and as it is
-///     balls.csv
-///     odometry.csv observations.csv landmarks.csv groundtruth.csv instants.csv   what `stereobench slam`
-///     reads
-///     dataset.json            written last: where it is, the folder is complete; what was rendered, which
-///                             frames there are, how coarse their blur is, and size and SHA-256 of each file
-///
-/// Frames are named by their step; groundtruth.csv has one line for each.
+/// The folder of a data set of any format. Which files it has, the format's DatasetWriter says. Beside them
+/// lies dataset.json, written last: where it is, the folder is complete. It says what was rendered, which
+/// frames there are, how coarse their blur is, and size and SHA-256 of each file.
 class RenderedDataset {
  public:
   /// Takes up a folder where one that was interrupted lies. Nothing is created before the first frame is
@@ -41,22 +32,24 @@ class RenderedDataset {
   /// The files that were removed because they were not as they had been written.
   const std::vector<std::string>& spoilt() const { return spoilt_; }
 
-  /// Writes a step's pictures that are not there yet.
-  void write(const FrameEvent& event) const;
+  /// Writes those files of a step's stereo pair that are not there yet. Every step that has pictures is
+  /// written before `finish`, also where an interrupted rendering goes on.
+  void write(std::size_t step, const std::vector<DatasetFile>& files);
 
-  /// Writes calibration (as it is believed, and as it is), balls and the log, and last of all dataset.json.
+  /// Writes the files of the drive, and last of all dataset.json.
   /// @param blur of all its pictures
-  void finish(const worlds::World& world, const vision::StereoRig& rig, const vision::StereoRig& believed_rig,
-              const MeasurementLog& log, const CoarseBlur& blur) const;
+  void finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur);
 
  private:
-  void begin() const;
+  void begin(const std::vector<DatasetFile>& files);
   void find_spoilt(const std::filesystem::path& marker);
 
   std::filesystem::path folder_;
   nlohmann::ordered_json identity_;
   bool is_finished_ = false;
   std::vector<std::string> spoilt_;
+  std::set<std::size_t> frames_;  ///< that were written
+  std::set<std::string> names_;   ///< of all files
 };
 
 /// Makes sure that a folder holds no other rendering, finished or not, than the one that is asked for. What
@@ -67,8 +60,5 @@ void require_same_rendering(const std::filesystem::path& folder, const nlohmann:
 
 /// Whether a folder holds a rendering, finished or not.
 bool holds_rendering(const std::filesystem::path& folder);
-
-/// The balls as CSV: ball_id, colour, its RGB, centre and radius.
-std::string balls_csv(const worlds::World& world);
 
 }  // namespace stereobench::harness

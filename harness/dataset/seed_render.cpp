@@ -1,13 +1,9 @@
 #include "harness/dataset/seed_render.h"
 
-#include <array>
 #include <functional>
-#include <optional>
 
-#include "harness/dataset/draws_file.h"
-#include "harness/dataset/frames_file.h"
+#include "harness/dataset/frame_truth.h"
 #include "harness/dataset/rendered_dataset.h"
-#include "harness/dataset/rendered_truth.h"
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
 #include "harness/process/process_pool.h"
@@ -24,30 +20,25 @@ namespace {
 
 RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
   const worlds::Scenario& scenario = task.experiment->scenario;
-  const worlds::World world = worlds::world_for_seed(scenario, task.seed);
-  const RenderedDataset dataset(task.folder, task.identity);
+  RenderedDataset dataset(task.folder, task.identity);
   if (dataset.is_complete()) return {.was_complete = true};
   RenderedSeed rendered = {.spoilt = dataset.spoilt()};
-  std::optional<RenderedTruth> truth;
+  const worlds::World world = worlds::world_for_seed(scenario, task.seed);
   renderer::MeshCache meshes;  // for the pictures and for the truth
-  const renderer::FormReader read = task.truth.kinds.empty() ? renderer::read_form : meshes.forms();
-  if (!task.truth.kinds.empty()) truth.emplace(task.folder, task.truth, scenario, world, read);
+  FrameTruth truth(scenario, world, meshes.forms());
+  const auto writer = task.format->make({scenario, world, task.seed, task.frames, task.truth});
   Listeners listeners;
   listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
   listeners.on_progress = on_progress;
   listeners.on_frame = [&](const FrameEvent& event) {
-    dataset.write(event);
-    if (truth) truth->write(event);
+    truth.look_at(event);
+    dataset.write(event.step, writer->frame_files(event, truth));
     ++rendered.pairs;
   };
-  const Recording recording = record(*task.experiment, task.seed, listeners, task.backend, {}, read);
-  prepare_output_folder(task.folder);  // where the shutter dropped every frame it is not there yet
-  if (truth) truth->finish();
-  const std::string draws = draws_jsonl(scenario, std::array{task.seed});
-  if (!draws.empty()) write_file_atomically(task.folder / "draws.jsonl", draws);
-  write_file_atomically(task.folder / "frames.csv", frames_csv(scenario, task.seed, task.frames));
+  const Recording recording =
+      record(*task.experiment, task.seed, listeners, task.backend, {}, meshes.forms());
   rendered.blur = recording.blur;
-  dataset.finish(world, scenario.rig, scenario.believed_rig, recording.log, recording.blur);
+  dataset.finish(writer->drive_files(recording.log), recording.blur);
   return rendered;
 }
 

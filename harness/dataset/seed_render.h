@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/dataset/formats/format_registry.h"
 #include "harness/dataset/truth_request.h"
 #include "harness/drive/frame_choice.h"
 #include "harness/drive/recording.h"
@@ -20,6 +21,7 @@ namespace stereobench::harness {
 struct RenderTask {
   const Experiment* experiment = nullptr;
   std::uint64_t seed = 0;
+  const DatasetFormat* format = nullptr;
   FrameChoice frames;  ///< as of frames_of_drive
   TruthRequest truth;
   renderer::Backend backend = renderer::Backend::kOsmesa;

@@ -28,8 +28,7 @@ std::string calibration_yaml(const vision::StereoRig& rig,
 /// A rig of two different cameras has `left_eye` and `right_eye`, with their own `K`, `D` and
 /// `rectified_from_eye`, as `stereobench calibrate-rig` writes it.
 /// @throws std::runtime_error, one line, for what is missing, of another shape, or no rig that can be
-/// computed
-///   with
+///   computed with
 RigCalibration read_rig_calibration(const std::filesystem::path& file);
 
 /// The same of a text. @param name what it is called in errors

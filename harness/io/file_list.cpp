@@ -1,10 +1,7 @@
 #include "harness/io/file_list.h"
 
 #include <algorithm>
-#include <array>
-#include <regex>
 #include <stdexcept>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -17,15 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> kTextFiles = {
-    "balls.csv",       "calibration.yaml", "draws.jsonl",          "frames.csv",
-    "groundtruth.csv", "instants.csv",     "landmarks.csv",        "observations.csv",
-    "odometry.csv",    "surfaces.csv",     "true_calibration.yaml"};
-
-/// Whether a place in the folder is one where `render` writes: left_depth/000012.pfm.
-bool is_product(const std::string& name) {
-  static const std::regex frame(R"((left|right)(_[a-z]+)*/[0-9]+\.(png|pfm|jsonl))");
-  return std::ranges::find(kTextFiles, name) != kTextFiles.end() || std::regex_match(name, frame);
+/// Whether a name is a file's place within a folder, in the one form that names it: left_depth/000012.pfm.
+bool is_place_within(const std::string& name) {
+  const fs::path path(name);
+  return path.is_relative() && path.has_filename() && path == path.lexically_normal() &&
+         *path.begin() != ".." && *path.begin() != ".";
 }
 
 bool is_as_listed(const fs::path& file, const JsonValue& listed) {
@@ -40,17 +33,7 @@ bool is_as_listed(const fs::path& file, const JsonValue& listed) {
 
 }  // namespace
 
-std::vector<std::string> product_names(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().lexically_relative(folder).generic_string();
-    if (entry.is_regular_file() && is_product(name)) names.push_back(name);
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-nlohmann::ordered_json file_list(const fs::path& folder, const std::vector<std::string>& names) {
+nlohmann::ordered_json file_list(const fs::path& folder, const std::set<std::string>& names) {
   nlohmann::ordered_json list = nlohmann::ordered_json::object();
   for (const std::string& name : names)
     list[name] = {{"bytes", fs::file_size(folder / name)}, {"sha256", sha256_of_file(folder / name)}};
@@ -62,7 +45,7 @@ std::vector<std::string> changed_files(const fs::path& folder, const nlohmann::j
   std::vector<std::string> changed;
   for (const auto& [name, listed] : list.items()) {
     const JsonValue value(listed, fmt::format("{}.{}", kFiles, excerpt(name)));
-    if (!is_product(name)) value.refuse("the name of a file that `render` writes");
+    if (!is_place_within(name)) value.refuse("the name of a file in the folder");
     if (!is_as_listed(folder / name, value)) changed.push_back(name);
   }
   return changed;

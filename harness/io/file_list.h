@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,9 @@ inline constexpr const char* kBallSize = "balls";
 inline constexpr const char* kRowsWithin = "rows_within_px";
 inline constexpr const char* kFiles = "files";
 
-/// The files of a data set that `render` writes, by their place in the folder, sorted. Others that lie there
-/// are not among them.
-std::vector<std::string> product_names(const std::filesystem::path& folder);
-
 /// Size and SHA-256 of each file: {"left/000000.png": {"bytes": 90000, "sha256": "..."}, ...}.
 /// @throws std::runtime_error when one cannot be read
-nlohmann::ordered_json file_list(const std::filesystem::path& folder, const std::vector<std::string>& names);
+nlohmann::ordered_json file_list(const std::filesystem::path& folder, const std::set<std::string>& names);
 
 /// The listed files that are missing, or do not hold what they held.
 /// @param list as of file_list

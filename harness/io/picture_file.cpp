@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "harness/io/atomic_file.h"
 #include "renderer/pictures/png_picture.h"
 
 namespace stereobench::harness {
@@ -33,11 +32,6 @@ std::string encoded(std::string_view extension, const cv::Mat& picture) {
   }
   if (extension == ".pfm" && (picture.type() == CV_32FC1 || picture.type() == CV_32FC3)) return pfm(picture);
   throw std::invalid_argument(fmt::format("a picture that a file {} does not hold", extension));
-}
-
-void write_once(const std::filesystem::path& path, const cv::Mat& picture) {
-  if (!std::filesystem::exists(path))
-    write_file_atomically(path, encoded(path.extension().string(), picture));
 }
 
 }  // namespace stereobench::harness

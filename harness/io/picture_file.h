@@ -1,7 +1,6 @@
-/// Pictures as files that are written whole, once.
+/// Pictures as the bytes of files.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,9 +13,5 @@ namespace stereobench::harness {
 /// channels)
 /// @throws std::invalid_argument when the format does not hold such a picture
 std::string encoded(std::string_view extension, const cv::Mat& picture);
-
-/// Writes a picture unless the file is there already.
-/// @throws std::runtime_error as write_file_atomically
-void write_once(const std::filesystem::path& path, const cv::Mat& picture);
 
 }  // namespace stereobench::harness

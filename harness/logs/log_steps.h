@@ -14,11 +14,9 @@ namespace stereobench::harness {
 /// - **Odometry** is held: a reading's velocities hold until the next reading, the last until the end,
 ///   and before the first the robot stands. Held stretches are split exactly where a step ends.
 /// - **Truth** at an instant lies on the line between its neighbours, the heading on the shorter arc; there
-/// is none
-///   outside its span, nor within a gap of more than 1 s.
+///   is none outside its span, nor within a gap of more than 1 s.
 /// - The filters **start** at the first step's truth. Where it has none they start at the origin of a frame
-/// of
-///   their own (MeasurementLog::start_is_true is false).
+///   of their own (MeasurementLog::start_is_true is false).
 /// @param streams each in order of time, with at least one odometry reading
 /// @throws std::runtime_error for a log of more than a million seconds whose steps are not stated: a clock
 /// that jumps

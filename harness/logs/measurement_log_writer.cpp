@@ -8,12 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/io/atomic_file.h"
 #include "harness/logs/recorded_streams.h"
 
 namespace stereobench::harness {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -32,7 +29,7 @@ void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv
     elapsed_s += control.duration_s;
   }
   if (std::abs(from_ns + std::llround(elapsed_s * 1e9) - step.stamp_ns) > kTolerance_ns) {
-    throw std::invalid_argument(fmt::format("write_log: odometry up to {} s lasts {} s, the step {} s",
+    throw std::invalid_argument(fmt::format("log_files: odometry up to {} s lasts {} s, the step {} s",
                                             seconds_of(step.stamp_ns), elapsed_s,
                                             static_cast<double>(step.stamp_ns - from_ns) * 1e-9));
   }
@@ -41,7 +38,7 @@ void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv
 std::string odometry_csv(const MeasurementLog& log) {
   std::string csv = "t_s,v_mps,w_radps\n";
   if (!log.steps.front().odometry.empty()) {
-    throw std::invalid_argument("write_log: the first step has odometry, but there is no time before it");
+    throw std::invalid_argument("log_files: the first step has odometry, but there is no time before it");
   }
   for (std::size_t i = 1; i < log.steps.size(); ++i) {
     append_readings(log.steps[i - 1].stamp_ns, log.steps[i], csv);
@@ -97,17 +94,16 @@ std::string seconds_of(std::int64_t stamp_ns) {
                      magnitude_ns % kSecond_ns);
 }
 
-void write_log(const fs::path& folder, const MeasurementLog& log) {
-  if (log.steps.empty()) throw std::invalid_argument("write_log: a log has at least one step");
+std::vector<LogFile> log_files(const MeasurementLog& log) {
+  if (log.steps.empty()) throw std::invalid_argument("log_files: a log has at least one step");
   if (!same(log.start, log.steps.front().truth.value_or(slam::Pose{}))) {
-    throw std::invalid_argument("write_log: a reader starts at the first step's truth, this log does not");
+    throw std::invalid_argument("log_files: a reader starts at the first step's truth, this log does not");
   }
-  const std::string odometry = odometry_csv(log);
-  write_file_atomically(folder / "odometry.csv", odometry);
-  write_file_atomically(folder / "observations.csv", observations_csv(log));
-  write_file_atomically(folder / "landmarks.csv", landmarks_csv(log));
-  write_file_atomically(folder / "groundtruth.csv", truth_csv(log));
-  write_file_atomically(folder / "instants.csv", instants_csv(log));
+  return {{"odometry.csv", odometry_csv(log)},
+          {"observations.csv", observations_csv(log)},
+          {"landmarks.csv", landmarks_csv(log)},
+          {"groundtruth.csv", truth_csv(log)},
+          {"instants.csv", instants_csv(log)}};
 }
 
 }  // namespace stereobench::harness

@@ -18,8 +18,7 @@ struct Variation {
 
 /// Reads "key=a,b,c", or "key:key=a:b,c:d" for lines that vary together.
 /// @throws std::runtime_error that says what was expected: no key, no value, an empty or repeated value, a
-/// value
-///   with another number of parts than there are keys
+///   value with another number of parts than there are keys
 Variation parse_variation(const std::string& text);
 
 /// One combination: the value of each variation, in their order.

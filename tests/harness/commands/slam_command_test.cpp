@@ -9,8 +9,8 @@
 
 #include "harness/drive/recording.h"
 #include "harness/experiment/experiment.h"
-#include "harness/logs/measurement_log_writer.h"
 #include "tests/harness/commands/program.h"
+#include "tests/harness/logs/log_folder.h"
 
 namespace stereobench::harness {
 namespace {

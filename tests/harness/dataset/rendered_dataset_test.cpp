@@ -4,11 +4,9 @@
 #include <opencv2/core.hpp>
 
 #include "harness/io/calibration_file.h"
-#include "harness/io/file_list.h"
 #include "slam/math/random.h"
 #include "tests/harness/logs/log_folder.h"
 #include "vision/camera/rig.h"
-#include "vision/palette.h"
 
 namespace stereobench::harness {
 namespace {
@@ -60,103 +58,117 @@ TEST(CalibrationFile, HasTheCamerasABaselineApart) {
   EXPECT_EQ(matrix_of(kRig, "K").size(), cv::Size(3, 3));
 }
 
-// Mutation: blue, green, red.
-TEST(BallsCsv, NamesEachBallByItsPlaceInTheWorld) {
-  worlds::World world;
-  world.balls = {{{1.5, -2.0, 0.3}, 0.05, 4}, {{0.1, 0.2, 0.25}, 0.125, 0}};
-  const auto rgb = vision::kPalette[4];
-  EXPECT_THAT(balls_csv(world), HasSubstr("\n0,4," + std::to_string(rgb.r) + "," + std::to_string(rgb.g) +
-                                          "," + std::to_string(rgb.b) + ",1.5,-2,0.3,0.05\n1,0,"));
-  EXPECT_THAT(balls_csv(world), testing::EndsWith(",0.1,0.2,0.25,0.125\n"));
+const nlohmann::ordered_json kOne = {{"seed", 1}};
+
+/// A step's files, of two folders, with a text of theirs.
+void write_step(RenderedDataset& dataset, std::size_t step, const std::string& text) {
+  const std::string name = std::to_string(step);
+  dataset.write(step, {text_file("left/" + name + ".png", "left " + text),
+                       text_file("deep/er/depth_" + name + ".pfm", "depth " + text)});
 }
 
-const nlohmann::ordered_json kOne = {{"seed", 1}};
-const MeasurementLog kOneStep{.start = {}, .steps = {{.truth = slam::Pose{}}}, .landmarks = {}};
+void finish(RenderedDataset& dataset) {
+  dataset.finish({text_file("calibration.txt", "a rig"), text_file("poses.txt", "poses")}, {});
+}
 
-/// A look at a picture of one grey level.
-void write_look(const RenderedDataset& dataset, std::size_t step, int level) {
-  const renderer::RenderedImage image{cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(level)),
-                                      cv::Mat(4, 6, CV_8UC1, level),
-                                      cv::Mat(4, 6, CV_32FC1, cv::Scalar(level))};
-  dataset.write({.step = step,
-                 .frame = {image, image},
-                 .pair = {image.colour, image.colour},
-                 .observations = {},
-                 .match = {}});
+/// All files in a folder.
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) names.push_back(std::filesystem::relative(entry.path(), folder).string());
+  return names;
 }
 
 // Mutation: writing frames over again.
 TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   const TestFolder folder;
-  write_look(RenderedDataset(folder.path(), kOne), 0, 10);
-  const std::string left = folder.read("left/000000.png");
-  const std::string depth = folder.read("right_depth/000000.pfm");
-  ASSERT_FALSE(left.empty());
-  std::filesystem::remove(folder.path() / "right_depth/000000.pfm");
-  const RenderedDataset again(folder.path(), kOne);
-  write_look(again, 0, 20);  // another picture, to see which one is kept
-  EXPECT_EQ(folder.read("left/000000.png"), left);
-  EXPECT_NE(folder.read("right_depth/000000.pfm"), depth);
+  {
+    RenderedDataset begun(folder.path(), kOne);
+    write_step(begun, 0, "first");
+  }
+  std::filesystem::remove(folder.path() / "deep/er/depth_0.pfm");
+  RenderedDataset again(folder.path(), kOne);
+  write_step(again, 0, "second");  // another text, to see which one is kept
+  EXPECT_EQ(folder.read("left/0.png"), "left first");
+  EXPECT_EQ(folder.read("deep/er/depth_0.pfm"), "depth second");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
-  again.finish({}, kRig, kRig, kOneStep, {});
-  EXPECT_EQ(nlohmann::json::parse(folder.read("dataset.json"))["seed"], 1);
+  finish(again);
+  const auto marker = nlohmann::json::parse(folder.read("dataset.json"));
+  EXPECT_EQ(marker["seed"], 1);
+  EXPECT_EQ(marker["frames"], nlohmann::json({0}));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.unfinished.json"));
+}
+
+// Bytes of a file that is there may be dear. Mutation: asked for before the look whether it is.
+TEST(RenderedDataset, AsksForNoBytesOfFilesThatAreThere) {
+  const TestFolder folder;
+  RenderedDataset dataset(folder.path(), kOne);
+  write_step(dataset, 0, "first");
+  const auto dear = []() -> std::string { throw std::logic_error("asked for"); };
+  EXPECT_NO_THROW(dataset.write(0, {{"left/0.png", dear}}));
+  EXPECT_THROW(dataset.write(0, {{"left/1.png", dear}}), std::logic_error);
 }
 
 // Law: whatever file loses a part, all of it, or a bit, it is found, made again, and all others stay.
 // Mutations: sizes alone compared; files that are missing not looked for; frames alone listed.
 TEST(RenderedDataset, FindsWhatIsNotAsItWasWritten) {
   const TestFolder folder;
-  const auto finish = [&](const RenderedDataset& dataset) {
-    for (const std::size_t step : {0U, 1U}) write_look(dataset, step, 10 + static_cast<int>(step));
-    dataset.finish({}, kRig, kRig, kOneStep, {});
+  const auto write_all = [](RenderedDataset& dataset) {
+    for (const std::size_t step : {0U, 1U}) write_step(dataset, step, std::to_string(step));
+    finish(dataset);
   };
-  finish(RenderedDataset(folder.path(), kOne));
+  RenderedDataset first(folder.path(), kOne);
+  write_all(first);
   const std::string marker = folder.read("dataset.json");
-  const auto names = product_names(folder.path());
-  EXPECT_GE(names.size(), 17U);
+  EXPECT_EQ(files_in(folder.path()).size(), 7U);
   EXPECT_TRUE(RenderedDataset(folder.path(), kOne).spoilt().empty());
-  for (const std::string& name : names) {
+  for (const std::string& name : files_in(folder.path())) {
+    if (name == "dataset.json") continue;
     const std::string bytes = folder.read(name);
     std::string flipped = bytes;
     flipped.back() = static_cast<char>(flipped.back() ^ 1);
     for (const std::string& spoilt : {bytes.substr(0, bytes.size() / 2), flipped, std::string()}) {
       folder.write(name, spoilt);
       if (spoilt.empty()) std::filesystem::remove(folder.path() / name);
-      const RenderedDataset again(folder.path(), kOne);
+      RenderedDataset again(folder.path(), kOne);
       EXPECT_EQ(again.spoilt(), std::vector<std::string>{name});
       EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
-      finish(again);
+      write_all(again);
       EXPECT_EQ(folder.read(name), bytes) << name;
       EXPECT_EQ(folder.read("dataset.json"), marker) << name;
     }
   }
 }
 
-// Whoever lists a file of somebody else's removes it. Mutation: names not looked at.
+// Whoever lists a file of somebody else's removes it. Mutations: all files of the folder listed; names not
+// looked at.
 TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
   const TestFolder folder;
-  const RenderedDataset dataset(folder.path(), kOne);
-  write_look(dataset, 0, 10);
+  RenderedDataset dataset(folder.path(), kOne);
+  write_step(dataset, 0, "first");
   folder.write("notes.csv", "mine");
-  folder.write("left/notes.txt", "mine");
-  dataset.finish({}, kRig, kRig, kOneStep, {});
+  folder.write("left/notes.png", "mine");
+  finish(dataset);
   EXPECT_THAT(folder.read("dataset.json"), testing::Not(HasSubstr("notes")));
-  auto marker = nlohmann::json::parse(folder.read("dataset.json"));
-  marker["files"]["../victim"] = {{"bytes", 1}, {"sha256", ""}};
-  folder.write("dataset.json", marker.dump());
-  EXPECT_THAT([&] { RenderedDataset(folder.path(), kOne); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("files.../victim: expected the name of a file")));
+  const std::string whole = folder.read("dataset.json");
+  for (const char* victim : {"../victim", "left/../../victim", "/victim", "left/", ".", ""}) {
+    auto marker = nlohmann::json::parse(whole);
+    marker["files"][victim] = {{"bytes", 1}, {"sha256", ""}};
+    folder.write("dataset.json", marker.dump());
+    EXPECT_THAT([&] { RenderedDataset(folder.path(), kOne); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("expected the name of a file in the folder")))
+        << victim;
+  }
 }
 
 // Mutations: no check of the identity; none while the data set is unfinished.
 TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   const TestFolder folder;
-  const RenderedDataset dataset(folder.path(), kOne);
-  write_look(dataset, 0, 10);
+  RenderedDataset dataset(folder.path(), kOne);
+  write_step(dataset, 0, "first");
   const auto take_up = [&] { RenderedDataset(folder.path(), {{"seed", 2}}); };
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("a data set of another seed; choose")));
-  dataset.finish({}, kRig, kRig, kOneStep, {});
+  finish(dataset);
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
 }
 
@@ -165,15 +177,20 @@ TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
 TEST(RenderedDataset, LeavesNothingBeforeItsFirstFrame) {
   const TestFolder folder;
   const auto place = folder.path() / "data";
-  { const RenderedDataset begun(place, kOne); }
+  const auto begin = [&](int seed) {
+    RenderedDataset begun(place, {{"seed", seed}});
+    EXPECT_TRUE(begun.spoilt().empty());
+    return begun;
+  };
+  begin(1);
   EXPECT_FALSE(std::filesystem::exists(place));
-  write_look(RenderedDataset(place, kOne), 0, 10);
-  const auto take_up = [&] { RenderedDataset(place, {{"seed", 2}}); };
-  EXPECT_THAT(take_up, testing::Throws<std::runtime_error>());
-  for (const std::string& name : product_names(place)) std::filesystem::remove(place / name);
-  take_up();
-  write_look(RenderedDataset(place, {{"seed", 2}}), 0, 10);
-  EXPECT_THAT([&] { RenderedDataset(place, kOne); }, testing::Throws<std::runtime_error>());
+  RenderedDataset one = begin(1);
+  write_step(one, 0, "first");
+  EXPECT_THAT([&] { begin(2); }, testing::Throws<std::runtime_error>());
+  for (const char* name : {"left/0.png", "deep/er/depth_0.pfm"}) std::filesystem::remove(place / name);
+  RenderedDataset two = begin(2);
+  write_step(two, 0, "second");
+  EXPECT_THAT([&] { begin(1); }, testing::Throws<std::runtime_error>());
 }
 
 }  // namespace

@@ -5,10 +5,9 @@
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "harness/dataset/rendered_truth.h"
 #include "renderer/camera/lens.h"
 #include "renderer/truth/distorted_ids.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/harness/dataset/step_writer.h"
 #include "worlds/drive/path.h"
 
 namespace stereobench::harness {
@@ -34,16 +33,8 @@ worlds::Scenario turning() {
 /// The surfaces of the second step in the left camera, as they are written.
 cv::Mat written_surface(const worlds::Scenario& scenario, const renderer::StereoFrame& frame, double late_s) {
   const TestFolder folder;
-  RenderedTruth truth(folder.path(), {parse_truth("surface,range,normal")}, scenario, scenario.world,
-                      renderer::read_form);
-  renderer::Renderer renderer(scenario.world, scenario.rig);
-  truth.write({.step = 1,
-               .frame = frame,
-               .pair = {frame.left.colour, frame.right.colour},
-               .observations = {},
-               .match = {},
-               .late_s = late_s,
-               .renderer = &renderer});
+  StepWriter writer(folder, scenario, dataset_format("stereobench"), {parse_truth("surface,range,normal")});
+  writer.write(1, frame, late_s);
   return cv::imread((folder.path() / "left_surface/000001.png").string(), cv::IMREAD_UNCHANGED);
 }
 

@@ -9,6 +9,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "harness/logs/measurement_log_writer.h"
+
 namespace stereobench::harness {
 
 /// A folder of its own for each test, removed at the end.
@@ -50,6 +52,11 @@ inline const std::string kOdometry = "t_s,v_mps,w_radps\n0,1,0\n1,1,0.5\n2,0,0\n
 inline const std::string kObservations = "t_s,landmark_id,range_m,bearing_rad\n0.5,7,2,0.1\n1.5,7,1.5,0.2\n";
 inline const std::string kTruth = "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,1,0,0\n2,2,0,0.5\n";
 inline const std::string kLandmarks = "landmark_id,x_m,y_m\n7,3,0\n";
+
+/// Writes a log to a folder, which is there.
+inline void write_log(const std::filesystem::path& folder, const MeasurementLog& log) {
+  for (const LogFile& file : log_files(log)) std::ofstream(folder / file.name, std::ios::binary) << file.text;
+}
 
 /// A log of two seconds in CSV files.
 inline void write_small_csv_log(const TestFolder& folder) {

@@ -1,4 +1,4 @@
-#include "harness/dataset/rendered_truth.h"
+#include "harness/dataset/formats/stereobench_format.h"
 
 #include <sstream>
 
@@ -8,7 +8,7 @@
 
 #include "harness/drive/shutter.h"
 #include "renderer/truth/correspondence.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/harness/dataset/step_writer.h"
 #include "worlds/drive/path.h"
 
 namespace stereobench::harness {
@@ -17,37 +17,17 @@ namespace {
 using testing::HasSubstr;
 using vision::Side;
 
-/// Three steps in a room with two balls, one behind the other.
+/// The room, with a right camera that is late.
 struct Drive {
-  worlds::Scenario scenario;
-  Drive() {
-    scenario.rig.intrinsics = {160, 120, 140.0, 79.5, 59.5};
-    scenario.shutter.right_delay_s = 0.02;
-    scenario.world.balls = {{{2.0, 0.1, 0.3}, 0.1, 3}, {{2.6, 0.1, 0.3}, 0.1, 5}};
-    scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 2.5, worlds::Material::kPlaster}};
-    for (int i = 0; i < 3; ++i) {
-      const slam::Pose pose{0.1 * i, 0.0, 0.05 * i};
-      scenario.path.push_back({i * 100'000'000LL, pose, {{1.0, 0.5, 0.1}}});
-    }
-    scenario.path.front().controls.clear();
-  }
+  worlds::Scenario scenario = room_drive();
+  Drive() { scenario.shutter.right_delay_s = 0.02; }
   renderer::StereoFrame frame(std::size_t step) const {
     renderer::Renderer renderer(scenario.world, scenario.rig);
     return open_shutter(renderer, scenario.path, step, scenario.shutter).frame;
   }
-  RenderedTruth truth(const TestFolder& folder, const std::string& kinds,
-                      TruthFormat format = TruthFormat::kExact) const {
-    return {folder.path(), {parse_truth(kinds), format}, scenario, scenario.world, renderer::read_form};
-  }
-  void write(RenderedTruth& truth, std::size_t step) const {
-    renderer::Renderer renderer(scenario.world, scenario.rig);
-    const renderer::StereoFrame seen = frame(step);
-    truth.write({.step = step,
-                 .frame = seen,
-                 .pair = {seen.left.colour, seen.right.colour},
-                 .observations = {},
-                 .match = {},
-                 .renderer = &renderer});
+  StepWriter writer(const TestFolder& folder, const std::string& kinds,
+                    TruthFormat format = TruthFormat::kExact) const {
+    return {folder, scenario, dataset_format("stereobench"), {parse_truth(kinds), format}};
   }
 };
 
@@ -56,12 +36,12 @@ cv::Mat picture(const TestFolder& folder, const std::string& name) {
 }
 
 // Mutations: both cameras at the left one's time; flow to the step itself, or from the step before.
-TEST(RenderedTruth, FollowsTheCamerasAtTheTimesOfTheirExposures) {
+TEST(StereobenchFormat, FollowsTheCamerasAtTheTimesOfTheirExposures) {
   const Drive drive;
   const TestFolder folder;
-  RenderedTruth truth = drive.truth(folder, "all");
-  drive.write(truth, 0);
-  drive.write(truth, 1);
+  StepWriter writer = drive.writer(folder, "all");
+  writer.write(0, drive.frame(0));
+  writer.write(1, drive.frame(1));
   const slam::Pose left = drive.scenario.path[1].pose;
   const slam::Pose next = drive.scenario.path[2].pose;
   const slam::Pose right = worlds::pose_near(drive.scenario.path, 1, 0.02);
@@ -80,22 +60,22 @@ TEST(RenderedTruth, FollowsTheCamerasAtTheTimesOfTheirExposures) {
   EXPECT_EQ(cv::norm(picture(folder, "left_flow_fate/000001.png"), flow.occlusion, cv::NORM_INF), 0.0);
 }
 
-TEST(RenderedTruth, OfTheLastStepHasNoFlow) {
+TEST(StereobenchFormat, HasNoFlowOfTheLastStep) {
   const Drive drive;
   const TestFolder folder;
-  RenderedTruth truth = drive.truth(folder, "flow,match", TruthFormat::kKitti);
-  drive.write(truth, 2);
+  StepWriter writer = drive.writer(folder, "flow,match", TruthFormat::kKitti);
+  writer.write(2, drive.frame(2));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "left_flow/000002.png"));
   EXPECT_EQ(picture(folder, "right_match/000002.png").type(), CV_16UC3);
 }
 
 // Mutation: left identities for both cameras.
-TEST(RenderedTruth, HasALineForEachBallInView) {
+TEST(StereobenchFormat, HasALineForEachBallInView) {
   const Drive drive;
   const TestFolder folder;
-  RenderedTruth truth = drive.truth(folder, "balls,surface");
-  drive.write(truth, 0);
-  truth.finish();
+  StepWriter writer = drive.writer(folder, "balls,surface");
+  writer.write(0, drive.frame(0));
+  writer.finish();
   const renderer::StereoFrame frame = drive.frame(0);
   for (const auto& [side, seen] : {std::pair("left", &frame.left), std::pair("right", &frame.right)}) {
     std::istringstream lines(folder.read(std::string(side) + "_balls/000000.jsonl"));
@@ -113,17 +93,17 @@ TEST(RenderedTruth, HasALineForEachBallInView) {
 }
 
 // Mutations: a file that is there counts for all; files written over again.
-TEST(RenderedTruth, WritesWhatIsMissingAndNothingElse) {
+TEST(StereobenchFormat, WritesWhatIsMissingAndNothingElse) {
   const Drive drive;
   const TestFolder folder;
-  RenderedTruth first = drive.truth(folder, "all");
-  drive.write(first, 0);
+  StepWriter first = drive.writer(folder, "all");
+  first.write(0, drive.frame(0));
   const std::string whole = folder.read("right_normal/000000.pfm");
   for (const char* lost : {"right_normal/000000.pfm", "left_flow_fate/000000.png"})
     std::filesystem::remove(folder.path() / lost);
   folder.write("left_range/000000.pfm", "kept");
-  RenderedTruth again = drive.truth(folder, "all");
-  drive.write(again, 0);
+  StepWriter again = drive.writer(folder, "all");
+  again.write(0, drive.frame(0));
   EXPECT_EQ(folder.read("right_normal/000000.pfm"), whole);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "left_flow_fate/000000.png"));
   EXPECT_EQ(folder.read("left_range/000000.pfm"), "kept");

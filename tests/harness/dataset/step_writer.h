@@ -1,0 +1,63 @@
+/// Single steps of a drive as data sets hold them, without the rest of the drive.
+#pragma once
+
+#include <memory>
+
+#include "harness/dataset/formats/format_registry.h"
+#include "harness/dataset/frame_truth.h"
+#include "harness/dataset/rendered_dataset.h"
+#include "tests/harness/logs/log_folder.h"
+
+namespace stereobench::harness {
+
+/// Three steps in a room with two balls, one behind the other.
+inline worlds::Scenario room_drive() {
+  worlds::Scenario scenario;
+  scenario.name = "room";
+  scenario.rig.intrinsics = {160, 120, 140.0, 79.5, 59.5};
+  scenario.believed_rig = scenario.rig;
+  scenario.world.balls = {{{2.0, 0.1, 0.3}, 0.1, 3}, {{2.6, 0.1, 0.3}, 0.1, 5}};
+  scenario.world.walls = {{{4.0, -3.0}, {4.0, 3.0}, 2.5, worlds::Material::kPlaster}};
+  for (int i = 0; i < 3; ++i) {
+    const slam::Pose pose{0.1 * i, 0.0, 0.05 * i};
+    scenario.path.push_back({i * 100'000'000LL, pose, {{1.0, 0.5, 0.1}}});
+  }
+  scenario.path.front().controls.clear();
+  return scenario;
+}
+
+/// Writes what it is shown in a format.
+class StepWriter {
+ public:
+  /// @param scenario outlives it
+  StepWriter(const TestFolder& folder, const worlds::Scenario& scenario, const DatasetFormat& format,
+             const TruthRequest& request)
+      : renderer_(scenario.world, scenario.rig),
+        truth_(scenario, scenario.world, renderer::read_form),
+        writer_(format.make({scenario, scenario.world, 0, {}, request})),
+        dataset_(folder.path(), {{"seed", 0}}) {}
+
+  void write(std::size_t step, const renderer::StereoFrame& seen, double late_s = 0.0) {
+    const FrameEvent event = {.step = step,
+                              .frame = seen,
+                              .pair = {seen.left.colour, seen.right.colour},
+                              .observations = {},
+                              .match = {},
+                              .late_s = late_s,
+                              .renderer = &renderer_};
+    truth_.look_at(event);
+    dataset_.write(step, writer_->frame_files(event, truth_));
+  }
+  void finish() {
+    const MeasurementLog one_step{.start = {}, .steps = {{.truth = slam::Pose{}}}, .landmarks = {}};
+    dataset_.finish(writer_->drive_files(one_step), {});
+  }
+
+ private:
+  renderer::Renderer renderer_;
+  FrameTruth truth_;
+  std::unique_ptr<DatasetWriter> writer_;
+  RenderedDataset dataset_;
+};
+
+}  // namespace stereobench::harness
