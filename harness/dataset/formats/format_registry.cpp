@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/formats/kitti_format.h"
 #include "harness/dataset/formats/stereobench_format.h"
 #include "worlds/yaml/advice.h"
 
@@ -15,8 +16,9 @@ namespace stereobench::harness {
 namespace {
 
 /// One row a format: name, what it holds, what it refuses, how it starts.
-constexpr std::array<DatasetFormat, 1> kFormats = {{
+constexpr std::array<DatasetFormat, 2> kFormats = {{
     {"stereobench", "ids, depth, calibration and truth", check_stereobench_format, stereobench_writer},
+    {"kitti", "disparity and calibration, as KITTI stereo 2015 has them", check_kitti_format, kitti_writer},
 }};
 
 }  // namespace

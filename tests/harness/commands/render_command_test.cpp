@@ -186,8 +186,41 @@ INSTANTIATE_TEST_SUITE_P(Options, OtherRendering,
                                          OtherOption{"Seed", {"--seed", "1"}, "seed"},
                                          OtherOption{"Detector", {"--detector", "true"}, "detector"},
                                          OtherOption{"Set", {"--set", "camera.gain=1.5"}, "set"},
-                                         OtherOption{"Truth", {"--truth", "balls"}, "truth"}),
+                                         OtherOption{"Truth", {"--truth", "balls"}, "truth"},
+                                         OtherOption{"Format", {"--format", "kitti"}, "format"}),
                          [](const auto& test) { return test.param.name; });
+
+// Mutations: the default format whatever is asked for; ids claimed of a data set that has none.
+TEST(RenderCommand, WritesTheFormatThatIsAskedFor) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out";
+  const Outcome outcome = render_to(out, {"--frames", "1", "--format", "kitti"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("1 stereo pairs with disparity and calibration, as KITTI stereo 2015 has"));
+  EXPECT_TRUE(fs::exists(out / "disp_occ_0/000001_10.png"));
+  EXPECT_FALSE(fs::exists(out / "left"));
+  EXPECT_EQ(marker_of(out)["format"], "kitti");
+  EXPECT_THAT(render_to(out, {"--frames", "1", "--format", "kitti"}).out, HasSubstr("is left as it is"));
+}
+
+// Mutations: found out after rendering (a folder is there); another exit code.
+TEST(RenderCommand, RefusesFormatsThatThereAreNotOrThatCannotHoldIt) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out";
+  using Words = std::vector<std::string>;
+  for (const auto& [words, complaint] :
+       {std::pair(Words{"--format", "kity"}, "no format is called 'kity', did you mean kitti?; there are"),
+        std::pair(Words{"--format", "kitti", "--set", "rig.right_turn_deg=[0,0.1,0]"},
+                  "--format kitti: has no place for rig.right_turn_deg;"),
+        std::pair(Words{"--format", "kitti", "--truth", "flow"}, "has no place for --truth;")}) {
+    const Outcome outcome = render_to(out, words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(complaint));
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(out));
+}
 
 TEST(RenderCommand, RefusesFramesThatThereAreNot) {
   const ScratchFolder scratch;

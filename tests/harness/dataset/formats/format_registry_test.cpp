@@ -142,9 +142,9 @@ TEST(FormatRegistry, HasEachNameOnceAndOursFirst) {
 // Mutation: no suggestion.
 TEST(FormatRegistry, SaysWhichFormatsThereAre) {
   EXPECT_THAT(
-      [] { dataset_format("stereobenc"); },
+      [] { dataset_format("kity"); },
       ThrowsMessage<std::runtime_error>(HasSubstr(
-          "--format: no format is called 'stereobenc', did you mean stereobench?; there are stereobench")));
+          "--format: no format is called 'kity', did you mean kitti?; there are stereobench, kitti")));
 }
 
 }  // namespace
