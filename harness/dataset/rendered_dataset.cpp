@@ -42,12 +42,12 @@ nlohmann::json read_marker(const std::filesystem::path& path) {
       fmt::format("{}: is not what `render` writes; choose another folder or remove it", path.string()));
 }
 
-/// Whether files lie in a folder, its markers aside.
+/// Whether files lie in a folder, its markers and what was half written aside.
 bool holds_files(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) return false;
   const auto is_other = [&](const std::filesystem::directory_entry& entry) {
-    return entry.is_regular_file() && entry.path() != folder / kFinishedDataset &&
-           entry.path() != folder / kUnfinished;
+    return entry.is_regular_file() && entry.path().extension() != ".tmp" &&
+           entry.path() != folder / kFinishedDataset && entry.path() != folder / kUnfinished;
   };
   return std::ranges::any_of(std::filesystem::recursive_directory_iterator(folder), is_other);
 }
@@ -97,6 +97,7 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered
 
 /// Makes the folders of files, and says that there is a data set which is not finished.
 void RenderedDataset::begin(const std::vector<DatasetFile>& files) {
+  prepare_output_folder(folder_);
   for (const DatasetFile& file : files) prepare_output_folder((folder_ / file.name).parent_path());
   if (!std::filesystem::exists(folder_ / kUnfinished))
     write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");

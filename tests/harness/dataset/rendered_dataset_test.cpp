@@ -172,6 +172,16 @@ TEST(RenderedDataset, RefusesAFolderOfAnotherIdentityFinishedOrNot) {
   EXPECT_THAT(take_up, ThrowsMessage<std::runtime_error>(HasSubstr("holds a data set of another")));
 }
 
+// Of a drive all of whose frames were lost, a format may have no file at all. Mutation: the folder left to
+// the files.
+TEST(RenderedDataset, IsCompleteWithoutAnyFile) {
+  const TestFolder folder;
+  const auto place = folder.path() / "data";
+  RenderedDataset(place, kOne).finish({}, {});
+  EXPECT_EQ(nlohmann::json::parse(folder.read("data/dataset.json"))["frames"], nlohmann::json::array());
+  EXPECT_TRUE(RenderedDataset(place, kOne).is_complete());
+}
+
 // What failed before its first frame is in nobody's way. Mutations: the marker written at once, or looked at
 // where nothing else is.
 TEST(RenderedDataset, LeavesNothingBeforeItsFirstFrame) {
