@@ -18,8 +18,7 @@ class Renderer {
  public:
   /// @throws std::runtime_error when there is no GL to render with or a mesh file cannot be read
   /// @throws std::invalid_argument when the rig cannot be computed with, or a ball, wall, mesh or light of
-  /// the
-  ///   world is not finite, has no size, or there are more than 254 balls
+  ///   the world is not finite, has no size, or there are more than 254 balls
   /// @param depth of the light in its pictures: expose.h says which cameras need more than eight bits
   /// @param read meshes
   Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa,

@@ -175,16 +175,14 @@ void add_render_command(CLI::App& program, Action& action) {
       ->default_str("exact")
       ->needs(truth);
   command->footer(
-      "Writes left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/ right_depth/ (PFM, planar Z in "
-      "metres),\n"
-      "calibration.yaml (as believed), true_calibration.yaml, balls.csv and the log that `stereobench slam` "
-      "reads. Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a "
-      "folder of its own\n"
-      "there (seed_0/). Interrupted, it goes on where it was; what is complete is left as it is.\n"
-      "--truth adds folders of the same names for each camera (left_flow/...), those of disparity, match\n"
-      "and flow with what becomes of each pixel there: 0 nothing, 85 out of the other picture, 170 hidden "
-      "in\n"
-      "it, 255 seen.\n\n"
+      "The format stereobench has left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/\n"
+      "right_depth/ (PFM, planar Z in metres), calibration.yaml (as believed), true_calibration.yaml,\n"
+      "balls.csv and the log that `stereobench slam` reads. --truth adds folders of the same names for\n"
+      "each camera (left_flow/...), those of disparity, match and flow with what becomes of each pixel\n"
+      "there: 0 nothing, 85 out of the other picture, 170 hidden in it, 255 seen.\n"
+      "Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a\n"
+      "folder of its own there (seed_0/). Interrupted, it goes on where it was; what is complete is\n"
+      "left as it is.\n\n"
       "Example: stereobench render assets/scenarios/ball_circle.yaml --set path.laps=1 --out out/dataset");
   command->callback([arguments, &action] { action = [arguments] { return render(*arguments); }; });
 }

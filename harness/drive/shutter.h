@@ -39,9 +39,8 @@ struct ExposedFrame {
 ///   middle row halfway through the readout
 /// @param late_s by how much both cameras are late this time
 /// @return light as an average over instants, rounded: as many that no point moves by more than a pixel from
-/// one
-///   to the next, at least shutter.samples and at most shutter.most_samples; identity and depth are those of
-///   the middle of each row's exposure
+///   one to the next, at least shutter.samples and at most shutter.most_samples; identity and depth are those
+///   of the middle of each row's exposure
 ExposedFrame open_shutter(renderer::Renderer& renderer, const worlds::GroundTruth& path, std::size_t index,
                           const worlds::Shutter& shutter, double late_s = 0.0);
 

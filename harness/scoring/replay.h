@@ -15,8 +15,7 @@ namespace stereobench::harness {
 /// @param config the filter's settings; reports of its updates are always asked for
 /// @param seed of the filter's own random stream
 /// @return its estimate after every step. `failed` when the filter threw or its estimate was not finite; then
-/// the
-///   steps before that are kept
+///   the steps before that are kept
 /// @throws std::invalid_argument when there is no such filter, or a setting or the start is out of range
 FilterRun replay(const MeasurementLog& log, const std::string& filter, slam::FilterConfig config,
                  std::uint64_t seed);

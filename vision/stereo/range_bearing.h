@@ -23,8 +23,7 @@ Eigen::Matrix3d ball_covariance(const StereoRig& rig, const OutlineCentres& cent
 
 /// Horizontal range and left-positive bearing of a point, seen from the origin of a frame whose x points
 /// forward, y left and z up. The whole covariance is transformed: range and bearing errors are correlated in
-/// general
-/// (0.71 from the left camera), and happen not to be from the middle of the baseline.
+/// general (0.71 from the left camera), and happen not to be from the middle of the baseline.
 /// @param point_in_camera not straight above or below the frame's origin
 /// @param covariance_m2 of the point in the camera frame
 /// @param frame_from_camera usually robot_from_camera(rig)

@@ -15,8 +15,7 @@ inline constexpr int kMostNesting = 64;
 /// Parses all documents of a text.
 /// @return one node a document
 /// @throws YAML::Exception with the place when it is not YAML, is nested more than kMostNesting deep (an
-/// alias
-///   counts as what it stands for), or an alias lies within what it stands for
+///   alias counts as what it stands for), or an alias lies within what it stands for
 std::vector<YAML::Node> parse_yaml(const std::string& text);
 
 }  // namespace stereobench::worlds

@@ -242,9 +242,8 @@ class RealRobot : public testing::TestWithParam<RealLog> {};
 
 // UTIAS MRCLAM set 7 with the settings that any log gets; robot 5 in both of the formats. Measured, mean +-
 // standard error of five seeds, FastSLAM 2.0: robot 2 0.135 +- 0.004 m, its map 0.032 +- 0.004 m; robot 5
-// 0.161
-// +- 0.009 m, its map 0.127 +- 0.012 m. Mutations: trusting the stamps (the delay); odometry believed to be
-// three times as good (0.36 to 0.69 m).
+// 0.161 +- 0.009 m, its map 0.127 +- 0.012 m. Mutations: trusting the stamps (the delay); odometry believed
+// to be three times as good (0.36 to 0.69 m).
 TEST_P(RealRobot, IsMapped) {
   const std::filesystem::path log =
       std::filesystem::path(STEREOBENCH_SOURCE_DIR) / "../shared/data" / GetParam().folder;
