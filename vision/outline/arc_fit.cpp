@@ -8,10 +8,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "slam/math/angles.h"
+
 namespace stereobench::vision {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // The noise law, its constants measured on rendered and painted balls so that NIS/2 is 1 (`stereobench
 // calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
@@ -167,7 +167,7 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
       in_focus + kNoisePerEdge * (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
   const double in_picture = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
   const double beyond_noise = is_resampled ? kResampled : in_picture;
-  const double arc_length_px = 2.0 * kPi * outline.radius_px() / static_cast<double>(arcs.size());
+  const double arc_length_px = 2.0 * slam::kPi * outline.radius_px() / static_cast<double>(arcs.size());
   const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
   const double crossed = crossed_reach_px(outline, ramp_half_width_px) / outline.semi_minor_px();
   const double innermost = std::max(0.0, 1.0 - crossed);

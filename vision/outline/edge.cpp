@@ -1,24 +1,26 @@
 #include "vision/outline/edge.h"
 
+#include <numbers>
+
 #include "slam/math/elementary.h"
 
 namespace stereobench::vision {
 namespace {
 
-constexpr double kPixelVariance_px2 = 1.0 / 12.0;  // of a unit square, in any direction
-constexpr double kFarOutside = 6.0;                // standard deviations
+// Standard deviations, beyond which a normal tail is not divided by: it comes to 1e-9 there.
+constexpr double kFarOutside = 6.0;
 
 double spread_px(double blur_px) {
   return std::sqrt(blur_px * blur_px + kPixelVariance_px2);
 }
 
 double normal_density(double x) {
-  constexpr double kPerRootOf2Pi = 0.3989422804014327;
+  constexpr double kPerRootOf2Pi = std::numbers::inv_sqrtpi * (0.5 * std::numbers::sqrt2);
   return kPerRootOf2Pi * slam::exponential(-0.5 * x * x);
 }
 
 double normal_tail(double x) {
-  constexpr double kRootOfHalf = 0.7071067811865476;
+  constexpr double kRootOfHalf = 0.5 * std::numbers::sqrt2;
   return 0.5 * slam::complementary_error(kRootOfHalf * x);
 }
 
@@ -31,7 +33,7 @@ Coverage blurred_coverage(double distance_px, double blur_px) {
 }
 
 double edge_width_px(double blur_px) {
-  constexpr double kTwoRootsOfPi = 3.5449077018110318;
+  constexpr double kTwoRootsOfPi = 2.0 * std::numbers::inv_sqrtpi * std::numbers::pi;
   return blur_px > 0.0 ? kTwoRootsOfPi * spread_px(blur_px) : 1.0;
 }
 

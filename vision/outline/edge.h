@@ -15,6 +15,9 @@ struct RimPoint {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit, outwards
 };
 
+/// Variance of where the light of a pixel comes from, in any direction: that of a unit square.
+inline constexpr double kPixelVariance_px2 = 1.0 / 12.0;
+
 /// What an edge leaves of a pixel, and how fast that changes when the edge moves outwards.
 struct Coverage {
   double fraction = 0.0;  ///< of the pixel's light that comes from inside the outline, in [0, 1]

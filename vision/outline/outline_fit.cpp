@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "slam/math/angles.h"
 #include "vision/outline/arc_colours.h"
 #include "vision/outline/arc_fit.h"
 #include "vision/outline/boundary_guess.h"
@@ -15,7 +16,6 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFinestRamp_px = 1.5;
 constexpr double kLostRim_px = 0.15;      // that boxes lack on average
 constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
@@ -69,8 +69,8 @@ OutlineModel first_guess(const Blob& blob, const FitSettings& settings) {
   const Eigen::Vector2d moments(blob.sum_x / area, blob.sum_y / area);
   const Eigen::Vector2d box(0.5 * (blob.min_x + blob.max_x), 0.5 * (blob.min_y + blob.max_y));
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
-  return {settings.camera, 0.5 * (moments + box), std::max(std::sqrt(area / kPi), box_radius) + kLostRim_px,
-          settings.blur_px};
+  return {settings.camera, 0.5 * (moments + box),
+          std::max(std::sqrt(area / slam::kPi), box_radius) + kLostRim_px, settings.blur_px};
 }
 
 double distance_px(const OutlineModel& a, const OutlineModel& b) {
@@ -290,8 +290,8 @@ MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettin
   result.reduced_chi_square = fit.reduced_chi_square;
   result.inlier_ratio = fit.inlier_ratio;
   const Shades shades(unmix.ball_bgr, unmix.noise_sd_levels);
-  result.hidden_fraction = hidden_area(image, fit, shades) / (kPi * radius * radius);
-  result.outside_fraction = outside_area(image, fit.outline) / (kPi * radius * radius);
+  result.hidden_fraction = hidden_area(image, fit, shades) / (slam::kPi * radius * radius);
+  result.outside_fraction = outside_area(image, fit.outline) / (slam::kPi * radius * radius);
   result.light = fit.light;
   result.edge = edge_of(fit);
   return result;

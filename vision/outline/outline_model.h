@@ -54,8 +54,7 @@ class OutlineModel {
   /// the variance of where the pixel's light comes from along the edge, 1/12 px^2 of a box and that of the
   /// blur.
   Coverage coverage(const RimPoint& rim) const {
-    constexpr double kBoxVariance_px2 = 1.0 / 12.0;
-    const double inside_px = 0.5 * (kBoxVariance_px2 + blur_px_ * blur_px_) / radius_px_;
+    const double inside_px = 0.5 * (kPixelVariance_px2 + blur_px_ * blur_px_) / radius_px_;
     if (blur_px_ <= 0.0) return edge_coverage({rim.distance_px + inside_px, rim.normal});
     return blurred_coverage(rim.distance_px + inside_px, blur_px_);
   }

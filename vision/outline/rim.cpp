@@ -8,6 +8,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "slam/math/angles.h"
+
 namespace stereobench::vision {
 namespace {
 
@@ -19,7 +21,6 @@ constexpr double kRingWidth_px = 2.0;
 constexpr double kWideRing_px = 5.0;     // the background's noise adds 1 / (4 . 5) of the edge's own variance
 constexpr double kCoarseFrom_px = 10.0;  // of radius
 constexpr double kSteep = 0.7;           // of the radius, above and below the centre
-constexpr double kPi = 3.14159265358979323846;
 
 // Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
 // share.
@@ -60,11 +61,12 @@ class RimCollector {
         inner_reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()),
         outer_reach_px_(gap_px + (shading ? kWideRing_px : kRingWidth_px) + outline.blur_reach_px()) {
     const double arc_length_px = is_coarse_ ? kCoarseLength_px : kArcLength_px;
-    const double arcs = std::clamp(2.0 * kPi * outline.radius_px() / arc_length_px, kFewestArcs, kMostArcs);
+    const double arcs =
+        std::clamp(2.0 * slam::kPi * outline.radius_px() / arc_length_px, kFewestArcs, kMostArcs);
     rim_.arcs.resize(static_cast<std::size_t>(arcs));
     rim_.has_shades = shading.has_value();
     rim_.pixels.reserve(
-        static_cast<std::size_t>(4.0 * kPi * near_px_ * (outline.semi_major_px() + near_px_)));
+        static_cast<std::size_t>(4.0 * slam::kPi * near_px_ * (outline.semi_major_px() + near_px_)));
   }
 
   Rim collect() && {
