@@ -17,7 +17,7 @@ constexpr double kOnCircle_px = 0.8;    // a boundary of whole pixels is as roug
 constexpr double kOnCircle = 0.02;      // of the radius: outlines are ellipses
 constexpr double kLeastOn = 1.0 / 3.0;  // of the boundary
 constexpr double kLargestRadius = 1.1;  // of the patch's longer side; a straight cut is no outline
-constexpr std::array<std::size_t, 5> kSteps = {3, 5, 7, 10, 14};  // between the points of a triple
+constexpr std::array<std::size_t, 5> kTripleSteps = {3, 5, 7, 10, 14};  // between the points of a triple
 
 // Once around the patch: angles about its middle grow, as far as their octants and slopes tell.
 double turn_order(const Eigen::Vector2d& from_middle) {
@@ -65,7 +65,7 @@ std::optional<Circle> guess_from_boundary(const cv::Mat& image, const Blob& blob
   const double largest = kLargestRadius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
   std::optional<Circle> best;
   std::size_t most = static_cast<std::size_t>(kLeastOn * static_cast<double>(points.size()));
-  for (const std::size_t step : kSteps) {
+  for (const std::size_t step : kTripleSteps) {
     for (std::size_t i = 0; i < points.size() && 2 * step < points.size(); ++i) {
       const auto circle = circle_through(points[i], points[(i + step) % points.size()],
                                          points[(i + 2 * step) % points.size()]);

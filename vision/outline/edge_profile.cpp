@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFirst_px = 0.6;  // where the fit begins: between in focus and badly out of it
 constexpr double kMost_px = 3.0;
-constexpr int kSteps = 12;
+constexpr int kBlurSteps = 12;
 constexpr double kConverged_px2 = 1e-4;
 
 }  // namespace
@@ -31,7 +31,7 @@ void EdgeProfile::add(const EdgeProfile& other) {
 
 double EdgeProfile::blur_px() const {
   double blur2 = kFirst_px * kFirst_px;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kBlurSteps; ++step) {
     const double blur = std::sqrt(blur2);
     double products = 0.0;
     double squares = 0.0;

@@ -17,23 +17,23 @@
 namespace stereobench::vision {
 namespace {
 
-constexpr double kMinPatch = 0.3;       // of the smallest circle's area
-constexpr double kMinFill = 0.25;       // of the bounding box; a disc has 0.79
-constexpr double kMaxElongation = 2.5;  // of the bounding box: half of a disc has 2
-constexpr int kLooks = 5;               // each around the circle of the one before
-constexpr double kFirstBand = 0.4;      // of the radius: how far to either side of it the first look goes
+constexpr double kMinPatch = 0.3;            // of the smallest circle's area
+constexpr double kMinPatchFill = 0.25;       // of the bounding box; a disc has 0.79
+constexpr double kMaxPatchElongation = 2.5;  // of the bounding box: half of a disc has 2
+constexpr int kLooks = 5;                    // each around the circle of the one before
+constexpr double kFirstBand = 0.4;  // of the radius: how far to either side of it the first look goes
 constexpr double kLastBand = 0.15;
 constexpr double kLeastBand_px = 3.0;
 constexpr double kEndOfBand = 0.35;  // of half the band: where a ray's two colours are sampled
 constexpr double kStep_px = 0.5;     // along a ray
-constexpr double kMinContrast_levels = 25.0;
+constexpr double kMinRayContrast_levels = 25.0;
 constexpr double kLeastSpread_px = 0.15;  // of edges: no thing is known to be rounder
 constexpr double kTukey = 4.685;          // 95 % efficiency for Gaussian errors
 constexpr std::size_t kFewestEdges = 8;
 constexpr double kMinArc = 0.2;
 constexpr double kKnownArc =
     0.65;  // of an outline; what shows less of it may be no circle: an oval follows one along half of its way
-constexpr int kSteps = 12;
+constexpr int kCircleSteps = 12;
 constexpr double kRough_px = 0.25;      // that edges of a round thing may scatter by: noise and JPEG's blocks
 constexpr double kRough = 0.03;         // the same of the radius: real things are not quite round
 constexpr double kRoughest = 2.0;       // times that, of what is reported: rougher than round is not trusted
@@ -62,8 +62,8 @@ struct Edges {
 bool may_be_round(const Blob& blob) {
   const double width = blob.max_x - blob.min_x + 1;
   const double height = blob.max_y - blob.min_y + 1;
-  return static_cast<double>(blob.area_px) >= kMinFill * width * height &&
-         std::max(width, height) <= kMaxElongation * std::min(width, height);
+  return static_cast<double>(blob.area_px) >= kMinPatchFill * width * height &&
+         std::max(width, height) <= kMaxPatchElongation * std::min(width, height);
 }
 
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& colours, std::size_t from, std::size_t to) {
@@ -82,7 +82,7 @@ std::optional<double> covered(const std::vector<Eigen::Vector3d>& samples, int c
   const Eigen::Vector3d last = mean_of(samples, samples.size() - end, samples.size());
   const Eigen::Vector3d contrast = first - last;
   if (class_of(table, first) != colour || class_of(table, last) == colour) return std::nullopt;
-  if (!(contrast.norm() >= kMinContrast_levels)) return std::nullopt;
+  if (!(contrast.norm() >= kMinRayContrast_levels)) return std::nullopt;
   double sum = 0.0;
   for (const Eigen::Vector3d& sample : samples)
     sum += std::clamp(contrast.dot(sample - last) / contrast.squaredNorm(), -0.25, 1.25);
@@ -130,7 +130,7 @@ struct CircleFit {
 /// Gauss-Newton on distances from the circle, with Tukey's weights, whose scale is the median's.
 std::optional<CircleFit> fit_circle(std::vector<EdgePoint>& points, Circle circle) {
   CircleFit fit{circle, Eigen::Matrix3d::Zero(), 0.0};
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kCircleSteps; ++step) {
     std::vector<double> errors, sizes;
     for (const EdgePoint& point : points) {
       errors.push_back((point.at - fit.circle.centre_px).norm() - fit.circle.radius_px);

@@ -6,9 +6,6 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr Interval kPlace_m = {-1e4, 1e4};
-constexpr Interval kTurn_deg = {-360.0, 360.0};
-
 /// Puts a mesh of unit height between the floor and the ball that `ball` names.
 void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInstance& mesh) {
   mesh.carried_ball = ball.integer(0, static_cast<int>(balls.size()) - 1);
@@ -19,7 +16,7 @@ void stand_under(const YamlValue& ball, const std::vector<Ball>& balls, MeshInst
   mesh.scale.z() = height_m / mesh.unit_m;
 }
 
-void read_file(const YamlValue& file, MeshInstance& mesh) {
+void read_mesh_file(const YamlValue& file, MeshInstance& mesh) {
   if (!std::filesystem::is_regular_file(file.path())) file.fail("expected a mesh file that exists");
   mesh.file = file.path().string();
 }
@@ -52,7 +49,7 @@ const Fields<MeshInstance>& mesh_keys() {
       {
           text("file", "Mesh file (obj, dae, gltf, glb, stl, fbx), relative to the scenario's folder.")
               .needed_unless("shape")
-              .by<MeshInstance>(read_file),
+              .by<MeshInstance>(read_mesh_file),
           choice("shape", {kShapeNames.begin(), kShapeNames.end()},
                  "A shape of unit size in place of a file.")
               .otherwise_says("file")

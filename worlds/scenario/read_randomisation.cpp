@@ -21,14 +21,11 @@ static YAML::Node written(const Key& key, const Range& range) {
 
 namespace {
 
-constexpr Interval kShare = {0.0, 1.0};
 constexpr Interval kShade = {0.0, 2.0};
 constexpr Interval kTintOffset = {-1.0, 1.0};
-constexpr Interval kSize_m = {1e-3, 10.0};
+constexpr Interval kClutterSize_m = {1e-3, 10.0};
 constexpr Interval kAway_m = {0.0, 100.0};
-constexpr Interval kTurn_deg = {-360.0, 360.0};
 constexpr Interval kUp_deg = {-90.0, 90.0};
-constexpr std::size_t kOurMaterials = 6;  // all but a file's
 
 constexpr std::string_view kOfColour = "Part of the colour that each channel is brighter by.";
 
@@ -53,7 +50,7 @@ std::vector<Field<Things>> scattered_fields(std::vector<Field<Things>> more) {
       &Things::scattered,
       {
           whole("count", 0, 1000, "How many things there are.").fills(&Scattered::count),
-          number("size_m", kSize_m, "Sides of a box, or a ball's diameter, in metres.")
+          number("size_m", kClutterSize_m, "Sides of a box, or a ball's diameter, in metres.")
               .fills(&Scattered::size_m),
           number("range_m", kAway_m, "Distance from a step of the drive to a thing's middle, in metres.")
               .fills(&Scattered::range_m),

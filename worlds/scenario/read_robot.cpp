@@ -12,14 +12,13 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr Interval kSize_m = {1e-3, 1e4};
 constexpr Interval kNoise = {0.0, 100.0};
 constexpr Interval kFocal_px = {1.0, 1e5};
 constexpr Interval kCentre_px = {0.0, 4095.0};
 constexpr Interval kBaseline_m = {1e-3, 10.0};
 constexpr Interval kHeight_m = {1e-3, 100.0};
 constexpr Interval kPitch_deg = {-80.0, 80.0};
-constexpr Interval kTurn_deg = {-45.0, 45.0};
+constexpr Interval kCameraTurn_deg = {-45.0, 45.0};
 constexpr Interval kLens = {-100.0, 100.0};
 constexpr Interval kAspect = {0.5, 2.0};
 constexpr Interval kFieldOfView_deg = {0.1, 360.0};
@@ -138,7 +137,7 @@ const Fields<StereoRig>& rig_keys() {
           number("pitch_down_deg", kPitch_deg, "How far the cameras look down, in degrees.")
               .times(slam::kRadPerDegree)
               .fills(&StereoRig::pitch_down_rad),
-          number("right_turn_deg", kTurn_deg,
+          number("right_turn_deg", kCameraTurn_deg,
                  "Turn of the right camera out of its place, about the camera's x, y and z, in degrees.")
               .times(slam::kRadPerDegree)
               .fills(&StereoRig::right_turn_rad),

@@ -9,16 +9,13 @@
 namespace stereobench::worlds {
 namespace {
 
-constexpr Interval kPlace_m = {-1e4, 1e4};
-constexpr Interval kSize_m = {1e-3, 1e3};
+constexpr Interval kThingSize_m = {1e-3, 1e3};
 constexpr Interval kRadius_m = {1e-3, 10.0};
 constexpr Interval kTolerance_m = {0.0, 1.0};
-constexpr double kMostTolerance = 0.1;  // of the usual radius
-constexpr Interval kShare = {0.0, 1.0};
+constexpr double kMostTolerance = 0.1;   // of the usual radius
 constexpr std::size_t kMostBalls = 254;  // identities are written into 8 bits, 0 is no ball, 255 is kept free
 constexpr std::size_t kMostWalls = 10000;
 constexpr std::size_t kMostFolders = 64;
-constexpr std::size_t kOurMaterials = 6;  // all but a file's
 constexpr std::string_view kNoFloor = "none";
 
 Key material(std::string_view name, std::string_view says) {
@@ -159,7 +156,7 @@ const Fields<WallLine>& wall_keys() {
           flag("closed", "Whether a wall leads from the last corner to the first.")
               .written_if_changed()
               .fills(&WallLine::closed),
-          number("height_m", kSize_m, "Height, in metres.").fills(&WallLine::wall, &Wall::height_m),
+          number("height_m", kThingSize_m, "Height, in metres.").fills(&WallLine::wall, &Wall::height_m),
           material("material", "What it is made of.").fills(&WallLine::wall, &Wall::material),
           number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
               .written_if_changed()

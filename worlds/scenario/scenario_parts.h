@@ -13,6 +13,14 @@ namespace stereobench::worlds {
 /// The finite factors that a colour may have.
 inline constexpr Interval kTint = {0.0, 4.0};
 
+/// What numbers in scenario files may be.
+inline constexpr Interval kPlace_m = {-1e4, 1e4};
+inline constexpr Interval kSize_m = {1e-3, 1e4};
+inline constexpr Interval kTurn_deg = {-360.0, 360.0};
+inline constexpr Interval kShare = {0.0, 1.0};
+
+inline constexpr std::size_t kOurMaterials = 6;  ///< all but a file's
+
 /// `world.ball_radius_m`, of balls that do not say theirs.
 double read_ball_radius_m(const YamlMap& world);
 

@@ -34,11 +34,11 @@ class EveryFormat : public testing::TestWithParam<DatasetFormat> {
  protected:
   const TestFolder folder_;
   const fs::path place_ = folder_.path() / "data";
-  const worlds::Scenario scenario_ = room_drive();
+  const Experiment experiment_ = {.scenario = room_drive()};
 
   RenderedSeed render(FrameChoice frames = {}) const {
-    GetParam().check(scenario_, {});
-    const RenderTask task = {.scenario = &scenario_,
+    GetParam().check(experiment_.scenario, {});
+    const RenderTask task = {.experiment = &experiment_,
                              .format = &GetParam(),
                              .frames = frames,
                              .truth = {},

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-cv::Mat picture(const TestFolder& folder, const std::string& name) {
+cv::Mat kitti_picture(const TestFolder& folder, const std::string& name) {
   return cv::imread((folder.path() / name).string(), cv::IMREAD_UNCHANGED);
 }
 
@@ -50,7 +50,7 @@ TEST_F(KittiFormat, HasTheDepthThatIsRendered) {
   const std::vector<double> p2 = numbers_of(calibration, "P2"), p3 = numbers_of(calibration, "P3");
   ASSERT_EQ(p2.size(), 12U);
   ASSERT_EQ(p3.size(), 12U);
-  const cv::Mat disparity = picture(folder_, "disp_occ_0/000001_10.png");
+  const cv::Mat disparity = kitti_picture(folder_, "disp_occ_0/000001_10.png");
   ASSERT_EQ(disparity.type(), CV_16UC1);
   int compared = 0;
   for (int v = 0; v < disparity.rows; ++v)
@@ -85,8 +85,8 @@ TEST_F(KittiFormat, ProjectsWhereTheCamerasDo) {
 // Of what the right camera does not see, disp_noc says nothing; of all else the same. Mutations: occluded
 // pixels in both; those seen in none.
 TEST_F(KittiFormat, LeavesOccludedPixelsOutOfOneOfTheTwo) {
-  const cv::Mat all = picture(folder_, "disp_occ_0/000001_10.png");
-  const cv::Mat seen = picture(folder_, "disp_noc_0/000001_10.png");
+  const cv::Mat all = kitti_picture(folder_, "disp_occ_0/000001_10.png");
+  const cv::Mat seen = kitti_picture(folder_, "disp_noc_0/000001_10.png");
   const cv::Mat differs = all != seen;
   EXPECT_EQ(cv::countNonZero(differs & (seen != 0)), 0);
   const int hidden = cv::countNonZero(differs);
@@ -96,8 +96,9 @@ TEST_F(KittiFormat, LeavesOccludedPixelsOutOfOneOfTheTwo) {
 }
 
 TEST_F(KittiFormat, HasBothPicturesAsTheyAreTaken) {
-  EXPECT_EQ(cv::norm(picture(folder_, "image_2/000001_10.png"), frame_.left.colour, cv::NORM_INF), 0.0);
-  EXPECT_EQ(cv::norm(picture(folder_, "image_3/000001_10.png"), frame_.right.colour, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(kitti_picture(folder_, "image_2/000001_10.png"), frame_.left.colour, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(kitti_picture(folder_, "image_3/000001_10.png"), frame_.right.colour, cv::NORM_INF),
+            0.0);
 }
 
 // Mutation: each line of the check left out.
