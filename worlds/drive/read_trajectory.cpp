@@ -49,7 +49,7 @@ std::vector<double> numbers_in(std::string_view text, char separator, std::size_
 }
 
 /// The heading of a rotation: the direction of its x axis on the floor.
-double heading_of(double qx, double qy, double qz, double qw, const Place& place) {
+double heading_of_quaternion(double qx, double qy, double qz, double qw, const Place& place) {
   const double norm = qx * qx + qy * qy + qz * qz + qw * qw;
   if (!(std::abs(norm - 1.0) < 0.01)) place.refuse("expected a unit quaternion");
   return slam::arc_tangent(2.0 * (qw * qz + qx * qy), norm - 2.0 * (qy * qy + qz * qz));
@@ -62,7 +62,7 @@ TimedPose own_pose(std::string_view text, const Place& place) {
 
 TimedPose tum_pose(std::string_view text, const Place& place) {
   const std::vector<double> n = numbers_in(text, ' ', 8, place);
-  return {n[0], {n[1], n[2], heading_of(n[4], n[5], n[6], n[7], place)}};
+  return {n[0], {n[1], n[2], heading_of_quaternion(n[4], n[5], n[6], n[7], place)}};
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace stereobench::harness {
 namespace {
 
-const std::vector<LandmarkTruth> kTrueLandmarks = {{0, 5, {0.0, 0.0}}, {1, 5, {10.0, 0.0}}, {2, 6, {10.0, 1.0}}};
+const std::vector<LandmarkTruth> kTrueLandmarks = {
+    {0, 5, {0.0, 0.0}}, {1, 5, {10.0, 0.0}}, {2, 6, {10.0, 1.0}}};
 
 slam::LandmarkEstimate estimate(int id, int colour, double x_m, double y_m) {
   return {id, colour, {x_m, y_m}, Eigen::Matrix2d::Zero()};

@@ -10,7 +10,7 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kDraws = 40000;
+constexpr int kMomentDraws = 40000;
 
 // A pose and two landmarks that are tied through it, uncertain by centimetres and hundredths of a radian.
 class Tied {
@@ -79,19 +79,19 @@ TYPED_TEST(JointMoments, AreThoseOfManySightings) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 7, 2> cross = Eigen::Matrix<double, 7, 2>::Zero();
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kMomentDraws; ++i) {
     const Eigen::Matrix<double, 7, 1> off = tied.draw(random);
     const Eigen::Vector2d error(1e-2 * random.normal(), 2e-3 * random.normal());
     const Eigen::Vector2d exact = predict_sighting(boxplus(tied.belief.pose, off.head<3>()),
                                                    tied.belief.landmarks[0] + off.segment<2>(3));
     // Nothing was seen, so the residual is what was expected, with the other sign.
     const Eigen::Vector2d innovation = sighting_residual(exact + error, -seen.residual);
-    mean += innovation / kDraws;
-    square += innovation * innovation.transpose() / kDraws;
-    cross += off * innovation.transpose() / kDraws;
+    mean += innovation / kMomentDraws;
+    square += innovation * innovation.transpose() / kMomentDraws;
+    cross += off * innovation.transpose() / kMomentDraws;
   }
   const Eigen::Vector2d by_sd = seen.covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
+  const double error = 5.0 / std::sqrt(static_cast<double>(kMomentDraws));
   EXPECT_LT((by_sd.asDiagonal() * mean).cwiseAbs().maxCoeff(), error);
   EXPECT_LT((by_sd.asDiagonal() * (square - seen.covariance) * by_sd.asDiagonal()).cwiseAbs().maxCoeff(),
             std::sqrt(2.0) * error);
@@ -113,16 +113,16 @@ TYPED_TEST(JointMoments, AreThoseOfManyFinds) {
   RandomStream random(3, Stream::kWorld);
   Eigen::Matrix<double, 5, 1> mean = Eigen::Matrix<double, 5, 1>::Zero();
   Eigen::Matrix<double, 5, 5> square = Eigen::Matrix<double, 5, 5>::Zero();
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kMomentDraws; ++i) {
     const Eigen::Vector3d step = tied.draw(random).template head<3>();
     const Eigen::Vector2d error(1e-2 * random.normal(), 2e-3 * random.normal());
     Eigen::Matrix<double, 5, 1> off;
     off << step, locate(boxplus(belief.pose, step), seen.range_bearing + error) - belief.landmarks[2];
-    mean += off / kDraws;
-    square += off * off.transpose() / kDraws;
+    mean += off / kMomentDraws;
+    square += off * off.transpose() / kMomentDraws;
   }
   const Eigen::Matrix<double, 5, 1> by_sd = expected.diagonal().cwiseSqrt().cwiseInverse();
-  const double error = 5.0 / std::sqrt(static_cast<double>(kDraws));
+  const double error = 5.0 / std::sqrt(static_cast<double>(kMomentDraws));
   EXPECT_LT((by_sd.asDiagonal() * mean).cwiseAbs().maxCoeff(), error);
   EXPECT_LT((by_sd.asDiagonal() * (square - expected) * by_sd.asDiagonal()).cwiseAbs().maxCoeff(),
             std::sqrt(2.0) * error);

@@ -10,7 +10,7 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kDraws = 40000;
+constexpr int kModelDraws = 40000;
 
 template <class Model>
 class Models : public ::testing::Test {
@@ -55,7 +55,7 @@ void expect_same_moments(const Eigen::Matrix<double, kSize, kSize>& a,
   const Eigen::Matrix<double, kSize, 1> sd = b.diagonal().cwiseSqrt().cwiseMax(1e-12);
   const Eigen::Matrix<double, kSize, kSize> off =
       sd.cwiseInverse().asDiagonal() * (a - b) * sd.cwiseInverse().asDiagonal();
-  EXPECT_LE(off.cwiseAbs().maxCoeff(), 5.0 * std::sqrt(2.0 / kDraws) + 0.02) << a << "\nagainst\n" << b;
+  EXPECT_LE(off.cwiseAbs().maxCoeff(), 5.0 * std::sqrt(2.0 / kModelDraws) + 0.02) << a << "\nagainst\n" << b;
 }
 
 // Errata: eq. 6 and 7 (control noise belongs to the motion). Catches a dropped or swapped control noise, a
@@ -69,11 +69,11 @@ TYPED_TEST(Models, MoveHasTheMomentsOfManyNoisyMoves) {
     const PoseBelief moved = this->model_.move(start, control, sd, this->repairs_);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    for (int i = 0; i < kDraws; ++i) {
+    for (int i = 0; i < kModelDraws; ++i) {
       const Pose drawn = advance(this->draw(start), perturb(control, noise, this->random_));
       const Eigen::Vector3d off = boxminus(drawn, moved.mean);
-      mean += off / kDraws;
-      second += off * off.transpose() / kDraws;
+      mean += off / kModelDraws;
+      second += off * off.transpose() / kModelDraws;
     }
     EXPECT_TRUE(near(mean, Eigen::Vector3d::Zero(), 0.005));
     expect_same_moments<3>(second - mean * mean.transpose(), moved.covariance);
@@ -99,14 +99,14 @@ TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
       this->model_.expect(pose, landmark, {{}, some_noise()}, this->repairs_);
   Eigen::Matrix<double, 5, 1> mean = Eigen::Matrix<double, 5, 1>::Zero();
   Eigen::Matrix<double, 5, 5> second = Eigen::Matrix<double, 5, 5>::Zero();
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kModelDraws; ++i) {
     const Pose from = this->draw(pose);
     const Eigen::Vector2d seen = predict_sighting(from, this->draw(landmark.mean, landmark.covariance)) +
                                  this->draw(Eigen::Vector2d::Zero(), some_noise());
     Eigen::Matrix<double, 5, 1> off;
     off << boxminus(from, pose.mean), sighting_residual(seen, expected.expected);
-    mean += off / kDraws;
-    second += off * off.transpose() / kDraws;
+    mean += off / kModelDraws;
+    second += off * off.transpose() / kModelDraws;
   }
   Eigen::Matrix<double, 5, 5> joint;
   joint << pose.covariance, expected.cross, expected.cross.transpose(), expected.covariance;
@@ -133,10 +133,10 @@ TYPED_TEST(Models, FoundHasTheMomentsOfManyFinds) {
   const LandmarkBelief found = this->model_.found(robot, seen, this->repairs_);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kModelDraws; ++i) {
     const Eigen::Vector2d off = locate(robot, this->draw(seen.range_bearing, seen.noise)) - found.mean;
-    mean += off / kDraws;
-    second += off * off.transpose() / kDraws;
+    mean += off / kModelDraws;
+    second += off * off.transpose() / kModelDraws;
   }
   EXPECT_TRUE(near(mean, Eigen::Vector2d::Zero(), 0.007));
   expect_same_moments<2>(second - mean * mean.transpose(), found.covariance);
