@@ -18,7 +18,7 @@ namespace {
 /// One row a format: name, what it holds, what it refuses, how it starts.
 constexpr std::array<DatasetFormat, 2> kFormats = {{
     {"stereobench", "ids, depth, calibration and truth", check_stereobench_format, stereobench_writer},
-    {"kitti", "disparity and calibration, as KITTI stereo 2015 has them", check_kitti_format, kitti_writer},
+    {"kitti", "disparity and calibration as in KITTI stereo 2015", check_kitti_format, kitti_writer},
 }};
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST(RenderCommand, WritesTheFormatThatIsAskedFor) {
   const Outcome outcome = render_to(out, {"--frames", "1", "--format", "kitti"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
-              HasSubstr("1 stereo pairs with disparity and calibration, as KITTI stereo 2015 has"));
+              HasSubstr("1 stereo pairs with disparity and calibration as in KITTI stereo 2015 in "));
   EXPECT_TRUE(fs::exists(out / "disp_occ_0/000001_10.png"));
   EXPECT_FALSE(fs::exists(out / "left"));
   EXPECT_EQ(marker_of(out)["format"], "kitti");
