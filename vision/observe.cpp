@@ -19,16 +19,11 @@
 #include "vision/stereo/range_bearing.h"
 #include "vision/stereo/rig_match.h"
 #include "vision/stereo/sphere.h"
+#include "vision/tuning/detection.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kMinPatch = 0.3;     // of the smallest outline's area that shows its colour clearly
-constexpr double kMinVisible = 0.25;  // of an outline's area; what shows less of itself is not a ball
-constexpr double kInFocus_px = 0.2;   // a blur below this is the pixels' own
-constexpr int kMostLooks = 3;         // at a picture out of focus
-constexpr double kSameBlur = 0.1;     // relative
-constexpr double kSamePlace = 0.5;    // radii between the centres of two outlines that are one
 
 void check_image(const cv::Mat& image, const Intrinsics& camera, const char* side) {
   if (image.type() != CV_8UC3 || image.empty())
@@ -53,7 +48,7 @@ void check_settings(const ObserverSettings& settings) {
 }
 
 bool same_place(const MeasuredOutline& a, const MeasuredOutline& b) {
-  return (a.centre_px - b.centre_px).norm() < kSamePlace * std::max(a.radius_px, b.radius_px);
+  return (a.centre_px - b.centre_px).norm() < kDetection.same_place * std::max(a.radius_px, b.radius_px);
 }
 
 using Outlines = ScratchVector<MeasuredOutline>;
@@ -83,7 +78,8 @@ Outlines fit_outlines(const cv::Mat& image, const ScratchVector<Blob>& blobs, co
   Outlines outlines;
   for (const Blob& blob : blobs) {
     const auto outline = fit_outline(image, blob, settings);
-    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kMinVisible) continue;
+    if (!outline || outline->hidden_fraction + outline->outside_fraction > 1.0 - kDetection.min_visible)
+      continue;
     outlines.push_back(*outline);
   }
   return without_duplicates(std::move(outlines));
@@ -94,7 +90,7 @@ double blur_of(const Outlines& outlines) {
   EdgeProfile edge;
   for (const MeasuredOutline& outline : outlines) edge.add(outline.edge);
   const double blur = edge.blur_px();
-  return blur < kInFocus_px ? 0.0 : blur;
+  return blur < kDetection.in_focus_px ? 0.0 : blur;
 }
 
 // Outlines are measured as if they were in focus, which tells the picture's blur; where there is some, they
@@ -114,11 +110,13 @@ Found find_in(const cv::Mat& image, const Intrinsics& camera, const ObserverSett
     return found;
   }
   const double smallest_disc = 3.14 * settings.min_radius_px * settings.min_radius_px;
-  const auto blobs = find_blobs(image, std::lround(kMinPatch * smallest_disc));
+  const auto blobs = find_blobs(image, std::lround(kDetection.min_patch * smallest_disc));
   for (int look = 1;; ++look) {
     found.outlines = fit_outlines(image, blobs, found.settings);
     const double blur = blur_of(found.outlines);
-    if (look == kMostLooks || std::abs(blur - found.settings.blur_px) <= kSameBlur * blur) break;
+    if (look == kDetection.most_looks ||
+        std::abs(blur - found.settings.blur_px) <= kDetection.same_blur * blur)
+      break;
     found.settings.blur_px = blur;
   }
   return found;
@@ -153,7 +151,8 @@ BallObservation measure(const OutlinePair& pair, const Matched& matched, const B
   ball.range_bearing = range_bearing(ball.ball_in_camera, fit.covariance_m2, robot_from_camera(rig));
   ball.range_bearing.colour_class = ball.colour;
   if (!pair.sizes_agree || !speaks(pair, rig)) {
-    ball.truncated = std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kMostHidden;
+    ball.truncated =
+        std::max(pair.left.outside_fraction, pair.right.outside_fraction) > kOutlineFit.most_hidden;
     ball.occluded = !ball.truncated;
   }
   return ball;
@@ -198,14 +197,14 @@ std::vector<BallObservation> observe(const StereoPair& pair, const StereoRig& ri
 
 ObservedPair observe(const StereoPair& pair, const Rectification& rectification,
                      const ObserverSettings& settings, const RigWatch& watch) {
-  constexpr double kRim_px = 3.0;  // what the outline's fit looks at beyond it
   if (rectification.is_nothing()) return look_at(pair, rectification.rig(), settings, watch);
   ObserverSettings of_rectified = settings;
   of_rectified.resampled = true;
   ObservedPair look = look_at(rectification.apply(pair), rectification.rig(), of_rectified, watch);
   for (BallObservation& seen : look.balls) {
-    const bool whole = rectification.shows(seen.left_px, seen.left_radius_px + kRim_px, Side::kLeft) &&
-                       rectification.shows(seen.right_px, seen.right_radius_px + kRim_px, Side::kRight);
+    const bool whole =
+        rectification.shows(seen.left_px, seen.left_radius_px + kDetection.rim_px, Side::kLeft) &&
+        rectification.shows(seen.right_px, seen.right_radius_px + kDetection.rim_px, Side::kRight);
     seen.truncated = seen.truncated || !whole;
     seen.left_px = rectification.taken_px(seen.left_px, Side::kLeft);
     seen.right_px = rectification.taken_px(seen.right_px, Side::kRight);

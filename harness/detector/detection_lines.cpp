@@ -10,6 +10,7 @@
 #include "vision/palette.h"
 #include "vision/stereo/range_bearing.h"
 #include "vision/stereo/sphere.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::harness {
 namespace {
@@ -216,8 +217,8 @@ std::string outlines_line(std::size_t frame, std::span<const vision::MeasuredOut
                  {"left_px", pixel_json(outline.centre_px)},
                  {"left_radius_px", outline.radius_px}};
     add_name(ball, outline.colour, names);
-    if (outline.outside_fraction > vision::kMostHidden) ball["truncated"] = true;
-    if (outline.hidden_fraction > vision::kMostHidden) ball["occluded"] = true;
+    if (outline.outside_fraction > vision::kOutlineFit.most_hidden) ball["truncated"] = true;
+    if (outline.hidden_fraction > vision::kOutlineFit.most_hidden) ball["occluded"] = true;
     json["balls"].push_back(std::move(ball));
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

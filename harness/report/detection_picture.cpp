@@ -12,6 +12,7 @@
 #include "renderer/camera/sensor_model.h"
 #include "slam/math/angles.h"
 #include "vision/observe.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::harness {
 namespace {
@@ -137,8 +138,8 @@ std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines,
                            std::span<const std::string> names) {
   std::vector<Ring> rings;
   for (const vision::MeasuredOutline& outline : outlines) {
-    const bool cut = outline.outside_fraction > vision::kMostHidden;
-    const bool hidden = outline.hidden_fraction > vision::kMostHidden;
+    const bool cut = outline.outside_fraction > vision::kOutlineFit.most_hidden;
+    const bool hidden = outline.hidden_fraction > vision::kOutlineFit.most_hidden;
     const auto colour = static_cast<std::size_t>(outline.colour);
     const std::string name = colour < names.size() ? names[colour] : fmt::format("{}", outline.colour);
     const std::string label = fmt::format("{}: {:.1f} px", name, outline.radius_px);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vision/observe.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench {
 namespace {
@@ -36,7 +37,8 @@ bool is_of(const vision::MeasuredOutline& outline, const Ball& ball) {
 }
 
 bool is_trusted(const vision::MeasuredOutline& outline) {
-  return outline.outside_fraction <= vision::kMostHidden && outline.hidden_fraction <= vision::kMostHidden;
+  return outline.outside_fraction <= vision::kOutlineFit.most_hidden &&
+         outline.hidden_fraction <= vision::kOutlineFit.most_hidden;
 }
 
 void add_marked(const Photograph& photograph, std::vector<std::vector<Eigen::Vector3d>>& pixels) {

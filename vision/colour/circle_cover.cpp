@@ -7,19 +7,13 @@
 
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
+#include "vision/tuning/round_patch.h"
 
 namespace stereobench::vision {
 namespace {
 
-constexpr int kSpokes = 96;
-constexpr double kReach = 0.8;      // of the radius: what shows its colour so far out is not hidden
-constexpr double kStep_px = 0.5;    // along a ray
-constexpr int kBeside = 3;          // spokes to either side whose steps are summed: 26 degrees in all
-constexpr int kRings = 9;           // radii on either side of the circle's own at which steps are compared
-constexpr int kOwn = 1;             // of these, that belong to the circle: outlines are blurred
-constexpr double kFirstRing = 2.0;  // rings apart from the circle that are held against it, from here on
-constexpr double kStandsOut = 1.5;  // times the steps at other radii, root mean square
-constexpr double kLeastStep_levels = 6.0;  // of a mean: JPEG's own steps are smaller
+constexpr int kSpokes = 96;  // rays once around
+constexpr int kRings = 9;    // radii on either side of the circle's own at which steps are compared
 
 /// Steps in the picture from inside to outside along one spoke, at radii around a circle's.
 using Steps = std::array<Eigen::Vector3d, 2 * kRings + 1>;
@@ -52,7 +46,7 @@ bool ends_at_circle(const std::vector<std::optional<Steps>>& steps, int spoke) {
   Steps sums;
   sums.fill(Eigen::Vector3d::Zero());
   int count = 0;
-  for (int beside = -kBeside; beside <= kBeside; ++beside) {
+  for (int beside = -kCover.beside; beside <= kCover.beside; ++beside) {
     const auto& along = steps[static_cast<std::size_t>((spoke + beside + kSpokes) % kSpokes)];
     if (!along) continue;
     ++count;
@@ -62,12 +56,13 @@ bool ends_at_circle(const std::vector<std::optional<Steps>>& steps, int spoke) {
   int other_count = 0;
   for (int ring = -kRings; ring <= kRings; ++ring) {
     const double size = sums[static_cast<std::size_t>(ring + kRings)].norm();
-    if (std::abs(ring) <= kOwn) own = std::max(own, size);
-    if (std::abs(ring) <= kFirstRing) continue;
+    if (std::abs(ring) <= kCover.own) own = std::max(own, size);
+    if (std::abs(ring) <= kCover.first_ring) continue;
     others += size * size;
     ++other_count;
   }
-  return own >= kLeastStep_levels * count && own >= kStandsOut * std::sqrt(others / other_count);
+  return own >= kCover.least_step_levels * count &&
+         own >= kCover.stands_out * std::sqrt(others / other_count);
 }
 
 /// How far out along a spoke the thing's own colour is seen, of the radius; empty outside of the picture.
@@ -76,7 +71,7 @@ std::optional<double> reach_of(const cv::Mat& image, const Circle& circle, int c
   const Eigen::Vector2d direction = direction_of(spoke);
   if (!colour_at(image, circle.centre_px + circle.radius_px * direction)) return std::nullopt;
   double reach_px = circle.radius_px;
-  for (; reach_px > 0.0; reach_px -= kStep_px) {
+  for (; reach_px > 0.0; reach_px -= kCover.step_px) {
     const auto sample = colour_at(image, circle.centre_px + reach_px * direction);
     if (sample && class_of(table, *sample) == colour) break;
   }
@@ -97,7 +92,7 @@ std::vector<Spoke> spokes_of(const cv::Mat& image, const Circle& circle, int col
   for (int i = 0; i < kSpokes; ++i) {
     Spoke& spoke = spokes[static_cast<std::size_t>(i)];
     spoke.reach = reach_of(image, circle, colour, table, i);
-    spoke.in_question = spoke.reach && *spoke.reach < kReach;
+    spoke.in_question = spoke.reach && *spoke.reach < kCover.reach;
   }
   return spokes;
 }

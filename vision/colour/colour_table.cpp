@@ -3,15 +3,10 @@
 #include <algorithm>
 
 #include "vision/palette.h"
+#include "vision/tuning/colours.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kMinBrightness = 60.0;  // brightest channel; a palette colour in deep shade has 103
-constexpr double kMinSaturationLevels =
-    40.0;  // brightest minus darkest channel, five sigma of the worst noise
-constexpr double kMaxChromaticityError = 0.11;  // from the nearest palette colour; neighbours are 0.11 apart
-constexpr double kMinWhiteDistance = 0.085;     // from the white point; the palest palette colour has 0.16
 
 struct Chromaticity {
   double r = 0.0;
@@ -30,13 +25,16 @@ double squared_distance(Chromaticity a, Chromaticity b) {
 std::uint8_t nearest_colour(double r, double g, double b) {
   const double brightest = std::max({r, g, b});
   const double darkest = std::min({r, g, b});
-  if (brightest < kMinBrightness || brightest - darkest < kMinSaturationLevels) return kBackground;
+  if (brightest < kPaletteColours.min_brightness_levels ||
+      brightest - darkest < kPaletteColours.min_saturation_levels)
+    return kBackground;
   const Chromaticity pixel = chromaticity(r, g, b);
-  if (squared_distance(pixel, {1.0 / 3.0, 1.0 / 3.0}) < kMinWhiteDistance * kMinWhiteDistance)
+  if (squared_distance(pixel, {1.0 / 3.0, 1.0 / 3.0}) <
+      kPaletteColours.min_white_distance * kPaletteColours.min_white_distance)
     return kBackground;
 
   std::uint8_t nearest = kBackground;
-  double nearest_distance = kMaxChromaticityError * kMaxChromaticityError;
+  double nearest_distance = kPaletteColours.max_chromaticity_error * kPaletteColours.max_chromaticity_error;
   for (std::size_t i = 0; i < kPalette.size(); ++i) {
     const double distance =
         squared_distance(pixel, chromaticity(kPalette[i].r, kPalette[i].g, kPalette[i].b));

@@ -8,18 +8,10 @@
 #include <Eigen/LU>
 
 #include "slam/math/elementary.h"
+#include "vision/tuning/colours.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr std::size_t kFewestPixels = 20;
-constexpr double kFloor = 0.012;           // sd of a chromaticity: cells of four levels, and other lights
-constexpr double kLeastSaturation = 0.06;  // distance from grey of what has a colour
-constexpr double kLeastLevel = 20.0;       // darker pixels say nothing of their colour
-constexpr double kDarker = 0.6;            // of the darkest sample's level: other places are darker
-constexpr double kDarkestShare = 0.02;     // of samples that may be darker: their rims
-constexpr double kFromGrey = 0.5;          // of the colour's own distance
-constexpr int kConcentrations = 20;        // of the half that lies closest together
 
 /// The half of a Gaussian's points that lies closest to its mean has the whole's covariance over this:
 /// P(chi2(2) <= m) / P(chi2(4) <= m), m the median of chi2(2).
@@ -40,7 +32,8 @@ Eigen::Vector2d chromaticity_of(const Eigen::Vector3d& bgr, Levels levels) {
 }
 
 bool has_colour(const Eigen::Vector3d& bgr, Levels levels) {
-  return bgr.maxCoeff() >= kLeastLevel && (chromaticity_of(bgr, levels) - grey()).norm() >= kLeastSaturation;
+  return bgr.maxCoeff() >= kLearnedColours.least_level &&
+         (chromaticity_of(bgr, levels) - grey()).norm() >= kLearnedColours.least_saturation;
 }
 
 struct Gaussian {
@@ -54,7 +47,8 @@ struct Gaussian {
 };
 
 Gaussian gaussian_of(const std::vector<Eigen::Vector2d>& points, const std::vector<std::size_t>& chosen) {
-  Gaussian result{Eigen::Vector2d::Zero(), kFloor * kFloor * Eigen::Matrix2d::Identity()};
+  Gaussian result{Eigen::Vector2d::Zero(),
+                  kLearnedColours.floor * kLearnedColours.floor * Eigen::Matrix2d::Identity()};
   const double share = 1.0 / static_cast<double>(chosen.size());
   for (const std::size_t i : chosen) result.mean += share * points[i];
   for (const std::size_t i : chosen)
@@ -74,7 +68,7 @@ Gaussian closest_half(const std::vector<Eigen::Vector2d>& points) {
                      [&](auto a, auto b) { return points[a][axis] < points[b][axis]; });
     current.mean[axis] = points[*middle][axis];
   }
-  for (int step = 0; step < kConcentrations; ++step) {
+  for (int step = 0; step < kLearnedColours.concentrations; ++step) {
     std::vector<double> distances(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) distances[i] = current.squared_deviations(points[i]);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) {
@@ -88,7 +82,7 @@ Gaussian closest_half(const std::vector<Eigen::Vector2d>& points) {
 }  // namespace
 
 LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vector3d> bgr, Levels levels) {
-  if (bgr.size() < kFewestPixels)
+  if (bgr.size() < kLearnedColours.fewest_pixels)
     throw std::invalid_argument(name + ": expected samples of at least 20 pixels");
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3d> coloured;
@@ -102,7 +96,8 @@ LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vecto
   half.covariance *= kHalfToWhole;
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (half.squared_deviations(points[i]) <= kLearnedGate * kLearnedGate) inside.push_back(i);
+    if (half.squared_deviations(points[i]) <= kLearnedColours.gate_sds * kLearnedColours.gate_sds)
+      inside.push_back(i);
   const Gaussian all = gaussian_of(points, inside);
 
   LearnedColour colour{name, all.mean, all.covariance};
@@ -112,8 +107,9 @@ LearnedColour learn_colour(const std::string& name, std::span<const Eigen::Vecto
     colour.bgr += coloured[i] / static_cast<double>(inside.size());
   }
   std::sort(brightest.begin(), brightest.end());
-  const auto rank = static_cast<std::size_t>(kDarkestShare * static_cast<double>(brightest.size()));
-  colour.darkest_level = kDarker * brightest[rank];
+  const auto rank =
+      static_cast<std::size_t>(kLearnedColours.darkest_share * static_cast<double>(brightest.size()));
+  colour.darkest_level = kLearnedColours.darker * brightest[rank];
   return colour;
 }
 
@@ -140,9 +136,9 @@ ColourTable table_of(std::span<const LearnedColour> colours, Levels levels) {
       const Gaussian gaussian{colour.chromaticity, colour.covariance};
       const double squared = gaussian.squared_deviations(at);
       const double from_grey = (at - grey()).norm();
-      const bool is_possible = squared <= kLearnedGate * kLearnedGate &&
+      const bool is_possible = squared <= kLearnedColours.gate_sds * kLearnedColours.gate_sds &&
                                bgr.maxCoeff() >= colour.darkest_level &&
-                               from_grey >= kFromGrey * (colour.chromaticity - grey()).norm();
+                               from_grey >= kLearnedColours.from_grey * (colour.chromaticity - grey()).norm();
       const double unlikely = squared + slam::logarithm(colour.covariance.determinant());
       if (!is_possible || (best != kBackground && unlikely >= least)) continue;
       best = static_cast<std::uint8_t>(i);

@@ -28,9 +28,6 @@ struct LearnedColour {
   Eigen::Vector3d bgr = Eigen::Vector3d::Zero();  ///< typical, for pictures
 };
 
-/// How many standard deviations from a learned colour a pixel may be: chi-square(2) at 99.9 %.
-inline constexpr double kLearnedGate = 3.717;
-
 /// Learns one colour from pixels of samples. Highlights, whose chromaticity is the light's, and what else is
 /// not of the colour, are passed over: mean and covariance are those of the half of the pixels that lies
 /// closest together (minimum covariance determinant), and then of all that are within the gate of it.

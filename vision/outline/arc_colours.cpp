@@ -7,23 +7,10 @@
 #include <Eigen/LU>
 
 #include "vision/pixel_noise.h"
+#include "vision/tuning/arc_colours.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr std::size_t kShadeArcs = 3;   // to either side, that tell how good the shading is
-constexpr double kUnknownShade = 0.12;  // sd of the ball's brightness at the rim, relative
-constexpr double kLeastShade = 0.01;    // the same where the shading suits all that is seen
-constexpr double kShadeAtRim = 2.0;     // times as uncertain as beside it
-constexpr double kTextureSigmas = 2.0;
-constexpr std::size_t kTextureArcs = 1;     // to either side
-constexpr double kTextureElsewhere = 0.25;  // of the arcs' mean deviation, as a variance
-constexpr std::size_t kGradientArcs = 3;    // to either side
-constexpr double kGradientByChance = 11.3;  // chi-square with three degrees of freedom: one in a hundred
-constexpr double kSmoothSigmas = 3.0;
-constexpr double kMeanSquareShare = 0.4;  // of either colour in a rim pixel
-constexpr double kMinContrast_levels = 14.0;
-constexpr double kMaxAlphaSd = 0.5;  // a pixel that knows its share no better says nothing
 
 // The ball beside one arc.
 struct BallBeside {
@@ -71,7 +58,7 @@ double believed_part(double squares, double freedom) {
 Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double noise_variance) {
   if (!(freedom > 0.0)) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d beyond = scatter / freedom - noise_variance * Eigen::Matrix3d::Identity();
-  const double by_chance = kTextureSigmas * noise_variance * std::sqrt(6.0 / freedom);
+  const double by_chance = kArcColours.texture_sigmas * noise_variance * std::sqrt(6.0 / freedom);
   return beyond.trace() > by_chance ? beyond : Eigen::Matrix3d::Zero();
 }
 
@@ -97,7 +84,7 @@ Eigen::Matrix3d texture_everywhere(const ScratchVector<RimArc>& arcs, double noi
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
 Eigen::Matrix3d texture_around(const ScratchVector<RimArc>& arcs, std::size_t arc, double noise_variance) {
   BackgroundSums around;
-  visit_around(arcs, arc, kTextureArcs,
+  visit_around(arcs, arc, kArcColours.texture_arcs,
                [&](const RimArc& other) { around.moments += other.outside.moments; });
   return texture(around.scatter(), around.count() - 1.0, noise_variance);
 }
@@ -118,7 +105,7 @@ Gradient gradient(const BackgroundSums& outside, double noise_variance) {
   result.squares = outside.distance2 - distance * outside.sums_by_distance().w();
   if (!(result.squares > 0.0)) return {};
   const double rest = outside.scatter().trace() - result.products.squaredNorm() / result.squares;
-  result.is_smooth = rest < noise_variance * (freedom + kSmoothSigmas * std::sqrt(2.0 * freedom));
+  result.is_smooth = rest < noise_variance * (freedom + kArcColours.smooth_sigmas * std::sqrt(2.0 * freedom));
   return result;
 }
 
@@ -137,13 +124,13 @@ Eigen::Vector3d background_at_rim(const BackgroundSums& outside, const ScratchVe
                                   std::size_t arc, double noise_variance) {
   if (!gradients[arc].is_smooth) return outside.mean();
   Gradient around;
-  visit_around(gradients, arc, kGradientArcs, [&](const Gradient& other) {
+  visit_around(gradients, arc, kArcColours.gradient_arcs, [&](const Gradient& other) {
     if (!other.is_smooth) return;
     around.products += other.products;
     around.squares += other.squares;
   });
   const double squares = around.products.squaredNorm() / (around.squares * noise_variance);
-  if (!(squares > kGradientByChance)) return outside.mean();
+  if (!(squares > kArcColours.gradient_by_chance)) return outside.mean();
   const Eigen::Vector3d per_px = believed_part(squares, 3.0) / around.squares * around.products;
   return outside.mean() - outside.mean_distance_px() * per_px;
 }
@@ -175,12 +162,12 @@ ScratchVector<ShadeCheck> check_shades(const Balls& balls, double noise_variance
 // How well the ball's colours at the rim of an arc are known.
 struct ShadeTrust {
   double beyond_shade = 1.0;  // part of what is shown beyond the shading that is not noise
-  double relative_sd = kUnknownShade;
+  double relative_sd = kArcColours.unknown_shade;
 };
 
 ShadeTrust trust_around(const ScratchVector<ShadeCheck>& checks, std::size_t arc) {
   ShadeCheck around{.freedom = -2.0};
-  visit_around(checks, arc, kShadeArcs, [&](const ShadeCheck& other) {
+  visit_around(checks, arc, kArcColours.shade_arcs, [&](const ShadeCheck& other) {
     around.squares += other.squares;
     around.freedom += other.freedom;
     around.of_brightness += other.of_brightness;
@@ -188,8 +175,9 @@ ShadeTrust trust_around(const ScratchVector<ShadeCheck>& checks, std::size_t arc
   });
   if (!(around.freedom > 0.0)) return {};
   const double beside = std::max(0.0, around.of_brightness / around.brightness);
-  const double at_rim = std::sqrt(kShadeAtRim * kShadeAtRim * beside + kLeastShade * kLeastShade);
-  return {believed_part(around.squares, around.freedom), std::min(kUnknownShade, at_rim)};
+  const double at_rim = std::sqrt(kArcColours.shade_at_rim * kArcColours.shade_at_rim * beside +
+                                  kArcColours.least_shade * kArcColours.least_shade);
+  return {believed_part(around.squares, around.freedom), std::min(kArcColours.unknown_shade, at_rim)};
 }
 
 // What black adds to each channel of a colour that is the mean of noisy pixels. Mixed pixels are above black:
@@ -217,13 +205,14 @@ struct Mixture {
 ArcColours unmixed(const Mixture& mixture) {
   ArcColours arc;
   const Eigen::Vector3d contrast = mixture.ball - mixture.background;
-  if (!(contrast.norm() > kMinContrast_levels)) return arc;
+  if (!(contrast.norm() > kArcColours.min_contrast_levels)) return arc;
   const Eigen::Vector3d shade = mixture.shade_sd * mixture.ball;
-  const Eigen::Matrix3d covariance = mixture.noise_variance * Eigen::Matrix3d::Identity() +
-                                     kMeanSquareShare * (shade * shade.transpose() + mixture.texture);
+  const Eigen::Matrix3d covariance =
+      mixture.noise_variance * Eigen::Matrix3d::Identity() +
+      kArcColours.mean_square_share * (shade * shade.transpose() + mixture.texture);
   const Eigen::Vector3d weighted = covariance.inverse() * contrast;
   const double strength = contrast.dot(weighted);
-  if (!(strength > 1.0 / (kMaxAlphaSd * kMaxAlphaSd))) return arc;
+  if (!(strength > 1.0 / (kArcColours.max_alpha_sd * kArcColours.max_alpha_sd))) return arc;
   const Eigen::Vector3d by_channel = weighted / strength;
   arc.unmix << by_channel.cast<float>(), static_cast<float>(-by_channel.dot(mixture.background));
   arc.beyond_shade = by_channel.dot(mixture.beyond_shade);
@@ -240,7 +229,8 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const auto gradients = gradients_beside(rim, noise_variance);
   const auto checks = rim.has_shades ? check_shades(balls, noise_variance) : ScratchVector<ShadeCheck>();
-  const Eigen::Matrix3d elsewhere = kTextureElsewhere * texture_everywhere(rim.arcs, noise_variance);
+  const Eigen::Matrix3d elsewhere =
+      kArcColours.texture_elsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
   const double noise_sd = std::sqrt(noise_variance);
   for (std::size_t i = 0; i < arcs.size(); ++i) {

@@ -9,39 +9,15 @@
 #include <Eigen/LU>
 
 #include "slam/math/angles.h"
+#include "vision/tuning/arc_fit.h"
 
 namespace stereobench::vision {
 namespace {
 
-// The noise law, its constants measured on rendered and painted balls so that NIS/2 is 1 (`stereobench
-// calibrate`, tests/vision/noise_law_test.cpp). A pixel's alpha has the variance k sigma^2 / A^2 + c^2; over
-// a whole outline that makes sigma_u = sqrt(k sigma^2 / A^2 + c^2) / sqrt(pi r). The smaller a ball, the
-// fewer pixels tell its shading, and k grows. What k has beyond 1 is of the colours beside an arc, which its
-// pixels share, and moves an edge by more the more pixels it crosses (edge_width_px). Texture in the
-// background is an error that an arc's pixels share too, as far as texture reaches.
-constexpr double kQuantisation = 0.004;        // c
-constexpr double kProfile = 0.008;             // c out of focus: no camera's blur is just a Gaussian
-constexpr double kResampled = 0.042;           // c between pixels: no two edges look alike
-constexpr double kNoiseFactor = 1.06;          // k of a large ball
-constexpr double kNoiseFactorPerRadius = 1.0;  // px: k of a ball of one pixel's radius less that
-constexpr double kNoisePerEdge = 3.0;          // of what k has beyond 1, for each pixel more of an edge
-constexpr double kTextureFactor = 0.7;
-constexpr double kTextureLength_px = 3.2;  // longer arcs see more than one of what disturbs them
-constexpr double kLeastEdge_px = 0.25;     // that an arc must show
-
-constexpr double kContradictionSigmas = 3.0;
-
-constexpr int kReweightings = 4;
-constexpr double kHuberSigmas = 2.0;
-constexpr double kCutOff = 3.0;  // times the Huber threshold
-constexpr double kMinInlierRatio = 0.2;
-constexpr std::size_t kTriples = 24;                             // of arcs, around the outline
-constexpr std::array<std::size_t, 3> kTripleParts = {12, 8, 5};  // of the outline, from one to the next
-
 double robust_weight(double residual_px, double threshold_px) {
   const double size = std::abs(residual_px) / threshold_px;
   if (size <= 1.0) return 1.0;
-  return size < kCutOff ? 1.0 / size : 0.0;
+  return size < kArcFit.cut_off ? 1.0 / size : 0.0;
 }
 
 Eigen::Vector3d direction(const ArcOffset& arc) {
@@ -51,7 +27,7 @@ Eigen::Vector3d direction(const ArcOffset& arc) {
 // How well an arc agrees with a change of the outline: 1 as far as chance goes, 0 when it does not.
 double agreement(const ArcOffset& arc, const Eigen::Vector3d& change_px, double tolerance_px) {
   const double residual = arc.offset_px - direction(arc).dot(change_px);
-  return robust_weight(residual, tolerance_px + kHuberSigmas * std::sqrt(arc.variance_px2));
+  return robust_weight(residual, tolerance_px + kArcFit.huber_sigmas * std::sqrt(arc.variance_px2));
 }
 
 // @return whether any weight is another one than before
@@ -100,10 +76,10 @@ Eigen::Vector3d change_by(const Triple& triple) {
 Eigen::Vector3d most_agreed(const ScratchVector<ArcOffset>& arcs, Eigen::Vector3d change_px,
                             double tolerance_px) {
   double most = agreement_of_all(arcs, change_px, tolerance_px);
-  for (const std::size_t part : kTripleParts) {
+  for (const std::size_t part : kArcFit.triple_parts) {
     const std::size_t apart = std::max<std::size_t>(1, arcs.size() / part);
-    for (std::size_t i = 0; i < kTriples; ++i) {
-      const std::size_t first = i * arcs.size() / kTriples;
+    for (std::size_t i = 0; i < kArcFit.triples; ++i) {
+      const std::size_t first = i * arcs.size() / kArcFit.triples;
       const Triple triple = {&arcs[first], &arcs[(first + apart) % arcs.size()],
                              &arcs[(first + 2 * apart) % arcs.size()]};
       if (std::ranges::any_of(triple, [](const ArcOffset* arc) { return arc->variance_px2 <= 0.0; }))
@@ -140,7 +116,7 @@ double reduced_chi_square(const ScratchVector<ArcOffset>& arcs, const Eigen::Vec
   }
   if (!(freedom > 1.0)) return 1.0;
   const double ratio = squares / freedom;
-  return ratio > 1.0 + kContradictionSigmas * std::sqrt(2.0 / freedom) ? ratio : 1.0;
+  return ratio > 1.0 + kArcFit.contradiction_sigmas * std::sqrt(2.0 / freedom) ? ratio : 1.0;
 }
 
 }  // namespace
@@ -162,13 +138,14 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
                                      double ramp_half_width_px, bool is_resampled) {
   ScratchVector<ArcOffset> arcs(colours.size());
   ScratchVector<double> information(colours.size(), 0.0);
-  const double in_focus = kNoiseFactor + kNoiseFactorPerRadius / outline.radius_px();
+  const double in_focus = kArcFit.noise_factor + kArcFit.noise_factor_per_radius_px / outline.radius_px();
   const double noise_factor =
-      in_focus + kNoisePerEdge * (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
-  const double in_picture = outline.blur_px() > 0.0 ? kProfile : kQuantisation;
-  const double beyond_noise = is_resampled ? kResampled : in_picture;
+      in_focus + kArcFit.noise_per_edge * (in_focus - 1.0) * (edge_width_px(outline.blur_px()) - 1.0);
+  const double in_picture = outline.blur_px() > 0.0 ? kArcFit.profile : kArcFit.quantisation;
+  const double beyond_noise = is_resampled ? kArcFit.resampled : in_picture;
   const double arc_length_px = 2.0 * slam::kPi * outline.radius_px() / static_cast<double>(arcs.size());
-  const double texture_factor = kTextureFactor * std::min(1.0, kTextureLength_px / arc_length_px);
+  const double texture_factor =
+      kArcFit.texture_factor * std::min(1.0, kArcFit.texture_length_px / arc_length_px);
   const double crossed = crossed_reach_px(outline, ramp_half_width_px) / outline.semi_minor_px();
   const double innermost = std::max(0.0, 1.0 - crossed);
   const double outermost = 1.0 + crossed;
@@ -187,7 +164,7 @@ ScratchVector<ArcOffset> arc_offsets(const ScratchVector<UnmixedPixel>& pixels,
   }
   const double ramp_px = std::max(1.0, 2.0 * ramp_half_width_px);  // along which a pixel of edge is spread
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (!(information[i] * ramp_px > kLeastEdge_px)) continue;
+    if (!(information[i] * ramp_px > kArcFit.least_edge_px)) continue;
     arcs[i].offset_px /= information[i];
     arcs[i].normal /= information[i];
     arcs[i].variance_px2 =
@@ -205,7 +182,7 @@ void move_outline(ScratchVector<ArcOffset>& arcs, const Eigen::Vector3d& change_
 std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tolerance_px) {
   OutlineStep step;
   const auto count = static_cast<double>(arcs.size());
-  for (int pass = 0; pass < kReweightings; ++pass) {
+  for (int pass = 0; pass < kArcFit.reweightings; ++pass) {
     Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
     double share = 0.0;
@@ -218,7 +195,7 @@ std::optional<OutlineStep> solve_arcs(ScratchVector<ArcOffset>& arcs, double tol
       share += arc.weight;
     }
     step.share = share / count;
-    if (!(step.share > kMinInlierRatio)) return std::nullopt;
+    if (!(step.share > kArcFit.min_inlier_ratio)) return std::nullopt;
     const Eigen::LDLT<Eigen::Matrix3d> solver(normal_matrix);
     step.change_px = solver.solve(right_side);
     step.covariance_px2 = solver.solve(Eigen::Matrix3d::Identity());

@@ -8,16 +8,10 @@
 #include <Eigen/LU>
 
 #include "vision/colour/patch_boundary.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr std::size_t kPoints = 48;     // of a boundary that are looked at
-constexpr double kOnCircle_px = 0.8;    // a boundary of whole pixels is as rough as that
-constexpr double kOnCircle = 0.02;      // of the radius: outlines are ellipses
-constexpr double kLeastOn = 1.0 / 3.0;  // of the boundary
-constexpr double kLargestRadius = 1.1;  // of the patch's longer side; a straight cut is no outline
-constexpr std::array<std::size_t, 5> kTripleSteps = {3, 5, 7, 10, 14};  // between the points of a triple
 
 // Once around the patch: angles about its middle grow, as far as their octants and slopes tell.
 double turn_order(const Eigen::Vector2d& from_middle) {
@@ -33,9 +27,10 @@ ScratchVector<Eigen::Vector2d> a_few_in_order(ScratchVector<Eigen::Vector2d> poi
   std::ranges::sort(points, {}, [&](const Eigen::Vector2d& point) {
     return std::tuple(turn_order(point - middle), point.x(), point.y());
   });
-  if (points.size() <= kPoints) return points;
+  if (points.size() <= kBoundary.points) return points;
   ScratchVector<Eigen::Vector2d> few;
-  for (std::size_t i = 0; i < kPoints; ++i) few.push_back(points[i * points.size() / kPoints]);
+  for (std::size_t i = 0; i < kBoundary.points; ++i)
+    few.push_back(points[i * points.size() / kBoundary.points]);
   return few;
 }
 
@@ -52,7 +47,7 @@ std::optional<Circle> circle_through(const Eigen::Vector2d& a, const Eigen::Vect
 
 // How many points lie on the circle.
 std::size_t support(const Circle& circle, const ScratchVector<Eigen::Vector2d>& points) {
-  const double tolerance = kOnCircle_px + kOnCircle * circle.radius_px;
+  const double tolerance = kBoundary.on_circle_px + kBoundary.on_circle * circle.radius_px;
   return static_cast<std::size_t>(std::ranges::count_if(points, [&](const Eigen::Vector2d& point) {
     return std::abs((point - circle.centre_px).norm() - circle.radius_px) <= tolerance;
   }));
@@ -62,10 +57,11 @@ std::size_t support(const Circle& circle, const ScratchVector<Eigen::Vector2d>& 
 
 std::optional<Circle> guess_from_boundary(const cv::Mat& image, const Blob& blob) {
   const ScratchVector<Eigen::Vector2d> points = a_few_in_order(patch_boundary(image, blob, palette_table()));
-  const double largest = kLargestRadius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
+  const double largest =
+      kBoundary.largest_radius * std::max(blob.max_x - blob.min_x + 1, blob.max_y - blob.min_y + 1);
   std::optional<Circle> best;
-  std::size_t most = static_cast<std::size_t>(kLeastOn * static_cast<double>(points.size()));
-  for (const std::size_t step : kTripleSteps) {
+  std::size_t most = static_cast<std::size_t>(kBoundary.least_on * static_cast<double>(points.size()));
+  for (const std::size_t step : kBoundary.steps) {
     for (std::size_t i = 0; i < points.size() && 2 * step < points.size(); ++i) {
       const auto circle = circle_through(points[i], points[(i + step) % points.size()],
                                          points[(i + 2 * step) % points.size()]);

@@ -4,16 +4,9 @@
 #include <cmath>
 
 #include "vision/outline/edge.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::vision {
-namespace {
-
-constexpr double kFirst_px = 0.6;  // where the fit begins: between in focus and badly out of it
-constexpr double kMost_px = 3.0;
-constexpr int kBlurSteps = 12;
-constexpr double kConverged_px2 = 1e-4;
-
-}  // namespace
 
 void EdgeProfile::add(double distance_px, double shown, double whole, double weight) {
   const auto bin = static_cast<std::size_t>(std::abs(distance_px) / kBin_px);
@@ -30,8 +23,8 @@ void EdgeProfile::add(const EdgeProfile& other) {
 }
 
 double EdgeProfile::blur_px() const {
-  double blur2 = kFirst_px * kFirst_px;
-  for (int step = 0; step < kBlurSteps; ++step) {
+  double blur2 = kEdgeProfile.first_px * kEdgeProfile.first_px;
+  for (int step = 0; step < kEdgeProfile.steps; ++step) {
     const double blur = std::sqrt(blur2);
     double products = 0.0;
     double squares = 0.0;
@@ -42,10 +35,11 @@ double EdgeProfile::blur_px() const {
       squares += slope * slope * whole_[bin];
     }
     if (!(squares > 0.0)) return 0.0;
-    const double next = std::clamp(blur2 + products / squares, 0.0, kMost_px * kMost_px);
+    const double next =
+        std::clamp(blur2 + products / squares, 0.0, kEdgeProfile.most_px * kEdgeProfile.most_px);
     const double change = std::abs(next - blur2);
     blur2 = next;
-    if (change < kConverged_px2) break;
+    if (change < kEdgeProfile.converged_px2) break;
   }
   return std::sqrt(blur2);
 }

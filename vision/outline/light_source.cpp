@@ -5,15 +5,10 @@
 
 #include <Eigen/LU>
 
+#include "vision/tuning/shading.h"
+
 namespace stereobench::vision {
 namespace {
-
-constexpr double kDarkSigmas = 3.0;  // a channel that shows no more of a ball tells no ratio
-constexpr double kLeastScatter =
-    0.01;  // sd of m between balls: rounding, and light sources that are not so distant
-constexpr double kWellKnown = 0.01;    // sd of m of a ball that needs no others, and the pixels
-constexpr double kManyPixels = 200.0;  // of such a ball
-constexpr double kFewestBalls = 2.0;
 
 // How (c0, l) becomes l - m c0.
 Eigen::Matrix<double, 3, 4> beyond_ratio(const Eigen::Vector3d& ratio) {
@@ -53,10 +48,11 @@ LightColours SharedLightSource::colours(const Eigen::Matrix4d& information,
 
 void LightSourcePool::count(const BallLight& light, double sign) {
   if (!light.shows_light_source) return;
-  const Eigen::Matrix3d least_scatter = kLeastScatter * kLeastScatter * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d least_scatter =
+      kLightSource.least_scatter * kLightSource.least_scatter * Eigen::Matrix3d::Identity();
   for (int channel = 0; channel < 3; ++channel) {
     const Eigen::Vector4d colours = light.colours.col(channel);
-    if (!(colours[0] > kDarkSigmas * std::sqrt(noise_variance_))) continue;
+    if (!(colours[0] > kLightSource.dark_sigmas * std::sqrt(noise_variance_))) continue;
     const Eigen::Vector3d ratio = colours.tail<3>() / colours[0];
     const Eigen::Matrix3d information =
         (ratio_covariance(light.information, colours, noise_variance_) + least_scatter).inverse();
@@ -72,9 +68,10 @@ void LightSourcePool::count(const BallLight& light, double sign) {
 bool LightSourcePool::tells_light_source(const BallLight& light) const {
   Eigen::Index brightest = 0;
   const double c0 = light.colours.row(0).maxCoeff(&brightest);
-  if (!light.shows_light_source || !(c0 > 0.0) || !(light.information(0, 0) > kManyPixels)) return false;
+  if (!light.shows_light_source || !(c0 > 0.0) || !(light.information(0, 0) > kLightSource.many_samples))
+    return false;
   return ratio_covariance(light.information, light.colours.col(brightest), noise_variance_).trace() <
-         kWellKnown * kWellKnown;
+         kLightSource.well_known * kLightSource.well_known;
 }
 
 std::optional<SharedLightSource> LightSourcePool::without(const BallLight& own) const {
@@ -88,14 +85,14 @@ std::optional<SharedLightSource> LightSourcePool::without(const BallLight& own) 
   for (int channel = 0; channel < 3; ++channel) {
     const auto i = static_cast<std::size_t>(channel);
     const Channel& sums = others.channels_[i];
-    if (sums.balls < kFewestBalls) continue;
+    if (sums.balls < kLightSource.fewest_balls) continue;
     const Eigen::Matrix3d of_mean = sums.information.inverse();
     ratio.col(channel) = of_mean * sums.evidence;
     const double scatter = sums.squares - sums.evidence.dot(ratio.col(channel));
     const double by_chance = 3.0 * (sums.balls - 1.0);
     const double weight = (sums.information - of_mean * sums.information2).trace();
     const double between = weight > 0.0 ? std::max(0.0, scatter - by_chance) / weight : 0.0;
-    const double spread = between + kLeastScatter * kLeastScatter;
+    const double spread = between + kLightSource.least_scatter * kLightSource.least_scatter;
     const double levels2 = std::max(noise_variance_, own.colours(0, channel) * own.colours(0, channel));
     information[i] = (of_mean + spread * Eigen::Matrix3d::Identity()).inverse() * (noise_variance_ / levels2);
     is_known = true;

@@ -12,34 +12,10 @@
 #include "vision/outline/shading.h"
 #include "vision/palette.h"
 #include "vision/pixel_noise.h"
+#include "vision/tuning/outline_fit.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kFinestRamp_px = 1.5;
-constexpr double kLostRim_px = 0.15;      // that boxes lack on average
-constexpr double kSharpenBelow_px = 0.3;  // steps below this are left to the sharp edge
-constexpr double kFirstSharp_px = 1.0;    // that an outline may be off after the ramps
-constexpr double kLookAgainAbove_px = 0.3;
-constexpr double kTellsCuts_px = 8.0;  // of radius: a cut along a smaller ball is about as round as it is
-constexpr double kStraight_px = 0.02;  // of an outline's way, along which coverage changes linearly
-constexpr int kSharpSteps = 12;
-constexpr int kShadedSteps = 2;  // at least, and more where arcs turn out to be hidden
-constexpr int kMostShadedSteps = 8;
-constexpr int kShadedLooks = 3;         // at most
-constexpr double kConverged_px = 0.02;  // before the shading is looked at
-constexpr double kTolerance_px = 0.02;  // between arcs of one sharp outline, whatever the noise says
-constexpr double kRimDepth_px = 1.2;    // inside of it a pixel is wholly the ball's
-constexpr double kRimSd_px = 0.0006;  // of all arcs together: what a camera and a light source make of a rim
-constexpr double kResampledRimSd_px = 0.0025;  // the same of a picture that was interpolated
-constexpr double kCentreSd_px = 0.0003;        // the same of opposite ones
-constexpr double kCentreSdPerBlur = 0.0007;    // more of that for each px of blur
-constexpr double kMinFill = 0.25;              // of the bounding box; a disc has 0.79
-constexpr double kMaxElongation = 3.0;
-constexpr double kTooSmall = 0.98;  // of the least radius: what is as large is not lost by its own error
-constexpr double kMaxRadius_px = 1000.0;
-constexpr double kRoughness_px = 0.75;  // of a patch's edge, in noise
-constexpr double kWhole = 0.95;  // of an outline's arcs; where fewer speak for it, a part may be hidden
 
 struct Fit {
   OutlineModel outline;
@@ -58,8 +34,8 @@ struct Fit {
 bool may_be_ball(const Blob& blob) {
   const double width = blob.max_x - blob.min_x + 1;
   const double height = blob.max_y - blob.min_y + 1;
-  return static_cast<double>(blob.area_px) >= kMinFill * width * height &&
-         std::max(width, height) <= kMaxElongation * std::min(width, height);
+  return static_cast<double>(blob.area_px) >= kOutlineFit.min_fill * width * height &&
+         std::max(width, height) <= kOutlineFit.max_elongation * std::min(width, height);
 }
 
 // Patches lack their rims and, in noise, some of their pixels: the box remembers the size, the moments the
@@ -70,7 +46,7 @@ OutlineModel first_guess(const Blob& blob, const FitSettings& settings) {
   const Eigen::Vector2d box(0.5 * (blob.min_x + blob.max_x), 0.5 * (blob.min_y + blob.max_y));
   const double box_radius = 0.25 * (blob.max_x - blob.min_x + blob.max_y - blob.min_y + 2);
   return {settings.camera, 0.5 * (moments + box),
-          std::max(std::sqrt(area / slam::kPi), box_radius) + kLostRim_px, settings.blur_px};
+          std::max(std::sqrt(area / slam::kPi), box_radius) + kOutlineFit.lost_rim_px, settings.blur_px};
 }
 
 double distance_px(const OutlineModel& a, const OutlineModel& b) {
@@ -86,13 +62,13 @@ void compare(Fit& fit, double ramp_px) {
 // One step of the fit; the change's size, or empty when the arcs no longer make an outline. Arcs may be at
 // odds by half of what the outline may still be off, since then all are.
 std::optional<double> improve(Fit& fit, const FitSettings& settings, double ramp_px, double off_px) {
-  if (fit.moved_px > kStraight_px) compare(fit, ramp_px);
-  const auto step = solve_arcs(fit.arcs, kTolerance_px + 0.5 * off_px);
+  if (fit.moved_px > kOutlineFit.straight_px) compare(fit, ramp_px);
+  const auto step = solve_arcs(fit.arcs, kOutlineFit.tolerance_px + 0.5 * off_px);
   if (!step) return std::nullopt;
   const double limit = std::max(ramp_px, 0.5);
   const Eigen::Vector3d change = step->change_px.cwiseMax(-limit).cwiseMin(limit);
   const double radius = fit.outline.radius_px() + change.z();
-  if (!(radius >= 0.5 * settings.min_radius_px) || radius > kMaxRadius_px) return std::nullopt;
+  if (!(radius >= 0.5 * settings.min_radius_px) || radius > kOutlineFit.max_radius_px) return std::nullopt;
   fit.outline =
       OutlineModel(settings.camera, fit.outline.centre_px() + change.head<2>(), radius, settings.blur_px);
   fit.covariance_px2 = step->covariance_px2;
@@ -124,19 +100,21 @@ double support(const Fit& fit) {
 // Begins with a sharp edge where a whole ball's first guess is about right, as most are.
 bool starts_sharp(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix) {
   look(fit, image, unmix, 0.0, std::nullopt, Detail::kCoarse);
-  const auto change = improve(fit, settings, 0.0, kFirstSharp_px);
-  return change && *change < kLookAgainAbove_px && support(fit) >= kWhole * fit.outline.radius_px();
+  const auto change = improve(fit, settings, 0.0, kOutlineFit.first_sharp_px);
+  return change && *change < kOutlineFit.look_again_above_px &&
+         support(fit) >= kOutlineFit.whole * fit.outline.radius_px();
 }
 
 // Begins with a wide ramp, which is narrowed as the outline comes nearer.
 bool starts_with_ramp(Fit& fit, const cv::Mat& image, const FitSettings& settings,
                       const UnmixSettings& unmix) {
-  for (double ramp = std::max(kFinestRamp_px, 0.1 * fit.outline.radius_px()); ramp >= kFinestRamp_px;) {
+  for (double ramp = std::max(kOutlineFit.finest_ramp_px, kOutlineFit.first_ramp * fit.outline.radius_px());
+       ramp >= kOutlineFit.finest_ramp_px;) {
     look(fit, image, unmix, ramp);
     const auto change = improve(fit, settings, ramp, ramp);
     if (!change) return false;
-    if (*change < kSharpenBelow_px) break;
-    ramp = std::min(*change * 2.0, 0.7 * ramp);
+    if (*change < kOutlineFit.sharpen_below_px) break;
+    ramp = std::min(*change * kOutlineFit.ramp_per_step, kOutlineFit.ramp_narrows * ramp);
   }
   look(fit, image, unmix, 0.0);
   return true;
@@ -155,7 +133,9 @@ void look_by_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings,
 // Steps until the outline stands still.
 bool settle(Fit& fit, const FitSettings& settings) {
   double off = 0.0;
-  for (int i = 0; i < kShadedSteps || (i < kMostShadedSteps && off > kConverged_px); ++i) {
+  for (int i = 0;
+       i < kOutlineFit.shaded_steps || (i < kOutlineFit.most_shaded_steps && off > kOutlineFit.converged_px);
+       ++i) {
     const auto change = improve(fit, settings, 0.0, 0.0);
     if (!change) return false;
     off = *change;
@@ -167,11 +147,11 @@ bool settle(Fit& fit, const FitSettings& settings) {
 // leads.
 bool suit_shades(Fit& fit, const cv::Mat& image, const FitSettings& settings, const UnmixSettings& unmix,
                  const std::optional<SharedLightSource>& light_source) {
-  for (int i = 0; i < kShadedLooks; ++i) {
+  for (int i = 0; i < kOutlineFit.shaded_looks; ++i) {
     const OutlineModel before = fit.outline;
     look_by_shades(fit, image, settings, unmix, light_source);
     if (!settle(fit, settings)) return false;
-    if (distance_px(before, fit.outline) < kLookAgainAbove_px) break;
+    if (distance_px(before, fit.outline) < kOutlineFit.look_again_above_px) break;
   }
   return true;
 }
@@ -183,11 +163,11 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
     fit.outline = start;
     if (!starts_with_ramp(fit, image, settings, unmix)) return std::nullopt;
   }
-  double off = kFirstSharp_px;
-  for (int i = 0; i < kSharpSteps && off > kConverged_px; ++i) {
+  double off = kOutlineFit.first_sharp_px;
+  for (int i = 0; i < kOutlineFit.sharp_steps && off > kOutlineFit.converged_px; ++i) {
     const auto change = improve(fit, settings, 0.0, off);
     if (!change) return std::nullopt;
-    if (*change > kLookAgainAbove_px) look(fit, image, unmix, 0.0);
+    if (*change > kOutlineFit.look_again_above_px) look(fit, image, unmix, 0.0);
     off = *change;
   }
   // An outline that the ball's own shades do not suit was pulled aside, and is better looked for from
@@ -198,7 +178,7 @@ std::optional<Fit> converge(const cv::Mat& image, const OutlineModel& start, con
 
 // Whether a patch lies within an outline, as far as its box tells: patches end before the rim does.
 bool holds(const OutlineModel& outline, const Blob& blob) {
-  const double reach = outline.semi_major_px() + kRoughness_px;
+  const double reach = outline.semi_major_px() + kOutlineFit.roughness_px;
   const Eigen::Vector2d& centre = outline.centre_px();
   return blob.min_x - 0.5 >= centre.x() - reach && blob.max_x + 0.5 <= centre.x() + reach &&
          blob.min_y - 0.5 >= centre.y() - reach && blob.max_y + 0.5 <= centre.y() + reach;
@@ -209,7 +189,7 @@ std::optional<Fit> fit_patch(const cv::Mat& image, const Blob& blob, const FitSe
                              const UnmixSettings& unmix) {
   std::optional<Fit> whole = converge(image, first_guess(blob, settings), settings, unmix);
   const bool held = whole && holds(whole->outline, blob);
-  if (held && support(*whole) >= kWhole * whole->outline.radius_px()) return whole;
+  if (held && support(*whole) >= kOutlineFit.whole * whole->outline.radius_px()) return whole;
   const std::optional<Circle> circle = guess_from_boundary(image, blob);
   if (!circle) return whole;
   std::optional<Fit> part = converge(
@@ -233,7 +213,7 @@ double hidden_part(const Fit& fit, const RimPixel& pixel, const Shades& shades) 
 double hidden_area(const cv::Mat& image, const Fit& fit, const Shades& shades) {
   double hidden = 0.0;
   const double blur_reach = fit.outline.blur_reach_px();
-  const double inside = 1.0 - (kRimDepth_px + blur_reach) / fit.outline.semi_minor_px();
+  const double inside = 1.0 - (kOutlineFit.rim_depth_px + blur_reach) / fit.outline.semi_minor_px();
   for (const RimPixel& pixel : fit.rim.pixels) {
     if (fit.arcs[pixel.sector].weight > 0.0) continue;
     if (pixel.distance_px < 1.0 + blur_reach && fit.outline.level(pixel.position_px) > inside)
@@ -284,8 +264,8 @@ MeasuredOutline measured(const Fit& fit, const cv::Mat& image, const UnmixSettin
   result.centre_px = fit.outline.centre_px();
   result.radius_px = radius;
   result.covariance_px2 = fit.covariance_px2;
-  const double centre_sd = kCentreSd_px + kCentreSdPerBlur * fit.outline.blur_px();
-  const double rim_sd = fit.is_resampled ? kResampledRimSd_px : kRimSd_px;
+  const double centre_sd = kOutlineFit.centre_sd_px + kOutlineFit.centre_sd_per_blur * fit.outline.blur_px();
+  const double rim_sd = fit.is_resampled ? kOutlineFit.resampled_rim_sd_px : kOutlineFit.rim_sd_px;
   result.covariance_px2.diagonal() += Eigen::Vector3d(centre_sd, centre_sd, rim_sd).cwiseAbs2();
   result.reduced_chi_square = fit.reduced_chi_square;
   result.inlier_ratio = fit.inlier_ratio;
@@ -304,7 +284,7 @@ std::optional<MeasuredOutline> fit_outline(const cv::Mat& image, const Blob& blo
   if (!may_be_ball(blob)) return std::nullopt;
   const UnmixSettings unmix{palette_bgr(blob.colour), settings.noise_sd_levels};
   const std::optional<Fit> fit = fit_patch(image, blob, settings, unmix);
-  if (!fit || fit->outline.radius_px() < kTooSmall * settings.min_radius_px) return std::nullopt;
+  if (!fit || fit->outline.radius_px() < kOutlineFit.too_small * settings.min_radius_px) return std::nullopt;
   return measured(*fit, image, unmix, {.colour = blob.colour, .seen_px = blob.area_px});
 }
 

@@ -13,9 +13,6 @@
 
 namespace stereobench::vision {
 
-/// Of an outline's area, what may be hidden, or outside of the picture, of a ball that passes for whole.
-inline constexpr double kMostHidden = 0.06;
-
 /// A ball's outline as one camera measures it.
 struct MeasuredOutline {
   int colour = 0;                                            ///< index into kPalette

@@ -8,6 +8,7 @@
 #include <opencv2/core/types.hpp>
 
 #include "vision/outline/edge.h"
+#include "vision/tuning/rim.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
@@ -78,10 +79,10 @@ class OutlineModel {
   double semi_minor_px() const { return radius_px_ * radius_px_ / semi_major_px_; }
 
   /// How much further than a sharp edge a blurred one reaches.
-  double blur_reach_px() const { return 2.0 * blur_px_; }
+  double blur_reach_px() const { return kRim.blur_reach * blur_px_; }
 
   /// How far inside or outside of the outline a pixel shows one thing alone.
-  double pure_px() const { return 0.9 + blur_reach_px(); }
+  double pure_px() const { return kRim.pure_px + blur_reach_px(); }
 
  private:
   Eigen::Vector2d centre_px_;

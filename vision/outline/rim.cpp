@@ -9,18 +9,10 @@
 #include <opencv2/core/hal/intrin.hpp>
 
 #include "slam/math/angles.h"
+#include "vision/tuning/rim.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kArcLength_px = 3.0;
-constexpr double kCoarseLength_px = 6.0;
-constexpr double kFewestArcs = 9.0;
-constexpr double kMostArcs = 192.0;
-constexpr double kRingWidth_px = 2.0;
-constexpr double kWideRing_px = 5.0;     // the background's noise adds 1 / (4 . 5) of the edge's own variance
-constexpr double kCoarseFrom_px = 10.0;  // of radius
-constexpr double kSteep = 0.7;           // of the radius, above and below the centre
 
 // Doubles: in single precision Eigen's roots begin with the processor's own estimate, which no two makes
 // share.
@@ -55,14 +47,15 @@ class RimCollector {
       : image_(image),
         outline_(outline),
         shading_(shading),
-        is_coarse_(detail == Detail::kCoarse && outline.radius_px() > kCoarseFrom_px),
+        is_coarse_(detail == Detail::kCoarse && outline.radius_px() > kRim.coarse_from_px),
         gap_px_(gap_px),
-        near_px_(std::max(gap_px, kCrossed_px + outline.blur_reach_px())),
-        inner_reach_px_(gap_px + kRingWidth_px + outline.blur_reach_px()),
-        outer_reach_px_(gap_px + (shading ? kWideRing_px : kRingWidth_px) + outline.blur_reach_px()) {
-    const double arc_length_px = is_coarse_ ? kCoarseLength_px : kArcLength_px;
+        near_px_(std::max(gap_px, kRim.crossed_px + outline.blur_reach_px())),
+        inner_reach_px_(gap_px + kRim.ring_width_px + outline.blur_reach_px()),
+        outer_reach_px_(gap_px + (shading ? kRim.wide_ring_px : kRim.ring_width_px) +
+                        outline.blur_reach_px()) {
+    const double arc_length_px = is_coarse_ ? kRim.coarse_arc_length_px : kRim.arc_length_px;
     const double arcs =
-        std::clamp(2.0 * slam::kPi * outline.radius_px() / arc_length_px, kFewestArcs, kMostArcs);
+        std::clamp(2.0 * slam::kPi * outline.radius_px() / arc_length_px, kRim.fewest_arcs, kRim.most_arcs);
     rim_.arcs.resize(static_cast<std::size_t>(arcs));
     rim_.has_shades = shading.has_value();
     rim_.pixels.reserve(
@@ -99,7 +92,7 @@ class RimCollector {
   }
 
   bool passes_over(int y, double below_px) const {
-    return is_coarse_ && y % 2 == 1 && std::abs(below_px) < kSteep * outline_.radius_px();
+    return is_coarse_ && y % 2 == 1 && std::abs(below_px) < kRim.steep * outline_.radius_px();
   }
 
   void add_near(RimPixel&& pixel) {

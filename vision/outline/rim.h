@@ -83,9 +83,6 @@ struct Rim {
   bool has_shades = false;         ///< whether the ball's shading was known
 };
 
-/// How far from the outline a pixel may be that an outline in focus crosses, once it is about right.
-inline constexpr double kCrossed_px = 1.5;
-
 /// How much of a rim is looked at: all of it, or of a large one every other row where rows cross it steeply,
 /// in arcs twice as long.
 enum class Detail { kAll, kCoarse };

@@ -13,37 +13,10 @@
 #include "vision/colour/blobs.h"
 #include "vision/colour/circle_cover.h"
 #include "vision/colour/patch_boundary.h"
+#include "vision/tuning/round_patch.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kMinPatch = 0.3;            // of the smallest circle's area
-constexpr double kMinPatchFill = 0.25;       // of the bounding box; a disc has 0.79
-constexpr double kMaxPatchElongation = 2.5;  // of the bounding box: half of a disc has 2
-constexpr int kLooks = 5;                    // each around the circle of the one before
-constexpr double kFirstBand = 0.4;  // of the radius: how far to either side of it the first look goes
-constexpr double kLastBand = 0.15;
-constexpr double kLeastBand_px = 3.0;
-constexpr double kEndOfBand = 0.35;  // of half the band: where a ray's two colours are sampled
-constexpr double kStep_px = 0.5;     // along a ray
-constexpr double kMinRayContrast_levels = 25.0;
-constexpr double kLeastSpread_px = 0.15;  // of edges: no thing is known to be rounder
-constexpr double kTukey = 4.685;          // 95 % efficiency for Gaussian errors
-constexpr std::size_t kFewestEdges = 8;
-constexpr double kMinArc = 0.2;
-constexpr double kKnownArc =
-    0.65;  // of an outline; what shows less of it may be no circle: an oval follows one along half of its way
-constexpr int kCircleSteps = 12;
-constexpr double kRough_px = 0.25;      // that edges of a round thing may scatter by: noise and JPEG's blocks
-constexpr double kRough = 0.03;         // the same of the radius: real things are not quite round
-constexpr double kRoughest = 2.0;       // times that, of what is reported: rougher than round is not trusted
-constexpr double kMostBeyond = 0.15;    // of rays, along which the patch's colour may go on across the circle
-constexpr double kBeyond_px = 1.5;      // and farther than that: outlines are blurred
-constexpr double kBeyond = 0.12;        // of the radius
-constexpr double kLargestPatch = 1.15;  // of an outline's area: edges are blurred
-constexpr std::size_t kMostPatches = 200;  // of a picture that are looked at, the largest: bounds the work
-constexpr double kLeastPiece = 0.02;       // of the patch beside it, in area
-constexpr double kGap = 0.15;              // of a patch's longer side: a seam is no wider
 
 /// Where a ray from the centre leaves the patch.
 struct EdgePoint {
@@ -62,8 +35,8 @@ struct Edges {
 bool may_be_round(const Blob& blob) {
   const double width = blob.max_x - blob.min_x + 1;
   const double height = blob.max_y - blob.min_y + 1;
-  return static_cast<double>(blob.area_px) >= kMinPatchFill * width * height &&
-         std::max(width, height) <= kMaxPatchElongation * std::min(width, height);
+  return static_cast<double>(blob.area_px) >= kRoundPatch.min_fill * width * height &&
+         std::max(width, height) <= kRoundPatch.max_elongation * std::min(width, height);
 }
 
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& colours, std::size_t from, std::size_t to) {
@@ -77,12 +50,12 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& colours, std::size_t
 std::optional<double> covered(const std::vector<Eigen::Vector3d>& samples, int colour,
                               const ColourTable& table) {
   const auto end = std::max<std::size_t>(
-      2, static_cast<std::size_t>(0.5 * kEndOfBand * static_cast<double>(samples.size())));
+      2, static_cast<std::size_t>(0.5 * kRoundPatch.end_of_band * static_cast<double>(samples.size())));
   const Eigen::Vector3d first = mean_of(samples, 0, end);
   const Eigen::Vector3d last = mean_of(samples, samples.size() - end, samples.size());
   const Eigen::Vector3d contrast = first - last;
   if (class_of(table, first) != colour || class_of(table, last) == colour) return std::nullopt;
-  if (!(contrast.norm() >= kMinRayContrast_levels)) return std::nullopt;
+  if (!(contrast.norm() >= kRoundPatch.min_contrast_levels)) return std::nullopt;
   double sum = 0.0;
   for (const Eigen::Vector3d& sample : samples)
     sum += std::clamp(contrast.dot(sample - last) / contrast.squaredNorm(), -0.25, 1.25);
@@ -93,23 +66,24 @@ std::optional<double> covered(const std::vector<Eigen::Vector3d>& samples, int c
 Edges look(const cv::Mat& image, const Circle& circle, double band_px, int colour, const ColourTable& table) {
   Edges edges;
   const int rays = static_cast<int>(std::clamp(2.0 * slam::kPi * circle.radius_px, 24.0, 256.0));
-  const auto count = static_cast<std::size_t>(2.0 * band_px / kStep_px);
-  const double begin = circle.radius_px - 0.5 * kStep_px * static_cast<double>(count - 1);
+  const auto count = static_cast<std::size_t>(2.0 * band_px / kRoundPatch.step_px);
+  const double begin = circle.radius_px - 0.5 * kRoundPatch.step_px * static_cast<double>(count - 1);
   std::vector<Eigen::Vector3d> samples;
   for (int ray = 0; ray < rays; ++ray) {
     const auto [s, c] = slam::sine_cosine(2.0 * slam::kPi * ray / rays);
     const Eigen::Vector2d direction(c, s);
     samples.clear();
     for (std::size_t i = 0; i < count; ++i) {
-      const auto sample =
-          colour_at(image, circle.centre_px + (begin + kStep_px * static_cast<double>(i)) * direction);
+      const auto sample = colour_at(
+          image, circle.centre_px + (begin + kRoundPatch.step_px * static_cast<double>(i)) * direction);
       if (sample) samples.push_back(*sample);
     }
     const bool is_inside = samples.size() == count;
     ++(is_inside ? edges.rays : edges.outside);
     const auto along = is_inside ? covered(samples, colour, table) : std::nullopt;
     if (along)
-      edges.points.push_back({direction, circle.centre_px + (begin + kStep_px * (*along - 0.5)) * direction});
+      edges.points.push_back(
+          {direction, circle.centre_px + (begin + kRoundPatch.step_px * (*along - 0.5)) * direction});
   }
   return edges;
 }
@@ -130,17 +104,17 @@ struct CircleFit {
 /// Gauss-Newton on distances from the circle, with Tukey's weights, whose scale is the median's.
 std::optional<CircleFit> fit_circle(std::vector<EdgePoint>& points, Circle circle) {
   CircleFit fit{circle, Eigen::Matrix3d::Zero(), 0.0};
-  for (int step = 0; step < kCircleSteps; ++step) {
+  for (int step = 0; step < kRoundPatch.steps; ++step) {
     std::vector<double> errors, sizes;
     for (const EdgePoint& point : points) {
       errors.push_back((point.at - fit.circle.centre_px).norm() - fit.circle.radius_px);
       sizes.push_back(std::abs(errors.back()));
     }
-    fit.spread_px = std::max(kLeastSpread_px, 1.4826 * median_of(sizes));
+    fit.spread_px = std::max(kRoundPatch.least_spread_px, 1.4826 * median_of(sizes));
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double relative = errors[i] / (kTukey * fit.spread_px);
+      const double relative = errors[i] / (kRoundPatch.tukey * fit.spread_px);
       points[i].weight =
           std::abs(relative) < 1.0 ? (1.0 - relative * relative) * (1.0 - relative * relative) : 0.0;
       const Eigen::Vector2d outwards = (points[i].at - fit.circle.centre_px).normalized();
@@ -179,7 +153,7 @@ Circle first_guess(const cv::Mat& image, const Blob& blob, const ColourTable& ta
 /// like what is inside than like what is farther out.
 bool goes_on(const cv::Mat& image, const Circle& circle, const Eigen::Vector2d& direction, int colour,
              const ColourTable& table) {
-  const double beyond_px = std::max(kBeyond_px, kBeyond * circle.radius_px);
+  const double beyond_px = std::max(kRoundPatch.beyond_px, kRoundPatch.beyond * circle.radius_px);
   const auto at = [&](double from_circle_px) {
     return colour_at(image, circle.centre_px + (circle.radius_px + from_circle_px) * direction);
   };
@@ -204,12 +178,13 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   Circle circle = first_guess(image, blob, table);
   std::optional<CircleFit> fit;
   Edges edges;
-  for (int i = 0; i < kLooks; ++i) {
-    const double share = kFirstBand + (kLastBand - kFirstBand) * i / (kLooks - 1);
+  for (int i = 0; i < kRoundPatch.looks; ++i) {
+    const double share = kRoundPatch.first_band +
+                         (kRoundPatch.last_band - kRoundPatch.first_band) * i / (kRoundPatch.looks - 1);
     const double band_px =
-        std::min(std::max(share * circle.radius_px, kLeastBand_px), 0.9 * circle.radius_px);
+        std::min(std::max(share * circle.radius_px, kRoundPatch.least_band_px), 0.9 * circle.radius_px);
     edges = look(image, circle, band_px, blob.colour, table);
-    if (edges.points.size() < kFewestEdges) return std::nullopt;
+    if (edges.points.size() < kRoundPatch.fewest_edges) return std::nullopt;
     fit = fit_circle(edges.points, circle);
     if (!fit || fit->circle.radius_px > image.cols + image.rows) return std::nullopt;
     circle = fit->circle;
@@ -217,9 +192,9 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   double seen = 0.0;
   for (const EdgePoint& point : edges.points) seen += point.weight > 0.0 ? 1.0 : 0.0;
   const double inlier_ratio = seen / (edges.rays + edges.outside);
-  const double rough = fit->spread_px / (kRough_px + kRough * circle.radius_px);
-  if (inlier_ratio < kMinArc || rough > kRoughest ||
-      share_beyond(image, circle, blob.colour, table) > kMostBeyond)
+  const double rough = fit->spread_px / (kRoundPatch.rough_px + kRoundPatch.rough * circle.radius_px);
+  if (inlier_ratio < kRoundPatch.min_arc || rough > kRoundPatch.roughest ||
+      share_beyond(image, circle, blob.colour, table) > kRoundPatch.most_beyond)
     return std::nullopt;
   MeasuredOutline outline;
   outline.colour = blob.colour;
@@ -229,7 +204,7 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
   outline.inlier_ratio = inlier_ratio;
   outline.outside_fraction = outside_share(image, circle);
   outline.hidden_fraction = std::max({hidden_share(image, circle, blob.colour, table),
-                                      kKnownArc - inlier_ratio, std::min(rough - 1.0, 1.0)});
+                                      kRoundPatch.known_arc - inlier_ratio, std::min(rough - 1.0, 1.0)});
   outline.seen_px = blob.area_px;
   return outline;
 }
@@ -238,13 +213,13 @@ std::optional<MeasuredOutline> measure(const cv::Mat& image, const Blob& blob, c
 Blob with_pieces(const Blob& patch, const ScratchVector<Blob>& blobs) {
   Blob all = patch;
   const int gap = static_cast<int>(
-      std::ceil(kGap * std::max(patch.max_x - patch.min_x + 1, patch.max_y - patch.min_y + 1)));
+      std::ceil(kRoundPatch.gap * std::max(patch.max_x - patch.min_x + 1, patch.max_y - patch.min_y + 1)));
   for (const Blob& other : blobs) {
     const bool is_beside = other.colour == patch.colour && other.min_x <= patch.max_x + gap &&
                            other.max_x >= patch.min_x - gap && other.min_y <= patch.max_y + gap &&
                            other.max_y >= patch.min_y - gap;
     if (!is_beside || &other == &patch ||
-        static_cast<double>(other.area_px) < kLeastPiece * static_cast<double>(patch.area_px))
+        static_cast<double>(other.area_px) < kRoundPatch.least_piece * static_cast<double>(patch.area_px))
       continue;
     all.area_px += other.area_px;
     all.min_x = std::min(all.min_x, other.min_x);
@@ -265,7 +240,7 @@ bool holds(const MeasuredOutline& outline, const Blob& patch) {
   const Eigen::Vector2d middle(0.5 * (patch.min_x + patch.max_x), 0.5 * (patch.min_y + patch.max_y));
   const double area_px = slam::kPi * outline.radius_px * outline.radius_px;
   return (outline.centre_px - middle).norm() < outline.radius_px &&
-         static_cast<double>(patch.area_px) <= kLargestPatch * area_px;
+         static_cast<double>(patch.area_px) <= kRoundPatch.largest_patch * area_px;
 }
 
 /// The better outline of a patch, alone and with its pieces.
@@ -293,10 +268,10 @@ bool is_within(const MeasuredOutline& piece, const MeasuredOutline& whole) {
 std::vector<MeasuredOutline> find_round_patches(const cv::Mat& image, const ColourTable& table,
                                                 double min_radius_px) {
   std::vector<MeasuredOutline> outlines;
-  const double smallest = kMinPatch * slam::kPi * min_radius_px * min_radius_px;
-  ScratchVector<Blob> blobs = find_blobs(image, std::lround(kLeastPiece * smallest) + 1, table);
+  const double smallest = kRoundPatch.min_patch * slam::kPi * min_radius_px * min_radius_px;
+  ScratchVector<Blob> blobs = find_blobs(image, std::lround(kRoundPatch.least_piece * smallest) + 1, table);
   std::ranges::stable_sort(blobs, std::greater{}, &Blob::area_px);
-  const std::size_t most = std::min(blobs.size(), kMostPatches);
+  const std::size_t most = std::min(blobs.size(), kRoundPatch.most_patches);
   for (std::size_t i = 0; i < most && static_cast<double>(blobs[i].area_px) >= smallest; ++i) {
     const auto best = best_outline(image, blobs[i], with_pieces(blobs[i], blobs), table, min_radius_px);
     if (best) outlines.push_back(*best);

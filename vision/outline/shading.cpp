@@ -5,19 +5,10 @@
 #include <Eigen/Cholesky>
 
 #include "vision/scratch.h"
+#include "vision/tuning/shading.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kSamplesPerRadius = 200.0;  // px: the noise of so many is small beside that of the rim
-constexpr double kSampledDepth = 0.25;       // radii; the rim's shade is told as well from near by as by all
-constexpr double kSampledDepth_px = 8.0;     // at least: all of a small ball
-constexpr std::size_t kFewestSamples = 24;
-constexpr std::size_t kFirstSamples = 100;  // tell about where the light source is
-constexpr int kMostTurns = 12;
-constexpr double kByChance = 40.0;  // of chi-square with nine degrees of freedom, and a lit side to choose
-constexpr double kFaintLightSource = 0.05;  // beside the light from all around: reflections do as much
-constexpr double kRidge = 1e-6;             // per sample: a light source that nothing shows is none
 
 // A pixel that shows the ball.
 struct Sample {
@@ -35,8 +26,9 @@ ScratchVector<Sample> sample_ball(const cv::Mat& image, const BallSurface& surfa
   ScratchVector<Sample> samples;
   const double radius = outline.radius_px();
   const double outermost = 1.0 - outline.pure_px() / outline.semi_minor_px();
-  const double innermost = std::max(0.0, outermost - std::max(kSampledDepth, kSampledDepth_px / radius));
-  const double most = kSamplesPerRadius * radius;
+  const double innermost =
+      std::max(0.0, outermost - std::max(kShading.sampled_depth, kShading.sampled_depth_px / radius));
+  const double most = kShading.samples_per_radius_px * radius;
   const double area = 3.14 * radius * radius * (outermost * outermost - innermost * innermost);
   const int row_step = std::max(1, static_cast<int>(std::sqrt(area / most)));
   const int step = std::max(1, static_cast<int>(std::ceil(area / (most * row_step))));
@@ -72,7 +64,7 @@ class LightSourceFit {
 
   BallLight light(const std::optional<SharedLightSource>& shared) const {
     Eigen::Matrix4d information = squares_.selfadjointView<Eigen::Lower>();
-    information.diagonal().tail<3>().array() += kRidge * squares_(0, 0);
+    information.diagonal().tail<3>().array() += kShading.ridge * squares_(0, 0);
     if (shared) return {shared->colours(information, products_), information};
     return {information.ldlt().solve(products_), information};
   }
@@ -106,7 +98,7 @@ BallLight fit_light_source(ScratchVector<Sample>& samples, std::size_t stride,
   LightSourceFit fit;
   for (std::size_t i = 0; i < samples.size(); i += stride) fit.add(samples[i]);
   BallLight light = fit.light(shared);
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kShading.most_turns; ++turn) {
     const Eigen::Vector3d light_source = light_source_of(light);
     bool any_turned = false;
     for (std::size_t i = 0; i < samples.size(); i += stride) {
@@ -127,11 +119,12 @@ BallLight fit_light_source(ScratchVector<Sample>& samples, std::size_t stride,
 // behind it, and must not say which.
 bool shows_light_source(const BallLight& light, double noise_variance) {
   const auto light_source = light.colours.bottomRows<3>();
-  if (!(light_source.norm() > kFaintLightSource * light.colours.row(0).norm())) return false;
+  if (!(light_source.norm() > kShading.faint_light_source * light.colours.row(0).norm())) return false;
   const Eigen::Vector3d both = light.information.bottomLeftCorner<3, 1>();
   const Eigen::Matrix3d of_light_source =
       light.information.bottomRightCorner<3, 3>() - both * both.transpose() / light.information(0, 0);
-  return (light_source.transpose() * of_light_source * light_source).trace() > kByChance * noise_variance;
+  return (light_source.transpose() * of_light_source * light_source).trace() >
+         kShading.by_chance * noise_variance;
 }
 
 }  // namespace
@@ -150,8 +143,8 @@ std::optional<Shading> fit_shading(const cv::Mat& image, const Intrinsics& camer
                                    const std::optional<SharedLightSource>& shared) {
   const BallSurface surface(camera, outline);
   ScratchVector<Sample> samples = sample_ball(image, surface, outline, shades);
-  if (samples.size() < kFewestSamples) return std::nullopt;
-  const std::size_t stride = samples.size() / kFirstSamples;
+  if (samples.size() < kShading.fewest_samples) return std::nullopt;
+  const std::size_t stride = samples.size() / kShading.first_samples;
   if (shared) {
     light_by(shared->direction(), samples);
   } else if (stride > 1) {

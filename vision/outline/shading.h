@@ -10,6 +10,7 @@
 
 #include "vision/outline/light_source.h"
 #include "vision/outline/outline_model.h"
+#include "vision/tuning/shading.h"
 #include "vision/types.h"
 
 namespace stereobench::vision {
@@ -20,20 +21,17 @@ class Shades {
   /// @param ball_bgr any brightness
   /// @param noise_levels standard deviation of the channels of the colours to be tested
   Shades(const Eigen::Vector3d& ball_bgr, double noise_levels)
-      : line_(ball_bgr.normalized()), noise_tolerance_(3.0 * noise_levels) {}
+      : line_(ball_bgr.normalized()), noise_tolerance_(kShades.noise_sigmas * noise_levels) {}
 
   /// Whether a colour is a shade of the ball's.
   bool contain(const Eigen::Vector3d& bgr) const {
     const double brightness = line_.dot(bgr);
-    const double tolerance = kTolerance * brightness + noise_tolerance_;
-    return brightness >= kDarkest_levels &&
+    const double tolerance = kShades.tolerance * brightness + noise_tolerance_;
+    return brightness >= kShades.darkest_levels &&
            bgr.squaredNorm() - brightness * brightness <= tolerance * tolerance;
   }
 
  private:
-  static constexpr double kTolerance = 0.10;       // off the ball's line, relative to brightness
-  static constexpr double kDarkest_levels = 35.0;  // a ball in the deepest shade and its own noise has more
-
   Eigen::Vector3d line_;
   double noise_tolerance_;
 };

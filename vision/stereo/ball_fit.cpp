@@ -8,15 +8,10 @@
 #include "vision/camera/rig.h"
 #include "vision/outline/outline_model.h"
 #include "vision/stereo/sphere.h"
+#include "vision/tuning/match.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kLooseSd = 0.1;    // of what is believed of a ball's radius before outlines are matched
-constexpr double kExactSd = 1e-7;   // of a radius that is exactly known: as good as 0, and has an inverse
-constexpr int kSteps = 4;           // from where the centres triangulate to
-constexpr int kFurtherSteps = 2;    // from the loose fit
-constexpr double kBelieved = 25.0;  // squared contradiction of size and disparity, in variances
 
 // What a fault of the right camera adds to its outline's covariance. A turn about y that moves an outline
 // also stretches it, by the cube of the root of its ray's length: else a stretch of a tenth of a pixel would
@@ -109,7 +104,7 @@ std::optional<Eigen::Vector3d> place_by_size(const StereoRig& rig, const Measure
 double contradiction_m2(const BallSize& size, const BallFit& loose) {
   const double off_m = loose.radius_m - size.radius_m;
   const double by_chance_m2 = loose.radius_variance_m2 + size.radius_sd_m * size.radius_sd_m;
-  return off_m * off_m > kBelieved * by_chance_m2 ? off_m * off_m : 0.0;
+  return off_m * off_m > kBallFit.believed * by_chance_m2 ? off_m * off_m : 0.0;
 }
 
 }  // namespace
@@ -130,9 +125,9 @@ std::optional<BallFit> fit_ball(const StereoRig& rig, const MeasuredOutline& lef
   const BallResiduals pair(rig, left, right, disparity_variance_px2);
   SizedBall ball(start->x(), start->y(), start->z(), ball_radius_m);
   Eigen::Matrix4d covariance;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kBallFit.steps; ++step) {
     if (!is_ahead(ball)) return std::nullopt;
-    covariance = pair.improve(ball, {ball_radius_m, kLooseSd * ball_radius_m});
+    covariance = pair.improve(ball, {ball_radius_m, kBallFit.loose_sd * ball_radius_m});
   }
   BallFit fit;
   if (!put(ball, covariance, fit)) return std::nullopt;
@@ -152,13 +147,13 @@ BallFit fit_ball_of_size(const StereoRig& rig, const MeasuredOutline& left, cons
   const double by_size_px = disparity_by_size_px(rig, left, right, size.radius_m);
   const double off_px2 = off_m2 * by_size_px * by_size_px / (size.radius_m * size.radius_m);
   const double told_sd_m = std::sqrt(size.radius_sd_m * size.radius_sd_m + off_m2);
-  const BallSize believed = {size.radius_m,
-                             std::clamp(told_sd_m, kExactSd * size.radius_m, kLooseSd * size.radius_m)};
+  const BallSize believed = {size.radius_m, std::clamp(told_sd_m, kBallFit.exact_sd * size.radius_m,
+                                                       kBallFit.loose_sd * size.radius_m)};
   const BallResiduals pair(rig, left, right, disparity_variance_px2 + off_px2);
   SizedBall ball;
   ball << loose.ball_in_camera, loose.radius_m;
   Eigen::Matrix4d covariance;
-  for (int step = 0; step < kFurtherSteps; ++step) {
+  for (int step = 0; step < kBallFit.further_steps; ++step) {
     if (!is_ahead(ball)) return loose;
     covariance = pair.improve(ball, believed);
   }

@@ -5,21 +5,16 @@
 #include <utility>
 
 #include "vision/stereo/rig_search.h"
+#include "vision/tuning/match.h"
+#include "vision/tuning/outline_fit.h"
+#include "vision/tuning/rig_watch.h"
 
 namespace stereobench::vision {
 namespace {
 
-constexpr double kLeastArcShare = 1.0 / 3.0;   // of an outline in each camera, to be trusted
-constexpr double kMostReducedChiSquare = 6.0;  // beyond it arcs are of two things
-constexpr double kVague_px = 0.05;             // sd of a disparity that contradicting arcs may have
-constexpr double kRowsApart_px = 0.5;          // more than two outlines of one ball are in a rectified rig
-constexpr double kSeenTimes = 6.0;             // a ball, with the same error of its size each time
-constexpr int kMostMatches = 3;                // by a belief that changes
-constexpr double kSameFault = 2e-5;            // rad, and relative: rows move by 0.02 px at f = 1000 px
-
 // Whether each camera sees enough of the outline.
 bool shows_enough(const OutlinePair& pair) {
-  return std::min(pair.left.inlier_ratio, pair.right.inlier_ratio) > kLeastArcShare;
+  return std::min(pair.left.inlier_ratio, pair.right.inlier_ratio) > kMatch.least_arc_share;
 }
 
 double disparity_sd_px(const OutlinePair& pair, const StereoRig& rig) {
@@ -33,8 +28,8 @@ double disparity_sd_px(const OutlinePair& pair, const StereoRig& rig) {
 // Whether the arcs of an outline are of two things, as far as they tell.
 bool contradicts_itself(const OutlinePair& pair, const StereoRig& rig) {
   const double reduced_chi_square = std::max(pair.left.reduced_chi_square, pair.right.reduced_chi_square);
-  return reduced_chi_square > kMostReducedChiSquare ||
-         (reduced_chi_square > 1.0 && disparity_sd_px(pair, rig) > kVague_px);
+  return reduced_chi_square > kMatch.most_reduced_chi_square ||
+         (reduced_chi_square > 1.0 && disparity_sd_px(pair, rig) > kMatch.vague_px);
 }
 
 // What a ball that is seen whole tells of the rig as it was believed to be.
@@ -42,15 +37,15 @@ void tell(const OutlinePair& pair, const StereoRig& rig, const BallSize& size, c
           RigWatch& watch) {
   const MeasuredOutline &left = pair.left, &right = pair.right;
   const bool is_whole = std::max(left.hidden_fraction + left.outside_fraction,
-                                 right.hidden_fraction + right.outside_fraction) < kMostHidden;
+                                 right.hidden_fraction + right.outside_fraction) < kOutlineFit.most_hidden;
   if (!is_whole || !speaks(pair, rig)) return;
   const double by_size_px = disparity_by_size_px(rig, left, right, size.radius_m);
   const double per_radius = by_size_px / (left.radius_px + right.radius_px);
   const double by_tolerance_px = by_size_px * size.radius_sd_m / size.radius_m;
   const Eigen::Matrix3d errors = left.covariance_px2 + right.covariance_px2;
-  const BallApart apart{
-      left.centre_px, right.centre_px, errors(1, 1), by_size_px,
-      errors(0, 0) + per_radius * per_radius * errors(2, 2) + kSeenTimes * by_tolerance_px * by_tolerance_px};
+  const BallApart apart{left.centre_px, right.centre_px, errors(1, 1), by_size_px,
+                        errors(0, 0) + per_radius * per_radius * errors(2, 2) +
+                            kRigMatch.seen_times * by_tolerance_px * by_tolerance_px};
   watch.add(rig.intrinsics, apart, belief);
 }
 
@@ -74,14 +69,14 @@ Matched match_by(const MatchTask& task, const RigBelief& belief, const RigWatch&
 // alone whose size is wrong says nothing of the rig.
 bool tells_more(const Matched& found, const Matched& before) {
   const auto rows_apart = [](const OutlinePair& pair) {
-    return std::abs(pair.left.centre_px.y() - pair.right_px.y()) > kRowsApart_px;
+    return std::abs(pair.left.centre_px.y() - pair.right_px.y()) > kRigMatch.rows_apart_px;
   };
   const bool is_rig = found.pairs.size() > 1 || std::ranges::any_of(found.pairs, rows_apart);
   return is_rig && found.pairs.size() > before.pairs.size();
 }
 
 bool differ(const RigBelief& a, const RigBelief& b) {
-  return (a.fault - b.fault).cwiseAbs().maxCoeff() > kSameFault;
+  return (a.fault - b.fault).cwiseAbs().maxCoeff() > kRigMatch.same_fault;
 }
 
 }  // namespace
@@ -106,7 +101,7 @@ Matched match_by_watch(std::span<const MeasuredOutline> left, std::span<const Me
       }
     }
   }
-  for (int i = 0; i < kMostMatches; ++i) {
+  for (int i = 0; i < kRigMatch.most_matches; ++i) {
     const RigBelief by_now = matched.watch.belief(rig.intrinsics);
     if (!differ(by_now, belief)) break;
     belief = by_now;

@@ -8,16 +8,10 @@
 #include "vision/camera/rig.h"
 #include "vision/scratch.h"
 #include "vision/stereo/ball_fit.h"
+#include "vision/tuning/rig_watch.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kSameSize = 0.1;  // relative, of the radii of one ball's outlines
-constexpr double kSameSize_px = 0.5;
-constexpr double kDisparity = 0.1;          // relative: a wrong baseline, and a size that is known to a tenth
-constexpr double kTurnAboutY_rad = 0.0113;  // 0.65 degrees: it moves columns by so much of the focal length
-constexpr double kCommonTrend_px = 2.0;     // a turn about y moves rows by so much in the corners
-constexpr std::size_t kMostCandidates = 60;  // 1770 pairs of them are tried
 
 // Two outlines that may be one ball.
 struct CandidatePair {
@@ -35,15 +29,17 @@ ScratchVector<CandidatePair> candidates_of(std::span<const MeasuredOutline> left
       const MeasuredOutline &a = left[l], &b = right[r];
       const Eigen::Vector2d apart = a.centre_px - b.centre_px;
       if (a.colour != b.colour || std::abs(apart.y()) > settings.rows_within_px) continue;
-      if (std::abs(a.radius_px - b.radius_px) > kSameSize_px + kSameSize * std::max(a.radius_px, b.radius_px))
+      if (std::abs(a.radius_px - b.radius_px) >
+          kRigSearch.same_size_px + kRigSearch.same_size * std::max(a.radius_px, b.radius_px))
         continue;
       const double by_size_px = disparity_by_size_px(rig, a, b, settings.ball_radius_m);
-      const double columns_within_px = kTurnAboutY_rad * rig.intrinsics.focal_px + kDisparity * by_size_px;
+      const double columns_within_px =
+          kRigSearch.turn_about_y_rad * rig.intrinsics.focal_px + kRigSearch.disparity * by_size_px;
       if (std::abs(apart.x() - by_size_px) > columns_within_px) continue;
       const Eigen::Vector2d ray = pixel_ray(rig.intrinsics, b.centre_px).head<2>();
       candidates.push_back(
           {l, r, apart.y(), rig.intrinsics.focal_px * Eigen::Vector2d(-(1.0 + ray.y() * ray.y()), ray.x())});
-      if (candidates.size() == kMostCandidates) return candidates;
+      if (candidates.size() == kRigSearch.most_candidates) return candidates;
     }
   }
   return candidates;
@@ -58,13 +54,13 @@ double score_of(const ScratchVector<CandidatePair>& candidates, const Eigen::Vec
   double score = 0.0;
   for (const CandidatePair& candidate : candidates) {
     const double rest = rest_px(candidate, turn);
-    if (rest > kCommonTrend_px) continue;
+    if (rest > kRigSearch.common_trend_px) continue;
     const auto is_rival = [&](const CandidatePair& other) {
       const bool shares = (other.left == candidate.left) != (other.right == candidate.right);
       return shares && rest_px(other, turn) < rest;
     };
     if (std::ranges::any_of(candidates, is_rival)) continue;
-    score += 1.0 - 0.1 * rest / kCommonTrend_px;
+    score += 1.0 - 0.1 * rest / kRigSearch.common_trend_px;
   }
   return score;
 }
@@ -102,7 +98,7 @@ std::optional<RigBelief> search_rig(std::span<const MeasuredOutline> left,
   RigBelief belief = usual_fault();
   belief.fault[0] = best.x();
   belief.fault[2] = best.y();
-  const double rows_sd = 0.5 * kCommonTrend_px / rig.intrinsics.focal_px;
+  const double rows_sd = 0.5 * kRigSearch.common_trend_px / rig.intrinsics.focal_px;
   belief.covariance(0, 0) = belief.covariance(2, 2) = rows_sd * rows_sd;
   return belief;
 }

@@ -8,16 +8,10 @@
 #include <Eigen/LU>
 
 #include "vision/camera/rig.h"
+#include "vision/tuning/rig_watch.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kUsualTurn_rad = 0.0105;  // 0.6 degrees
-constexpr double kUsualBaseline = 0.04;    // relative
-constexpr double kByChance = 25.0;         // chi-square with two degrees of freedom: one in 250,000
-constexpr double kMatters_px = 0.05;       // beside what outlines are off by, all but nothing
-constexpr double kUsualDisparity_px = 40.0;
-constexpr long kFewestSizes = 2;  // balls whose sizes say that it is the rig, not they
 
 // How a turn moves what the right camera sees: derivatives of (column, row), to first order.
 Eigen::Matrix<double, 2, 3> moved_by_turn_px(const Intrinsics& camera, const Eigen::Vector2d& right_px) {
@@ -53,8 +47,8 @@ void keep_if_real(const std::array<Eigen::Index, 2>& parts, const Eigen::Vector2
       covariance(i, j) =
           belief.covariance(parts[static_cast<std::size_t>(i)], parts[static_cast<std::size_t>(j)]);
   const double squares = fault.dot(covariance.inverse() * fault);
-  const bool matters = fault.cwiseProduct(sizes_px).cwiseAbs().maxCoeff() > kMatters_px;
-  if (is_known && matters && squares > kByChance) return;
+  const bool matters = fault.cwiseProduct(sizes_px).cwiseAbs().maxCoeff() > kRigWatch.matters_px;
+  if (is_known && matters && squares > kRigWatch.by_chance) return;
   for (const Eigen::Index part : parts) {
     belief.fault[part] = 0.0;
     belief.covariance.row(part).setZero();
@@ -75,8 +69,9 @@ RigBelief solve(const RigWatch& watch, double rows_scatter, double sizes_scatter
 
 RigBelief usual_fault() {
   RigBelief belief;
-  belief.covariance.diagonal() =
-      Eigen::Vector4d(kUsualTurn_rad, kUsualTurn_rad, kUsualTurn_rad, kUsualBaseline).cwiseAbs2();
+  belief.covariance.diagonal() = Eigen::Vector4d(kRigWatch.usual_turn_rad, kRigWatch.usual_turn_rad,
+                                                 kRigWatch.usual_turn_rad, kRigWatch.usual_baseline)
+                                     .cwiseAbs2();
   return belief;
 }
 
@@ -154,7 +149,7 @@ RigBelief RigWatch::belief(const Intrinsics& camera) const {
   RigBelief belief = estimate();
   const double f = camera.focal_px;
   keep_if_real({0, 2}, {f, 0.5 * camera.width_px}, balls > 0, belief);
-  keep_if_real({1, 3}, {f, kUsualDisparity_px}, balls >= kFewestSizes, belief);
+  keep_if_real({1, 3}, {f, kRigWatch.usual_disparity_px}, balls >= kRigWatch.fewest_sizes, belief);
   return belief;
 }
 

@@ -6,17 +6,10 @@
 #include <optional>
 
 #include "vision/camera/rig.h"
+#include "vision/tuning/match.h"
 
 namespace stereobench::vision {
 namespace {
-
-constexpr double kGateSigmas = 4.0;
-constexpr double kRowGate_px = 0.35;  // beyond noise: the rig's and the fit's own errors
-constexpr double kToleranceSds = 3.0;
-constexpr double kSizeGate_px = 0.45;
-constexpr double kSizeGate = 0.08;  // relative; beyond it two outlines are not one ball
-constexpr double kWholeSizeGate_px = 0.2;
-constexpr double kWholeSizeGate = 0.025;  // relative; beyond it the ball is not whole
 
 // How ill two outlines suit each other: 0 is perfect, above 1 they are not the same ball.
 struct OutlineMisfit {
@@ -50,7 +43,8 @@ std::optional<OutlineMisfit> misfit(const MeasuredOutline& left, MeasuredOutline
   const Eigen::Vector2d apart = left.centre_px - right.centre_px;
   if (std::abs(apart.y()) > settings.rows_within_px) return std::nullopt;
   if (variances.y() > 0.0 &&
-      std::abs(apart.x() - by_size_px) > kGateSigmas * std::sqrt(variances.y()) + kSizeGate * by_size_px)
+      std::abs(apart.x() - by_size_px) >
+          kMatch.gate_sigmas * std::sqrt(variances.y()) + kMatch.size_gate * by_size_px)
     return std::nullopt;
   const auto ball = fit_ball(rig, left, right, settings.ball_radius_m, result.disparity_variance_px2);
   if (!ball || ball->ball_in_camera.z() < settings.min_depth_m) return std::nullopt;
@@ -58,14 +52,14 @@ std::optional<OutlineMisfit> misfit(const MeasuredOutline& left, MeasuredOutline
   result.ball = *ball;
   result.right = right;
   const double row_sd = std::sqrt(left.covariance_px2(1, 1) + right.covariance_px2(1, 1) + variances.x());
-  result.row = ball->row_misfit_px / (kRowGate_px + kGateSigmas * row_sd);
+  result.row = ball->row_misfit_px / (kMatch.row_gate_px + kMatch.gate_sigmas * row_sd);
   const double radius = std::max(left.radius_px, right.radius_px);
   const double noise =
-      kGateSigmas * std::sqrt(std::max(left.covariance_px2(2, 2), right.covariance_px2(2, 2)));
-  const double made_px = kToleranceSds * settings.ball_radius_sd_m / settings.ball_radius_m * radius;
-  result.size = ball->radius_misfit_px / (kSizeGate_px + kSizeGate * radius + noise + made_px);
+      kMatch.gate_sigmas * std::sqrt(std::max(left.covariance_px2(2, 2), right.covariance_px2(2, 2)));
+  const double made_px = kMatch.tolerance_sds * settings.ball_radius_sd_m / settings.ball_radius_m * radius;
+  result.size = ball->radius_misfit_px / (kMatch.size_gate_px + kMatch.size_gate * radius + noise + made_px);
   result.sizes_agree =
-      ball->radius_misfit_px <= kWholeSizeGate_px + kWholeSizeGate * radius + noise + made_px;
+      ball->radius_misfit_px <= kMatch.whole_size_gate_px + kMatch.whole_size_gate * radius + noise + made_px;
   return result.total() <= 1.0 ? std::optional(result) : std::nullopt;
 }
 

@@ -12,6 +12,7 @@
 #include "vision/observe.h"
 #include "vision/outline/round_patch.h"
 #include "vision/palette.h"
+#include "vision/tuning/colours.h"
 
 namespace stereobench::vision {
 namespace {
@@ -74,7 +75,7 @@ TEST(LearnedTable, KnowsItsOwnAndNothingElse) {
   for (int level = 0; level < 256; level += 5)
     EXPECT_EQ(classify(Eigen::Vector3d::Constant(level)), kBackground);
   EXPECT_EQ(classify({200, 30, 220}), kBackground) << "a colour that nobody has learned";
-  EXPECT_GT(separation(colours[0], colours[1]), kLearnedGate);
+  EXPECT_GT(separation(colours[0], colours[1]), kLearnedColours.gate_sds);
   EXPECT_EQ(separation(colours[0], colours[0]), 0.0);
 }
 
