@@ -2,8 +2,9 @@
 
 namespace stereobench::renderer {
 
-std::string texture_albedo() {
-  return R"glsl(
+namespace {
+
+constexpr const char* kAlbedo = R"glsl(
 in vec3 v_colour;
 uniform usamplerBuffer u_texels;
 uniform int u_shape[4];   // width, height, whether it repeats along each
@@ -49,6 +50,11 @@ vec3 albedo(vec2 place, vec2 footprint) {
                         level_colour(inside, min(level + 1, u_last_level), whole, repeats), t);
 }
 )glsl";
+
+}  // namespace
+
+std::string texture_albedo() {
+  return kAlbedo;
 }
 
 }  // namespace stereobench::renderer

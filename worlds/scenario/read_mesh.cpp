@@ -42,53 +42,65 @@ void check_mesh(const YamlMap& map, MeshInstance&) {
   if (map.find("under_ball") && map.find("at_m")) map.value().refuse("expected either at_m or under_ball");
 }
 
+/// Of the file or shape.
+std::vector<Field<MeshInstance>> form_fields() {
+  return {
+      text("file", "Mesh file (obj, dae, gltf, glb, stl, fbx), relative to the scenario's folder.")
+          .needed_unless("shape")
+          .by<MeshInstance>(read_mesh_file),
+      choice("shape", {kShapeNames.begin(), kShapeNames.end()}, "A shape of unit size in place of a file.")
+          .otherwise_says("file")
+          .by<MeshInstance>(read_shape, written_shape),
+      number("unit_m", {1e-6, 1e3}, "Length of the file's unit, in metres.")
+          .written_if_changed()
+          .fills(&MeshInstance::unit_m),
+      choice("up", {"z", "y"}, "Which of the file's axes points up.")
+          .written_if_changed()
+          .fills(&MeshInstance::up),
+  };
+}
+
+std::vector<Field<MeshInstance>> placement_fields() {
+  return {
+      number("at_m", kPlace_m, "Where its origin stands in the world: x, y, z in metres.")
+          .needed_unless("under_ball")
+          .fills(&MeshInstance::position_m),
+      whole("under_ball", 0, 253, "Index of the ball that it carries: it reaches from the floor up to it.")
+          .otherwise_says("at_m"),
+      number("heading_deg", kTurn_deg, "Turn about the vertical axis, in degrees, after pitch and roll.")
+          .times(slam::kRadPerDegree)
+          .fills(&MeshInstance::heading_rad),
+      number("pitch_deg", kTurn_deg, "Turn about the y axis, in degrees, after roll.")
+          .times(slam::kRadPerDegree)
+          .written_if_changed()
+          .fills(&MeshInstance::pitch_rad),
+      number("roll_deg", kTurn_deg, "Turn about the x axis, in degrees.")
+          .times(slam::kRadPerDegree)
+          .written_if_changed()
+          .fills(&MeshInstance::roll_rad),
+      number("scale", {1e-3, 1e3}, "Factor on its size, or one for each axis.")
+          .or_vector(3)
+          .fills(&MeshInstance::scale),
+  };
+}
+
+std::vector<Field<MeshInstance>> material_fields() {
+  return {
+      choice("material", {kMaterialNames.begin(), kMaterialNames.end()},
+             "What it is made of; `file` takes the file's own colours and textures.")
+          .otherwise_says("wood; paint for a shape")
+          .fills(&MeshInstance::material)
+          .reading(read_material),
+      number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
+          .fills(&MeshInstance::tint_rgb),
+  };
+}
+
 }  // namespace
 
 const Fields<MeshInstance>& mesh_keys() {
   static const Fields<MeshInstance> keys(
-      {
-          text("file", "Mesh file (obj, dae, gltf, glb, stl, fbx), relative to the scenario's folder.")
-              .needed_unless("shape")
-              .by<MeshInstance>(read_mesh_file),
-          choice("shape", {kShapeNames.begin(), kShapeNames.end()},
-                 "A shape of unit size in place of a file.")
-              .otherwise_says("file")
-              .by<MeshInstance>(read_shape, written_shape),
-          number("unit_m", {1e-6, 1e3}, "Length of the file's unit, in metres.")
-              .written_if_changed()
-              .fills(&MeshInstance::unit_m),
-          choice("up", {"z", "y"}, "Which of the file's axes points up.")
-              .written_if_changed()
-              .fills(&MeshInstance::up),
-          number("at_m", kPlace_m, "Where its origin stands in the world: x, y, z in metres.")
-              .needed_unless("under_ball")
-              .fills(&MeshInstance::position_m),
-          whole("under_ball", 0, 253,
-                "Index of the ball that it carries: it reaches from the floor up to it.")
-              .otherwise_says("at_m"),
-          number("heading_deg", kTurn_deg, "Turn about the vertical axis, in degrees, after pitch and roll.")
-              .times(slam::kRadPerDegree)
-              .fills(&MeshInstance::heading_rad),
-          number("pitch_deg", kTurn_deg, "Turn about the y axis, in degrees, after roll.")
-              .times(slam::kRadPerDegree)
-              .written_if_changed()
-              .fills(&MeshInstance::pitch_rad),
-          number("roll_deg", kTurn_deg, "Turn about the x axis, in degrees.")
-              .times(slam::kRadPerDegree)
-              .written_if_changed()
-              .fills(&MeshInstance::roll_rad),
-          number("scale", {1e-3, 1e3}, "Factor on its size, or one for each axis.")
-              .or_vector(3)
-              .fills(&MeshInstance::scale),
-          choice("material", {kMaterialNames.begin(), kMaterialNames.end()},
-                 "What it is made of; `file` takes the file's own colours and textures.")
-              .otherwise_says("wood; paint for a shape")
-              .fills(&MeshInstance::material)
-              .reading(read_material),
-          number("tint_rgb", kTint, "Factors on the material's red, green and blue.")
-              .fills(&MeshInstance::tint_rgb),
-      },
-      check_mesh);
+      joined<MeshInstance>({form_fields(), placement_fields(), material_fields()}), check_mesh);
   return keys;
 }
 

@@ -76,63 +76,75 @@ GroundTruth drive(const PathLines& lines, const Layout* layout) {
   return drive_recorded(read_trajectory(lines.file), lines.step_s, lines.odometry_s);
 }
 
+std::vector<Field<PathLines>> shape_and_circle_fields() {
+  return {
+      choice("kind", {"circle", "polyline", "tour", "spline", "figure_eight", "recorded"},
+             "The shape of the drive; `tour` leads through a generated world.")
+          .needed()
+          .fills(&PathLines::kind),
+      number("start_m", kPlace_m, "Where the drive begins: x, y in metres.")
+          .only_for({"circle", "figure_eight"})
+          .fills(&PathLines::start_m),
+      number("start_heading_deg", {-179.999999, 180.0},
+             "Heading at the start, in degrees from east to north.")
+          .only_for({"circle", "figure_eight"})
+          .times(slam::kRadPerDegree)
+          .fills(&PathLines::circle, &CirclePath::start, &slam::Pose::heading_rad),
+      number("radius_m", kSize_m, "Radius of the circle, or of each of the figure's two, in metres.")
+          .only_for({"circle", "figure_eight"})
+          .needed_for({"circle", "figure_eight"})
+          .fills(&PathLines::circle, &CirclePath::radius_m),
+      number("laps", {1e-3, 1e3}, "Times around; need not be whole.")
+          .only_for({"circle", "figure_eight"})
+          .fills(&PathLines::circle, &CirclePath::laps),
+  };
+}
+
+/// Of ways through corners or points.
+std::vector<Field<PathLines>> way_fields() {
+  return {
+      number("points_m", kPlace_m,
+             "Corners of a polyline, or points that a spline runs through: x, y in metres.")
+          .list(2, 1000, 2)
+          .only_for({"polyline", "spline"})
+          .needed_for({"polyline", "spline"})
+          .fills(&PathLines::points_m),
+      flag("closed", "Whether the drive ends where it began.")
+          .only_for({"polyline", "spline"})
+          .fills(&PathLines::closed),
+      number("corner_radius_m", kSize_m, "Radius of the arc that rounds each corner, in metres.")
+          .only_for({"polyline", "tour"})
+          .needed_for({"polyline"})
+          .otherwise_says("of a tour: what keeps its distance from the walls")
+          .fills(&PathLines::corner_radius_m),
+      number("overlap_m", {0.0, 1e4}, "How far a closed drive goes on after the lap, in metres.")
+          .only_for({"polyline", "tour"})
+          .fills(&PathLines::overlap_m),
+  };
+}
+
+std::vector<Field<PathLines>> speed_and_file_fields() {
+  return {
+      number("speed_mps", {1e-3, 100.0}, "Speed of the drive, in metres per second.")
+          .only_for({"circle", "polyline", "tour", "spline", "figure_eight"})
+          .needed_for({"circle", "polyline", "tour", "spline", "figure_eight"})
+          .fills(&PathLines::speed_mps),
+      number("step_s", kStep_s, "Time between two frames, in seconds.").needed().fills(&PathLines::step_s),
+      number("odometry_s", kStep_s, "Time between two readings of the odometry, in seconds.")
+          .otherwise_says("step_s")
+          .fills(&PathLines::odometry_s),
+      text("file",
+           "Trajectory in TUM's format, or a groundtruth.csv of ours; relative to the scenario's folder.")
+          .only_for({"recorded"})
+          .needed_for({"recorded"})
+          .by<PathLines>(
+              [](const YamlValue& file, PathLines& lines) { lines.file = file.folder() / file.text(); }),
+  };
+}
+
 const Fields<PathLines>& path_line_keys() {
   static const Fields<PathLines> keys(
-      "kind",
-      {
-          choice("kind", {"circle", "polyline", "tour", "spline", "figure_eight", "recorded"},
-                 "The shape of the drive; `tour` leads through a generated world.")
-              .needed()
-              .fills(&PathLines::kind),
-          number("start_m", kPlace_m, "Where the drive begins: x, y in metres.")
-              .only_for({"circle", "figure_eight"})
-              .fills(&PathLines::start_m),
-          number("start_heading_deg", {-179.999999, 180.0},
-                 "Heading at the start, in degrees from east to north.")
-              .only_for({"circle", "figure_eight"})
-              .times(slam::kRadPerDegree)
-              .fills(&PathLines::circle, &CirclePath::start, &slam::Pose::heading_rad),
-          number("radius_m", kSize_m, "Radius of the circle, or of each of the figure's two, in metres.")
-              .only_for({"circle", "figure_eight"})
-              .needed_for({"circle", "figure_eight"})
-              .fills(&PathLines::circle, &CirclePath::radius_m),
-          number("laps", {1e-3, 1e3}, "Times around; need not be whole.")
-              .only_for({"circle", "figure_eight"})
-              .fills(&PathLines::circle, &CirclePath::laps),
-          number("points_m", kPlace_m,
-                 "Corners of a polyline, or points that a spline runs through: x, y in metres.")
-              .list(2, 1000, 2)
-              .only_for({"polyline", "spline"})
-              .needed_for({"polyline", "spline"})
-              .fills(&PathLines::points_m),
-          flag("closed", "Whether the drive ends where it began.")
-              .only_for({"polyline", "spline"})
-              .fills(&PathLines::closed),
-          number("corner_radius_m", kSize_m, "Radius of the arc that rounds each corner, in metres.")
-              .only_for({"polyline", "tour"})
-              .needed_for({"polyline"})
-              .otherwise_says("of a tour: what keeps its distance from the walls")
-              .fills(&PathLines::corner_radius_m),
-          number("overlap_m", {0.0, 1e4}, "How far a closed drive goes on after the lap, in metres.")
-              .only_for({"polyline", "tour"})
-              .fills(&PathLines::overlap_m),
-          number("speed_mps", {1e-3, 100.0}, "Speed of the drive, in metres per second.")
-              .only_for({"circle", "polyline", "tour", "spline", "figure_eight"})
-              .needed_for({"circle", "polyline", "tour", "spline", "figure_eight"})
-              .fills(&PathLines::speed_mps),
-          number("step_s", kStep_s, "Time between two frames, in seconds.")
-              .needed()
-              .fills(&PathLines::step_s),
-          number("odometry_s", kStep_s, "Time between two readings of the odometry, in seconds.")
-              .otherwise_says("step_s")
-              .fills(&PathLines::odometry_s),
-          text("file",
-               "Trajectory in TUM's format, or a groundtruth.csv of ours; relative to the scenario's folder.")
-              .only_for({"recorded"})
-              .needed_for({"recorded"})
-              .by<PathLines>(
-                  [](const YamlValue& file, PathLines& lines) { lines.file = file.folder() / file.text(); }),
-      });
+      "kind", joined<PathLines>({shape_and_circle_fields(), way_fields(), speed_and_file_fields()}));
   return keys;
 }
 

@@ -123,6 +123,57 @@ void check_world(const YamlMap& map, World& world) {
   check_surface(map, "floor_texture", "floor");
 }
 
+/// Balls, walls and meshes.
+std::vector<Field<World>> thing_fields() {
+  return {
+      group("generator", generator_keys(), "Makes balls and walls in place of lists of them.")
+          .otherwise_says("balls"),
+      number("ball_radius_m", kRadius_m, "Radius of balls that do not say theirs, in metres.")
+          .by<World>(
+              [](const YamlValue& value, World& world) { world.usual_radius_m = value.number(kRadius_m); },
+              [](const World& world) { return written(Key{}, world.ball_radius_m()); }),
+      number("ball_radius_sd_m", kTolerance_m,
+             "Tolerance of manufacture: standard deviation of the radii of balls that do not say theirs, "
+             "in metres; 0 is exactly known.")
+          .fills(&World::ball_radius_sd_m),
+      group("balls", ball_keys(), "The landmarks; a ball's place in the list is its identity.")
+          .list(1, kMostBalls)
+          .needed_unless("generator"),
+      group("walls", wall_keys(), "Upright rectangles on the floor, seen from both sides.")
+          .list(0, kMostWalls),
+      group("meshes", mesh_keys(), "Things from mesh files, boxes and balls that are no landmarks.")
+          .list(0, kMostWalls),
+      group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost.").fills(&World::mesh_limits),
+      text("texture_folders",
+           "Folders, relative to the scenario's, in which textures of mesh files may also lie.")
+          .list(1, kMostFolders)
+          .otherwise_says("beside the mesh file and in its ../materials/textures alone")
+          .by<World>(read_texture_folders),
+      choice("missing_texture", {"error", "grey"},
+             "What becomes of a mesh whose texture is nowhere: an error, or grey in its place.")
+          .fills(&World::texture_search, &TextureSearch::missing),
+  };
+}
+
+/// What is around them.
+std::vector<Field<World>> surroundings_fields() {
+  return {
+      choice("floor", floor_names(), "What the floor is made of; none: nothing is seen in its place.")
+          .by<World>(read_floor, written_floor),
+      number("floor_tint_rgb", kTint, "Factors on the floor's red, green and blue.")
+          .fills(&World::floor_tint_rgb),
+      group("floor_texture", surface_texture_keys(), "A picture in place of `floor`.")
+          .by<World>(
+              [](const YamlValue& value, World& world) {
+                world.floor = Material::kFile;
+                surface_texture_keys().read_into(value, world.floor_texture);
+              },
+              [](const World& world) { return written_texture(world.floor, world.floor_texture); }),
+      group("light", light_keys(), "Sunlight without shadows.").fills(&World::light),
+      number("sky_rgb", kShare, "Colour of what is nothing: red, green, blue.").fills(&World::sky_rgb),
+  };
+}
+
 }  // namespace
 
 const Fields<Ball>& ball_keys() {
@@ -188,49 +239,7 @@ const Fields<Light>& light_keys() {
 }
 
 const Fields<World>& world_keys() {
-  static const Fields<World> keys(
-      {
-          group("generator", generator_keys(), "Makes balls and walls in place of lists of them.")
-              .otherwise_says("balls"),
-          number("ball_radius_m", kRadius_m, "Radius of balls that do not say theirs, in metres.")
-              .by<World>([](const YamlValue& value,
-                            World& world) { world.usual_radius_m = value.number(kRadius_m); },
-                         [](const World& world) { return written(Key{}, world.ball_radius_m()); }),
-          number("ball_radius_sd_m", kTolerance_m,
-                 "Tolerance of manufacture: standard deviation of the radii of balls that do not say theirs, "
-                 "in metres; 0 is exactly known.")
-              .fills(&World::ball_radius_sd_m),
-          group("balls", ball_keys(), "The landmarks; a ball's place in the list is its identity.")
-              .list(1, kMostBalls)
-              .needed_unless("generator"),
-          group("walls", wall_keys(), "Upright rectangles on the floor, seen from both sides.")
-              .list(0, kMostWalls),
-          group("meshes", mesh_keys(), "Things from mesh files, boxes and balls that are no landmarks.")
-              .list(0, kMostWalls),
-          group("mesh_limits", mesh_limit_keys(), "What a mesh file may cost.").fills(&World::mesh_limits),
-          text("texture_folders",
-               "Folders, relative to the scenario's, in which textures of mesh files may also lie.")
-              .list(1, kMostFolders)
-              .otherwise_says("beside the mesh file and in its ../materials/textures alone")
-              .by<World>(read_texture_folders),
-          choice("missing_texture", {"error", "grey"},
-                 "What becomes of a mesh whose texture is nowhere: an error, or grey in its place.")
-              .fills(&World::texture_search, &TextureSearch::missing),
-          choice("floor", floor_names(), "What the floor is made of; none: nothing is seen in its place.")
-              .by<World>(read_floor, written_floor),
-          number("floor_tint_rgb", kTint, "Factors on the floor's red, green and blue.")
-              .fills(&World::floor_tint_rgb),
-          group("floor_texture", surface_texture_keys(), "A picture in place of `floor`.")
-              .by<World>(
-                  [](const YamlValue& value, World& world) {
-                    world.floor = Material::kFile;
-                    surface_texture_keys().read_into(value, world.floor_texture);
-                  },
-                  [](const World& world) { return written_texture(world.floor, world.floor_texture); }),
-          group("light", light_keys(), "Sunlight without shadows.").fills(&World::light),
-          number("sky_rgb", kShare, "Colour of what is nothing: red, green, blue.").fills(&World::sky_rgb),
-      },
-      check_world);
+  static const Fields<World> keys(joined<World>({thing_fields(), surroundings_fields()}), check_world);
   return keys;
 }
 
