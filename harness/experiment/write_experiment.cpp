@@ -25,13 +25,13 @@ void gather_files(const YAML::Node& node, std::set<std::string>& files) {
 }  // namespace
 
 std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return text_of(worlds::load_yaml(file, overrides).root);
+  return text_of(worlds::load_yaml(file, overrides, &experiment_keys()).root);
 }
 
 std::set<std::string> files_named_in(const std::filesystem::path& file,
                                      const std::vector<std::string>& overrides) {
   std::set<std::string> files;
-  gather_files(worlds::load_yaml(file, overrides).root, files);
+  gather_files(worlds::load_yaml(file, overrides, &experiment_keys()).root, files);
   return files;
 }
 

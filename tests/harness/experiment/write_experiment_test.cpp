@@ -50,5 +50,18 @@ TEST(WithOverrides, ChangesWhatTheyNameAndNothingElse) {
               ElementsAre("drive.txt", "thing.obj"));
 }
 
+// The list's default comes first. Mutation: the table of keys is not handed on, as it was not: `run` then
+// refused what it had read.
+TEST(WithOverrides, SetAnEntryOfAListThatTheFileLeavesOut) {
+  const ScenarioFolder folder;
+  const auto file = folder.write("small.yaml", kSmallScenario);
+  const std::vector<std::string> overrides = {"rig.distortion[1]=0.02", "believed_rig.right_turn_deg[0]=0.1"};
+  const ScenarioFolder other;
+  const auto copy = other.write("copy.yaml", with_overrides(file, overrides));
+  EXPECT_EQ(read_experiment(copy).scenario.rig.distortion.k2, 0.02);
+  EXPECT_EQ(read_experiment(copy).scenario.rig.distortion.k1, 0.0);
+  EXPECT_EQ(files_named_in(file, overrides), files_named_in(file, {}));
+}
+
 }  // namespace
 }  // namespace stereobench::harness
