@@ -6,6 +6,7 @@
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/cbor.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "renderer/surfaces/mesh_cache.h"
@@ -13,8 +14,8 @@
 
 namespace stereobench::harness {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pairs, most_step_px)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RenderedSeed, pairs, was_complete, spoilt, blur)
+STEREOBENCH_ALL_FIELDS(CoarseBlur, pairs, most_step_px)
+STEREOBENCH_ALL_FIELDS(RenderedSeed, pairs, was_complete, spoilt, blur)
 
 namespace {
 

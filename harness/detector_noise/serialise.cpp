@@ -5,10 +5,10 @@
 
 namespace stereobench::harness {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BallBounds, of_size, unknown_size)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationSample, truth, error, stated, bounds, disparity_error_px,
-                                   radius_error_px, depth_m, whole)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationTake, samples, score)
+STEREOBENCH_ALL_FIELDS(BallBounds, of_size, unknown_size)
+STEREOBENCH_ALL_FIELDS(CalibrationSample, truth, error, stated, bounds, disparity_error_px, radius_error_px,
+                       depth_m, whole)
+STEREOBENCH_ALL_FIELDS(CalibrationTake, samples, score)
 
 std::string to_bytes(const CalibrationTake& take) {
   return bytes_of(take);

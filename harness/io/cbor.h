@@ -33,6 +33,14 @@ struct adl_serializer<std::optional<Value>> {
 
 }  // namespace nlohmann
 
+/// How a struct is written as JSON and read: all its members by name. A member that is left out does not
+/// compile: it would be lost between processes, without a word.
+#define STEREOBENCH_ALL_FIELDS(Type, ...)                                    \
+  NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Type, __VA_ARGS__)                      \
+  [[maybe_unused]] inline void require_all_fields(const Type& all_of_them) { \
+    [[maybe_unused]] const auto& [__VA_ARGS__] = all_of_them;                \
+  }
+
 namespace stereobench::harness {
 
 inline std::string bytes_of(const nlohmann::json& json) {

@@ -3,24 +3,23 @@
 #include "harness/vision_scoring/vision_score_json.h"
 
 namespace stereobench::slam {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pose, x_m, y_m, heading_rad)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkEstimate, landmark_id, colour_class, position_m, covariance,
-                                   origin)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterCounters, resamplings, covariance_repairs, weight_collapses,
-                                   gated_measurements, rejected_inputs, joint_searches_cut)
+STEREOBENCH_ALL_FIELDS(Pose, x_m, y_m, heading_rad)
+STEREOBENCH_ALL_FIELDS(LandmarkEstimate, landmark_id, colour_class, position_m, covariance, origin)
+STEREOBENCH_ALL_FIELDS(FilterCounters, resamplings, covariance_repairs, weight_collapses, gated_measurements,
+                       rejected_inputs, joint_searches_cut)
 }  // namespace stereobench::slam
 
 namespace stereobench::harness {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LandmarkTruth, landmark_id, colour_class, position_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CoarseBlur, pairs, most_step_px)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrajectoryScore, ate_rms_m, ate_max_m, ate_aligned_rms_m,
-                                   ate_aligned_max_m, heading_rms_rad, rpe_rms_m, rpe_heading_rms_rad,
-                                   final_drift, truth_from_estimate, scored_steps)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MapScore, rms_m, max_m, found_once, duplicated, missed, spurious)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EllipseCoverage, within, positions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ParticleScore, effective_mean, effective_least, resamplings,
-                                   ancestors_of_first, ancestors_of_quarter)
+STEREOBENCH_ALL_FIELDS(LandmarkTruth, landmark_id, colour_class, position_m)
+STEREOBENCH_ALL_FIELDS(CoarseBlur, pairs, most_step_px)
+STEREOBENCH_ALL_FIELDS(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
+STEREOBENCH_ALL_FIELDS(TrajectoryScore, ate_rms_m, ate_max_m, ate_aligned_rms_m, ate_aligned_max_m,
+                       heading_rms_rad, rpe_rms_m, rpe_heading_rms_rad, final_drift, truth_from_estimate,
+                       scored_steps)
+STEREOBENCH_ALL_FIELDS(MapScore, rms_m, max_m, found_once, duplicated, missed, spurious)
+STEREOBENCH_ALL_FIELDS(EllipseCoverage, within, positions)
+STEREOBENCH_ALL_FIELDS(ParticleScore, effective_mean, effective_least, resamplings, ancestors_of_first,
+                       ancestors_of_quarter)
 
 /// One a step: two numbers without names.
 inline void to_json(nlohmann::json& json, const SquaredSum& sum) {
@@ -31,16 +30,15 @@ inline void from_json(const nlohmann::json& json, SquaredSum& sum) {
   json.at(1).get_to(sum.degrees_of_freedom);
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InnovationSum, all, used)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InnovationScore, run, by_landmark)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ConsistencyScore, innovations, path, map, particles)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilterScore, failed, truth_from_estimate, trajectory,
-                                   ate_aligned_at_sightings_rms_m, map, map_aligned, map_path_aligned,
-                                   normalised_errors, consistency)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundScore, pose_rms_m, heading_rms_rad, landmark_rms_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundScores, filtering, smoothing)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MapEstimate, filter, path, landmarks)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ScoredRun, filter, particles, score, association, counters, errors_m)
+STEREOBENCH_ALL_FIELDS(InnovationSum, all, used)
+STEREOBENCH_ALL_FIELDS(InnovationScore, run, by_landmark)
+STEREOBENCH_ALL_FIELDS(ConsistencyScore, innovations, path, map, particles)
+STEREOBENCH_ALL_FIELDS(FilterScore, failed, truth_from_estimate, trajectory, ate_aligned_at_sightings_rms_m,
+                       map, map_aligned, map_path_aligned, normalised_errors, consistency)
+STEREOBENCH_ALL_FIELDS(BoundScore, pose_rms_m, heading_rms_rad, landmark_rms_m)
+STEREOBENCH_ALL_FIELDS(BoundScores, filtering, smoothing)
+STEREOBENCH_ALL_FIELDS(MapEstimate, filter, path, landmarks)
+STEREOBENCH_ALL_FIELDS(ScoredRun, filter, particles, score, association, counters, errors_m)
 
 inline void to_json(nlohmann::json& json, const MapPicture& map) {
   json = {{"true_path", map.true_path}, {"landmarks", map.landmarks}, {"estimates", map.estimates}};
@@ -61,9 +59,8 @@ inline void from_json(const nlohmann::json& json, Snapshot& snapshot) {
   snapshot.png.assign(png.begin(), png.end());
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
-                                   identities_known, runs, batch, bound, bound_m2, csv, time_s, map,
-                                   snapshots)
+STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
+                       identities_known, runs, batch, bound, bound_m2, csv, time_s, map, snapshots)
 
 std::string to_bytes(const SeedResult& result) {
   return bytes_of(result);
