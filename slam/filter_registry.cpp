@@ -57,41 +57,42 @@ void check(const FilterConfig& config) {
           "unscented.beta and kappa must be finite, kappa > -2");
 }
 
-/// One row a filter: name, title, whether it needs identities, whether it is usual, how it starts.
-constexpr std::array<FilterKind, 8> kKinds = {{
-    {"dead_reckoning", "dead reckoning", false, true,
+/// One row a filter: name, title, whether it maps landmarks, whether it needs identities, whether it is
+/// usual, how it starts.
+constexpr auto kKinds = std::to_array<FilterKind>({
+    {"dead_reckoning", "dead reckoning", false, false, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return DeadReckoning(config, start);
      }},
-    {"ekf", "EKF-SLAM", false, false,
+    {"ekf", "EKF-SLAM", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(config, start);
      }},
-    {"fastslam1", "FastSLAM 1.0", false, false,
+    {"fastslam1", "FastSLAM 1.0", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
      }},
-    {"fastslam2", "FastSLAM 2.0", false, true,
+    {"fastslam2", "FastSLAM 2.0", true, false, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
      }},
-    {"ufastslam", "UFastSLAM", false, true,
+    {"ufastslam", "UFastSLAM", true, false, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
      }},
-    {"ufastslam_kim", "UFastSLAM, stacked", false, false,
+    {"ufastslam_kim", "UFastSLAM, stacked", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(config, start, seed, Proposal::kPosterior, Updates::kAtOnce);
      }},
-    {"fastslam2_block", "FastSLAM 2.0 in blocks", true, false,
+    {"fastslam2_block", "FastSLAM 2.0 in blocks", true, true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedBlockSlam(config, start, seed);
      }},
-    {"ufastslam_block", "UFastSLAM in blocks", true, false,
+    {"ufastslam_block", "UFastSLAM in blocks", true, true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedBlockSlam(config, start, seed);
      }},
-}};
+});
 
 }  // namespace
 

@@ -16,6 +16,7 @@ namespace stereobench::slam {
 struct FilterKind {
   std::string_view name;   ///< on command lines and in files
   std::string_view title;  ///< as people write it, e.g. "FastSLAM 2.0"
+  bool maps_landmarks;     ///< false: it is blind to sightings, as dead reckoning is
   bool needs_identities;   ///< uses sightings with an identity alone, and refuses all others
   bool is_usual;           ///< is run where nobody says which
   Filter (*start)(const FilterConfig& config, const Pose& start, std::uint64_t seed);

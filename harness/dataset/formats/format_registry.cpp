@@ -16,10 +16,10 @@ namespace stereobench::harness {
 namespace {
 
 /// One row a format: name, what it holds, what it refuses, how it starts.
-constexpr std::array<DatasetFormat, 2> kFormats = {{
+constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"stereobench", "ids, depth, calibration and truth", check_stereobench_format, stereobench_writer},
     {"kitti", "disparity and calibration as in KITTI stereo 2015", check_kitti_format, kitti_writer},
-}};
+});
 
 }  // namespace
 

@@ -36,10 +36,9 @@ TEST(ParseFilters, NamesEachFilterOnce) {
 TEST(ParseFilters, RefusesUnknownAndEmptyNamesAndSaysWhichThereAre) {
   for (const char* text : {"", ",", "kalman", "ufastslam,", ",ufastslam", "ufastslam,,fastslam2", "UFastSLAM",
                            "ufastslam, fastslam2"})
-    EXPECT_THAT([&] { parse_filters(text); },
-                ThrowsMessage<std::runtime_error>(
-                    HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim, "
-                              "fastslam2_block, ufastslam_block")))
+    EXPECT_THAT(
+        [&] { parse_filters(text); },
+        ThrowsMessage<std::runtime_error>(HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam")))
         << text;
 }
 

@@ -66,8 +66,7 @@ constexpr RunFault kRunFaults[] = {
     {"particles: 20", "particles: \"20\"",
      "4: particles: expected a whole number from 1 to 100000 (got \"20\")"},
     {"ufastslam]", "kalman]",
-     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam, ufastslam_kim, "
-     "fastslam2_block, ufastslam_block (got kalman)"},
+     "5: filters[1]: expected one of dead_reckoning, ekf, fastslam1, fastslam2, ufastslam"},
     {"particles: 20", "draw_every: 0", "4: draw_every: expected a whole number from 1 to 100000 (got 0)"},
     {"ufastslam]", "dead_reckoning]", "5: filters[1]: expected each filter once (got dead_reckoning)"},
     {"filters: [dead_reckoning, ufastslam]", "filters: []",

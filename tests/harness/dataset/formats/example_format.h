@@ -1,7 +1,7 @@
-// A small data-set format, as docs/guide/developing.md shows it: TUM's layout of pictures and a trajectory.
+// A small data-set format, as docs/guide/developing.md shows it: pictures by their time, and the robot's
+// poses as in TUM's files.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +10,7 @@
 
 #include "harness/dataset/formats/format_registry.h"
 #include "harness/logs/measurement_log_writer.h"
+#include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 
@@ -25,9 +26,10 @@ class ExampleWriter final : public DatasetWriter {
   std::vector<DatasetFile> drive_files(const MeasurementLog& log) const override {
     std::string text = "# timestamp tx ty tz qx qy qz qw\n";
     for (const LogStep& step : log.steps) {
-      const double half = 0.5 * step.truth->heading_rad;
+      const slam::SineCosine half =
+          slam::sine_cosine(0.5 * step.truth->heading_rad);  // all rendered steps have it
       text += fmt::format("{} {} {} 0 0 0 {} {}\n", seconds_of(step.stamp_ns), step.truth->x_m,
-                          step.truth->y_m, std::sin(half), std::cos(half));
+                          step.truth->y_m, half.sine, half.cosine);
     }
     return {text_file("groundtruth.txt", text)};
   }
