@@ -12,7 +12,8 @@ printf '%s\n' format layers arithmetic sizes products documents | xargs -P "$(np
 [ -d build/release ] || cmake --preset release -Wno-dev >/dev/null
 cmake --build --preset release
 
-mapfile -t changed < <(git diff --name-only --diff-filter=d "$base" -- '*.cpp')
+mapfile -t changed < <(git diff --name-only --diff-filter=d "$base" -- '*.cpp'
+  git ls-files --others --exclude-standard -- '*.cpp')
 if [ ${#changed[@]} -gt 0 ] && ! command -v clang-tidy-14 >/dev/null; then
   echo "clang-tidy-14 is missing and left out: apt-get install clang-tidy-14" >&2
 elif [ ${#changed[@]} -gt 0 ]; then

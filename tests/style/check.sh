@@ -1,5 +1,5 @@
 #!/bin/bash
-# Checks one rule of the house on the files that git tracks.
+# Checks one rule of the house on the files that git tracks, and on new ones that it does not ignore.
 # usage: check.sh format|layers|arithmetic|sizes|products|documents [ROOT]
 # Prints each breach and exits 1 when there is one; exits 77 (skipped) where there is no git checkout.
 set -euo pipefail
@@ -10,8 +10,8 @@ cd "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 git() { command git -c safe.directory='*' "$@"; }
 git ls-files --error-unmatch . >/dev/null 2>&1 || { echo "not a git checkout: skipped"; exit 77; }
 
-tracked() { # those that are there: a file may have been deleted and not yet committed
-  git ls-files -- "$@" | while read -r file; do [ -f "$file" ] && echo "$file"; done
+tracked() { # and new files that git does not ignore; those that are there: a file may have been deleted
+  git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do [ -f "$file" ] && echo "$file"; done
 }
 
 breaches=0

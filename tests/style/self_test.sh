@@ -54,6 +54,8 @@ clean_repository && mkdir slam/x && printf '#include "slam/x/b.h"\n' >slam/x/a.h
   expect green layers "a room that includes itself"
 
 clean_repository && printf 'double a = std::sin(1.0);\n' >slam/a.cpp && expect red arithmetic "a sine of the C library"
+clean_repository && git add -A -f && printf 'double a = std::sin(1.0);\n' >slam/new.cpp &&
+  bash "$here/check.sh" arithmetic . >/dev/null && { echo "a new file is not looked at"; failures=1; }
 clean_repository && printf 'double a = std::sqrt(1.0);\n' >slam/a.cpp && expect green arithmetic "a root, which is exact"
 
 clean_repository && seq 351 | sed 's/^/\/\/ /' >slam/a.h && expect red sizes "351 lines"
