@@ -63,7 +63,8 @@ DrivenFrames drive(const std::string& scenario, std::vector<std::string> overrid
   arguments.overrides = std::move(overrides);
   arguments.overrides.emplace_back("gates=[]");
   DrivenFrames frames;
-  frames.scenario = harness::read_scenario(arguments);
+  const harness::Experiment experiment = harness::read_experiment(arguments);
+  frames.scenario = experiment.scenario;
   frames.world = worlds::world_for_seed(frames.scenario, seed);
   harness::Listeners listeners;
   listeners.is_wanted = [stride](std::size_t step) { return step % stride == 0; };
@@ -77,7 +78,7 @@ DrivenFrames drive(const std::string& scenario, std::vector<std::string> overrid
   const harness::Detector nobody = [](const harness::DetectorInput&) {
     return std::vector<vision::BallObservation>();
   };
-  harness::record(frames.scenario, seed, listeners, renderer::Backend::kOsmesa, nobody);
+  harness::record(experiment, seed, listeners, renderer::Backend::kOsmesa, nobody);
   return frames;
 }
 
