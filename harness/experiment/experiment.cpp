@@ -160,7 +160,7 @@ const worlds::KeyGroup& experiment_keys() {
 
 Experiment read_experiment(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                            const worlds::OccluderReader& occluders) {
-  const worlds::YamlDocument document = worlds::load_yaml(file, overrides, &experiment_keys());
+  const worlds::YamlDocument document = worlds::load_yaml(file, overrides, experiment_keys());
   const YamlValue top(document, "", document.root, document.root.Mark());
   check_keys(top, experiment_keys());
   Experiment experiment;

@@ -110,7 +110,7 @@ MeasurementNoise read_measurement_noise(const YamlValue& value, const std::optio
   if (lines.kind != Kind::kFile) return noise_of(lines, value, rig);
   if (!std::filesystem::is_regular_file(lines.file))
     YamlMap(value, line_keys()).at("file").fail("expected a file that `stereobench calibrate` wrote");
-  const worlds::YamlDocument document = worlds::load_yaml(lines.file);
+  const worlds::YamlDocument document = worlds::load_yaml(lines.file, {}, line_keys());
   const YamlValue law(document, "", document.root, document.root.Mark());
   check_keys(law, line_keys());
   return noise_of(line_keys().read(law), law, rig);

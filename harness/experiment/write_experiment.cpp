@@ -25,20 +25,20 @@ void gather_files(const YAML::Node& node, std::set<std::string>& files) {
 }  // namespace
 
 std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return text_of(worlds::load_yaml(file, overrides, &experiment_keys()).root);
+  return text_of(worlds::load_yaml(file, overrides, experiment_keys()).root);
 }
 
 std::set<std::string> files_named_in(const std::filesystem::path& file,
                                      const std::vector<std::string>& overrides) {
   std::set<std::string> files;
-  gather_files(worlds::load_yaml(file, overrides, &experiment_keys()).root, files);
+  gather_files(worlds::load_yaml(file, overrides, experiment_keys()).root, files);
   return files;
 }
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         std::optional<std::uint64_t> seed, const worlds::OccluderReader& occluders) {
   const Experiment experiment = read_experiment(file, overrides, occluders);
-  worlds::YamlDocument document = worlds::load_yaml(file, overrides, &experiment_keys());
+  worlds::YamlDocument document = worlds::load_yaml(file, overrides, experiment_keys());
   worlds::name_file_from_anywhere(document, document.root["believed_measurement_noise"]);
   worlds::write_world(experiment.scenario, seed, document);
   if (seed) document.root["seeds"] = *seed;

@@ -51,7 +51,7 @@ YAML::Node parse_one_document(const std::filesystem::path& file) {
 /// One "key.path=value" on its way into a document.
 class Override {
  public:
-  Override(std::string text, const KeyGroup* keys) : text_(std::move(text)), keys_(keys) {
+  Override(std::string text, const KeyGroup& keys) : text_(std::move(text)), keys_(keys) {
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) refuse("expected key.path=value (got no =)");
     path_ = text_.substr(0, equals);
@@ -99,7 +99,7 @@ class Override {
 
   /// A list that is left out has its declared default.
   void make_list(const YAML::Node& root, const std::string& path, YAML::Node& list) const {
-    const Key* const key = keys_ == nullptr ? nullptr : declared_key(*keys_, path);
+    const Key* const key = declared_key(keys_, path);
     if (key == nullptr) return;
     if (!key->fallback.empty()) list = YAML::Load(key->fallback);
     if (key->same_as.empty()) return;
@@ -132,7 +132,7 @@ class Override {
   }
 
   std::string text_;
-  const KeyGroup* keys_;
+  const KeyGroup& keys_;
   std::string path_;
 };
 
@@ -144,7 +144,7 @@ bool lies_within(const std::string& key, const std::string& group) {
 }  // namespace
 
 YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                       const KeyGroup* keys) {
+                       const KeyGroup& keys) {
   YamlDocument document{file, {}, parse_one_document(file)};
   if (!document.root.IsMap()) {
     throw std::runtime_error(fmt::format("{}:1: expected a map of keys at the top", file.string()));

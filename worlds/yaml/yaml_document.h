@@ -22,10 +22,10 @@ struct YamlDocument {
 /// one entry of a list.
 ///
 /// @param keys what the keys are: a list of which an entry is set, and which is left out, has its declared
-///   default; null where nothing is declared
+///   default
 /// @throws std::runtime_error when the file is missing, empty or not YAML, or an override is malformed
-YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
-                       const KeyGroup* keys = nullptr);
+YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       const KeyGroup& keys);
 
 /// Where a complaint about a value points to: "file:line: key", or "--set key" when an override put it there.
 std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark);

@@ -13,7 +13,7 @@ class AnyCpu : public testing::TestWithParam<const char*> {};
 
 // Where no pixels are involved, nothing depends on the processor. Mutation: std::atan2 in predict_sighting.
 TEST_P(AnyCpu, MakesTheSameBytes) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run_json = [&](const char* name, Environment environment) {
     const std::filesystem::path out = scratch.path() / name;
     const Outcome outcome = run_stereobench(

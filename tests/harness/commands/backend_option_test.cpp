@@ -56,7 +56,7 @@ TEST(BackendOption, AnUnknownOneIsOneLine) {
 // A file of that name that is no library stops the search for another, as if there were none.
 // Mutations: a command that renders with osmesa whatever it is told; a program that is linked with libEGL.
 TEST(BackendOption, WithoutLibeglOsmesaRendersAndTheOthersAreOneLine) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   scratch.write("libEGL.so.1", "");
   const Environment no_egl = {"LD_LIBRARY_PATH=" + scratch.path().string()};
   EXPECT_EQ(run_stereobench({"doctor"}, no_egl).exit_code, 0);
@@ -71,7 +71,7 @@ TEST(BackendOption, WithoutLibeglOsmesaRendersAndTheOthersAreOneLine) {
 }
 
 TEST_F(EglOption, WithoutADriverIsOneLine) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Environment no_driver = {"__EGL_VENDOR_LIBRARY_DIRS=" + scratch.path().string()};
   expect_one_line(run_stereobench({"doctor", "--backend", "egl"}, no_driver), "install libegl-mesa0");
   expect_one_line(run_stereobench({"doctor", "--backend", "egl-gpu"}, no_driver), "none of EGL's 0 devices");
@@ -100,7 +100,7 @@ TEST(Doctor, FingerprintsSeeTheSmallestDifferenceOfPixels) {
 
 // Property: back ends of equal pixels give equal results; run.json differs in the name alone.
 TEST_F(EglOption, RunsAsOsmesaDoesAndSaysSo) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto json_of = [&](const std::string& backend) {
     const std::filesystem::path out = scratch.path() / backend;
     const Outcome outcome = run_stereobench({"run", kBallCircle, "--set", "path.laps=0.05", "--seeds", "0..1",
@@ -120,7 +120,7 @@ TEST_F(EglOption, RunsAsOsmesaDoesAndSaysSo) {
 }
 
 TEST_F(EglOption, SweepsWithIt) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome =
       run_stereobench({"sweep", kBallCircle, "--set", "gates=[]", "--vary", "path.laps=0.02,0.04", "--seeds",
                        "0", "--particles", "5", "--backend", "egl", "--out", scratch.path().string()});
@@ -131,7 +131,7 @@ TEST_F(EglOption, SweepsWithIt) {
 
 // Mutation: the back end left out of the data set's identity.
 TEST_F(EglOption, ADataSetIsNotFinishedByAnotherBackEnd) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::vector<std::string> render = {"render",         kBallCircle, "--set",
                                            "path.laps=0.02", "--out",     (scratch.path() / "data").string()};
   ASSERT_EQ(run_stereobench(render).exit_code, 0);
@@ -140,7 +140,7 @@ TEST_F(EglOption, ADataSetIsNotFinishedByAnotherBackEnd) {
 }
 
 TEST(BackendOption, AnOracleIsRenderedByNone) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench({"run", scenario_path("open_field"), "--seeds", "0", "--particles",
                                            "5", "--backend", "egl-gpu", "--out", scratch.path().string()});
   EXPECT_LE(outcome.exit_code, 1) << outcome.err;

@@ -66,7 +66,7 @@ void PrintTo(const BadScenario& bad, std::ostream* out) {
 class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
 
 TEST_P(BadScenarioTest, IsOneLineThatNamesFileLineAndKey) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string file = scratch.write("tiny.yaml", replaced(kScenario, GetParam().from, GetParam().to));
   const std::filesystem::path out = scratch.path() / "out";
   const Outcome outcome = run_stereobench({"run", file, "--out", out.string()});
@@ -128,7 +128,7 @@ void PrintTo(const BadCall& bad, std::ostream* out) {
 class BadCallTest : public testing::TestWithParam<BadCall> {};
 
 TEST_P(BadCallTest, IsOneLineThatSaysWhatWasExpected) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::filesystem::path out = scratch.path() / "out";
   scratch.write("a_file", "");
   scratch.write("empty.yaml", "");
@@ -224,7 +224,7 @@ void PrintTo(const BadLog& bad, std::ostream* out) {
 class BadLogTest : public testing::TestWithParam<BadLog> {};
 
 TEST_P(BadLogTest, IsOneLineThatNamesFileAndLine) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   scratch.write("odometry.csv", "t_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
   scratch.write("observations.csv", "t_s,landmark_id,range_m,bearing_rad\n0.5,1,2,0.1\n");
   scratch.write(GetParam().file, GetParam().content);
@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(
 // anything is written, and other filters take it. Mutations: no check of a log's identities; a log that
 // counts as known for its first sighting.
 TEST(LogWithoutIdentities, IsRefusedByFiltersInBlocksAlone) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   scratch.write("odometry.csv", "t_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
   scratch.write("observations.csv", "t_s,landmark_id,range_m,bearing_rad\n0.5,1,2,0.1\n0.5,-1,3,0.4\n");
   const std::filesystem::path out = scratch.path() / "out";
@@ -284,7 +284,7 @@ Outcome run_on_full_disk(const std::vector<std::string>& arguments, rlim_t bytes
 
 // Mutation: writing in place instead of through a temporary name leaves a part of the file here.
 TEST(FullDisk, IsOneLineAndLeavesNoPartOfAFile) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string file = scratch.write("tiny.yaml", kScenario);
   const std::filesystem::path out = scratch.path() / "out";
   expect_bad_input(run_on_full_disk({"run", file, "--out", out.string()}, 2000), "cannot be written");
@@ -308,7 +308,7 @@ class AsNobody {
 };
 
 TEST(UnwritableFolder, IsOneLine) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string file = scratch.write("tiny.yaml", kScenario);
   std::filesystem::permissions(scratch.path(), std::filesystem::perms(0555));
   const std::filesystem::path out = scratch.path() / "out";

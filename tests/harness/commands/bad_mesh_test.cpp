@@ -48,7 +48,7 @@ std::string triangles(int count) {
 class BadMeshTest : public testing::TestWithParam<BadMesh> {};
 
 TEST_P(BadMeshTest, IsBadInputWithinFiveSecondsAndLeavesNothing) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string mesh = scratch.write(GetParam().name, GetParam().text);
   const std::string file = scratch.write("meshed.yaml", scenario_with(mesh, GetParam().limits));
   const std::filesystem::path out = scratch.path() / "out";
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
 // The scenario's other text is another data set, but there is no frame of the first one. Mutation: a folder
 // that is taken before anything can be drawn.
 TEST(RenderCommand, TakesTheRepairedScenarioWhereAMeshCouldNotBeRead) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::filesystem::path out = scratch.path() / "out";
   const auto render = [&](const std::string& mesh, const std::string& seeds) {
     const std::string file = scratch.write(
@@ -97,7 +97,7 @@ TEST(RenderCommand, TakesTheRepairedScenarioWhereAMeshCouldNotBeRead) {
 
 // Mutation: the warning for the scenario as it stands, which allows nothing.
 TEST(MissingTextures, AreAnErrorOrAWarningForEachFile) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   scratch.write("house.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd ../out.png\n");
   const std::string mesh = scratch.write("house.obj",
                                          "mtllib house.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl a\n"

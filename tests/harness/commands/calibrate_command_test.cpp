@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::string> calibration(const ScratchFolder& scratch, const std::string& out,
+std::vector<std::string> calibration(const TestFolder& scratch, const std::string& out,
                                      const std::vector<std::string>& more = {},
                                      const std::string& seeds = "0..3") {
   std::vector<std::string> arguments = {
@@ -25,13 +25,13 @@ std::vector<std::string> calibration(const ScratchFolder& scratch, const std::st
   return arguments;
 }
 
-nlohmann::json json_in(const ScratchFolder& scratch, const std::string& file) {
+nlohmann::json json_in(const TestFolder& scratch, const std::string& file) {
   return nlohmann::json::parse(bytes_of(scratch.path() / file));
 }
 
 // Mutations: seeds of the fit among those held out; noise drawn by the number of the process.
 TEST(CalibrateCommand, GivesTheSameBytesForAnyNumberOfJobs) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome one = run_stereobench(calibration(scratch, "one", {"--jobs", "1"}));
   ASSERT_EQ(one.exit_code, 0) << one.err;
   EXPECT_THAT(one.out, HasSubstr("NIS/2 stated"));
@@ -48,7 +48,7 @@ TEST(CalibrateCommand, GivesTheSameBytesForAnyNumberOfJobs) {
 // A file is worth what its lines are worth in the scenario itself, and not what sightings state.
 // Mutation: a file that is read and not told to the filters.
 TEST(CalibrateCommand, WritesNoiseThatRunsBelieve) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   ASSERT_EQ(run_stereobench(calibration(scratch, "noise", {"--law", "stereo"})).exit_code, 0);
   const std::string noise = (scratch.path() / "noise/noise.yaml").string();
   const auto filters_with = [&](const std::string& believed) {
@@ -70,7 +70,7 @@ TEST(CalibrateCommand, WritesNoiseThatRunsBelieve) {
 }
 
 TEST(CalibrateCommand, RefusesWhatItCannotCalibrate) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome oracle = run_stereobench({"calibrate", scenario_path("open_field")});
   EXPECT_EQ(oracle.exit_code, 2);
   EXPECT_THAT(oracle.err, HasSubstr("the oracle has no pictures"));

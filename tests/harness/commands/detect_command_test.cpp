@@ -20,7 +20,7 @@ using testing::HasSubstr;
 class Dataset : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<ScratchFolder>();
+    folder_ = std::make_unique<TestFolder>();
     const Outcome outcome = run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.1",
                                              "--set", "shutter.drop_probability=0.2", "--set",
                                              "believed_rig={baseline_m: 0.1205, pitch_down_deg: 0.2}",
@@ -40,17 +40,17 @@ class Dataset : public testing::Test {
   static std::string first_left() {
     return data() + "/left/" + nlohmann::json::parse(lines().at(0))["left"].get<std::string>();
   }
-  static Outcome slam(const ScratchFolder& scratch, const std::vector<std::string>& more) {
+  static Outcome slam(const TestFolder& scratch, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {
         "slam", data(), "--seeds", "0", "--particles", "10", "--out", (scratch.path() / "out").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_stereobench(arguments);
   }
-  static std::unique_ptr<ScratchFolder> folder_;
+  static std::unique_ptr<TestFolder> folder_;
 };
-std::unique_ptr<ScratchFolder> Dataset::folder_;
+std::unique_ptr<TestFolder> Dataset::folder_;
 
-nlohmann::json result_in(const ScratchFolder& scratch) {
+nlohmann::json result_in(const TestFolder& scratch) {
   return nlohmann::json::parse(bytes_of(scratch.path() / "out/run.json"));
 }
 
@@ -58,7 +58,7 @@ nlohmann::json result_in(const ScratchFolder& scratch) {
 // rendered them gave, and vision the score of that run. Mutations: frames counted in place of named; the
 // believed rig for the true one in the score.
 TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   ASSERT_EQ(slam(scratch, {}).exit_code, 0);
   const auto recorded = result_in(scratch);
   const Outcome outcome = slam(scratch, {"--detections", detections()});
@@ -70,7 +70,7 @@ TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
       EXPECT_EQ(detected["filters"][filter][metric], recorded["filters"][filter][metric]) << filter << metric;
   EXPECT_GT(detected["filters"]["ufastslam"]["association"]["correct"].get<int>(), 5);
 
-  const ScratchFolder run;
+  const TestFolder run;
   ASSERT_EQ(
       run_stereobench({"run", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--set",
                        "shutter.drop_probability=0.2", "--set",
@@ -87,7 +87,7 @@ TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
 }
 
 TEST_F(Dataset, HowLandmarksAreToldApartCanBeChosen) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   for (const auto& [identity, code] :
        {std::pair{"none", 0}, {"colour_class", 0}, {"known", 0}, {"guessed", 2}})
     EXPECT_EQ(slam(scratch, {"--detections", detections(), "--identity", identity}).exit_code, code)
@@ -97,7 +97,7 @@ TEST_F(Dataset, HowLandmarksAreToldApartCanBeChosen) {
 
 // Mutation: lines beyond the last frame are passed over.
 TEST_F(Dataset, FilesOfDetectionsThatAreNotRightAreBadInput) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::vector<std::string> good = lines();
   ASSERT_GT(good.size(), 2U);
   const auto complaint = [&](const std::vector<std::string>& changed) {
@@ -137,7 +137,7 @@ TEST_F(Dataset, FilesOfDetectionsThatAreNotRightAreBadInput) {
 // A turn of 1.2 degrees about x moves rows by 19 px. Mutations: the scenario's rows not told to vision, not
 // kept in dataset.json, or not read there; the option not looked at.
 TEST(DetectRows, AreThoseOfTheDataSetOrOfTheCommandLine) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string data = (scratch.path() / "data").string();
   const Outcome rendered = run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.04",
                                             "--set", "rig.right_turn_deg=[1.2,0,0]", "--set",
@@ -164,7 +164,7 @@ TEST(DetectRows, AreThoseOfTheDataSetOrOfTheCommandLine) {
 }
 
 TEST_F(Dataset, OnePictureIsMeasuredAsInItsPair) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string left = first_left();
   const Outcome one = run_stereobench(
       {"detect", left, "--rig", data() + "/calibration.yaml", "--draw", scratch.path().string()});
@@ -186,7 +186,7 @@ TEST_F(Dataset, OnePictureIsMeasuredAsInItsPair) {
 
 // Mutation: 16 bits cut off at 255.
 TEST_F(Dataset, SixteenBitsAndTransparencyChangeNothing) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const cv::Mat picture = cv::imread(first_left());
   cv::Mat deep, clear;
   picture.convertTo(deep, CV_16U, 257.0);
@@ -212,7 +212,7 @@ struct OddCall {
 // Every odd input is one line and exit 2. Mutations: a truncated picture taken for a whole one (JPEG),
 // libpng's own line let through.
 TEST_F(Dataset, OddInputsAreOneLine) {
-  const ScratchFolder odd;
+  const TestFolder odd;
   const std::string png = bytes_of(first_left());
   odd.write("empty.png", "");
   odd.write("text.png", "no picture");
@@ -283,7 +283,7 @@ TEST_F(Dataset, SwappedPicturesAreSaidToBe) {
 
 // A ball that fills half the picture is measured; one that is cut in half as well is found as cut, or not.
 TEST_F(Dataset, ABallMayFillHalfThePicture) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   for (const int centre : {512, 0}) {
     cv::Mat picture(768, 1024, CV_8UC3, cv::Scalar(140, 140, 140));
     cv::circle(picture, {centre, 384}, 354, {0, 0, 229}, cv::FILLED, cv::LINE_AA);

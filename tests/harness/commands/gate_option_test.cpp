@@ -19,7 +19,7 @@ std::string limit(const std::string& metric, const std::string& at_most) {
 // Mutations: a sweep that looks at the first cell's gates alone, that passes where one is broken, that
 // keeps quiet of it, or that asks whether there are such numbers only once all is run.
 TEST(SweepGates, AreThoseOfTheScenarioForEachCell) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto sweep = [&](const std::string& at_most, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {"sweep",       scenario_path("open_field"),
                                       "--seeds",     "0",
@@ -49,7 +49,7 @@ TEST(SweepGates, AreThoseOfTheScenarioForEachCell) {
 
 // Mutation: the option read and forgotten.
 TEST(RunGates, OfTheCommandLineStandBesideTheScenarios) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run = [&](const std::string& gate) {
     return run_stereobench({"run", scenario_path("open_field"), "--seeds", "0", "--particles", "5",
                             "--filters", "dead_reckoning", "--set", limit(kDeadReckoning, "1e6"), "--gate",
@@ -66,7 +66,7 @@ TEST(RunGates, OfTheCommandLineStandBesideTheScenarios) {
 
 // Mutations: as above, for a log, and for a calibration.
 TEST(SlamGates, LimitWhatFiltersMakeOfALog) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string log = (scratch.path() / "log").string();
   ASSERT_EQ(run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.04", "--out", log})
                 .exit_code,
@@ -83,7 +83,7 @@ TEST(SlamGates, LimitWhatFiltersMakeOfALog) {
 }
 
 TEST(CalibrateGates, LimitTheDetector) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto calibrate = [&](const std::string& gate) {
     return run_stereobench({"calibrate", scenario_path("ball_circle"), "--seeds", "0..1", "--gate", gate,
                             "--out", scratch.path().string()});
@@ -130,7 +130,7 @@ TEST(Misspelt, CommandsFiltersAndOptionsAreAskedBack) {
 
 // Mutations: tables on standard output all the same; broken gates that nobody hears of.
 TEST(QuietOption, LeavesErrorsAndBrokenGates) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run = [&](const std::string& gate) {
     return run_stereobench({"run", scenario_path("open_field"), "--seeds", "0", "--particles", "5",
                             "--filters", "dead_reckoning", "--set", "gates=[]", "--gate", gate, "--quiet",
@@ -149,7 +149,7 @@ TEST(QuietOption, LeavesErrorsAndBrokenGates) {
 
 // Mutations: a dry run that writes; one that passes what a run would refuse.
 TEST(DryRunOption, ChecksAndWritesNothing) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string out = (scratch.path() / "out").string();
   const auto dry = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--dry-run", "--out", out});

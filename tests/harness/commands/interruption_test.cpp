@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 /// A run of which each seed takes many seconds, by two workers.
-std::string long_run(const ScratchFolder& scratch) {
+std::string long_run(const TestFolder& scratch) {
   return fmt::format("run '{}' --particles 3000 --seeds 0..9 --jobs 2 --out '{}' >/dev/null 2>'{}'",
                      scenario_path("open_field"), (scratch.path() / "out").string(),
                      (scratch.path() / "err").string());
@@ -42,7 +42,7 @@ class EndedRun : public testing::TestWithParam<Ending> {};
 // Mutations: no PR_SET_PDEATHSIG (both workers compute on); no handlers (no line); workers with the parent's
 // handlers (a line from each worker that a terminal's signal reaches).
 TEST_P(EndedRun, LeavesNoWorkerBehind) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const pid_t run = start_stereobench(long_run(scratch));
   ASSERT_TRUE(comes_true_in_time([&] { return children_of(run).size() == 2; }));
   const std::vector<pid_t> workers = children_of(run);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Mutation: what a detector has started in a session of its own is let be (by the supervisor, which finds it
 // among its children).
 TEST(EndedRunOfADetector, LeavesNothingOfTheDetectorBehind) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string note = (scratch.path() / "pids").string();
   const std::string script = scratch.write(
       "daemon.sh", "setsid sh -c 'echo $$ >>" + note + "; setsid sleep 300 & echo $! >>" + note +
@@ -94,7 +94,7 @@ TEST(EndedRunOfADetector, LeavesNothingOfTheDetectorBehind) {
 
 // Whoever renders is the program itself, which may be at a file. Mutation: no handler that removes it.
 TEST(EndedRender, LeavesNoUnfinishedFile) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto out = scratch.path() / "out";
   for (const int first_frames : {0, 1, 3}) {
     const pid_t render = start_stereobench(

@@ -48,7 +48,7 @@ bool is_product(const std::string& name) {
 // undisturbed rendering writes; and what comes to its end in the end is the same folder, with nothing left
 // over. Mutations: files written under their own names; what a dead process left behind let be.
 TEST(KilledRender, LeavesWholeFilesAndIsTakenUpWhereItWas) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto whole = scratch.path() / "whole", broken = scratch.path() / "broken";
   ASSERT_EQ(run_stereobench(render_to(whole)).exit_code, 0);
   const auto expected = files_of(whole);
@@ -74,7 +74,7 @@ TEST(KilledRender, LeavesWholeFilesAndIsTakenUpWhereItWas) {
 // Disks lose parts of files after they were written, too. Mutations: dataset.json without sizes and hashes;
 // hashes that `slam` does not look at.
 TEST(FinishedRender, NoticesFilesThatLostAPart) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto data = scratch.path() / "data";
   ASSERT_EQ(run_stereobench(render_to(data)).exit_code, 0);
   const auto expected = files_of(data);

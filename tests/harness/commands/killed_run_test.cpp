@@ -57,7 +57,7 @@ std::uintmax_t size_of(const std::filesystem::path& file) {
 // was finished was not done again (the store of drives only grows). Mutations: a store that begins anew; keys
 // without the seed (each seed gets the first one's drive); seeds in the order in which they ended.
 TEST_P(KilledWork, GoesOnWhereItWasToTheSameBytes) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Work& work = GetParam();
   const auto whole = scratch.path() / "whole", broken = scratch.path() / "broken";
   ASSERT_EQ(exit_code_of(start_stereobench(command_of(work, whole))), 0) << bytes_of(whole.string() + ".err");
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.kind; });
 
 /// A run of one slow seed after three quick ones is killed in the slow one.
-std::filesystem::path killed_run(const ScratchFolder& scratch, const std::string& more) {
+std::filesystem::path killed_run(const TestFolder& scratch, const std::string& more) {
   const auto out = scratch.path() / "out";
   const Work work{"", "run '" + kField + "' --particles 30 --seeds 0..99 --jobs 1 " + more, {}};
   const pid_t process = start_stereobench(command_of(work, out));
@@ -118,7 +118,7 @@ Outcome run_field(const std::filesystem::path& out, std::vector<std::string> mor
 // What was kept is taken for what it is: another seed, filter or line of the scenario is driven anew, gates
 // are no reason to. Mutations: keys without the scenario's lines; keys with its gates.
 TEST(KeptDrives, AreTakenOverByTheSameScenarioAlone) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto out = killed_run(scratch, "");
   const auto copy_of_out = [&](const char* name) {
     const auto copy = scratch.path() / name;
@@ -135,7 +135,7 @@ TEST(KeptDrives, AreTakenOverByTheSameScenarioAlone) {
 }
 
 TEST(KeptDrives, AreSaidToBeKept) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto out = scratch.path() / "out";
   const Work work{"", "run '" + kField + "' --particles 30 --seeds 0..99 --jobs 1", {}};
   const pid_t process = start_stereobench(command_of(work, out));

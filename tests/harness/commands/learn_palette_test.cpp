@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/dataset/palette_file.h"
+#include "tests/complaint.h"
 #include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {
@@ -43,7 +44,7 @@ TEST(Smarties, TheTwelveColouredOnesAreFound) {
       {205.5, 211.4, 26.5, "orange"}, {288.0, 213.5, 26.5, "red"},   {347.7, 238.1, 26.5, "blue"},
       {33.7, 228.6, 26.0, "red"},     {98.7, 259.2, 27.0, "red"},    {219.9, 306.2, 28.0, "red"},
       {134.9, 327.3, 27.0, "orange"}, {294.3, 320.3, 27.6, "blue"},  {8.8, 355.4, 26.5, "green"}};
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string marks = scratch.write("marks.json", kSmartiesMarks);
   std::filesystem::copy(smarties(), scratch.path() / "smarties.png");
   const std::string palette = (scratch.path() / "palette.json").string();
@@ -71,7 +72,7 @@ TEST(Smarties, TheTwelveColouredOnesAreFound) {
 }
 
 /// A picture of three discs, and marks for two of their colours.
-std::string draw_discs(const ScratchFolder& scratch) {
+std::string draw_discs(const TestFolder& scratch) {
   cv::Mat picture(120, 200, CV_8UC3, cv::Scalar(210, 205, 200));
   cv::circle(picture, {40, 60}, 25, {40, 60, 220}, cv::FILLED, cv::LINE_AA);
   cv::circle(picture, {100, 60}, 25, {40, 190, 50}, cv::FILLED, cv::LINE_AA);
@@ -86,7 +87,7 @@ constexpr const char* kDiscMarks = R"({"marks": [
   {"picture": "discs.png", "colour": "green", "box_px": [90, 50, 20, 20]}]})";
 
 TEST(LearnPalette, FindsWhatWasMarkedAndNothingElse) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string picture = draw_discs(scratch);
   const std::string marks = scratch.write("marks.json", kDiscMarks);
   const std::string palette = (scratch.path() / "palette.json").string();
@@ -106,7 +107,7 @@ TEST(LearnPalette, FindsWhatWasMarkedAndNothingElse) {
 // JPEGs are sRGB, and what learned from them says so; both at once are refused. Mutation: the first picture's
 // alone looked at.
 TEST(LearnPalette, FindsTheEncodingInTheFiles) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string png = draw_discs(scratch);
   cv::imwrite((scratch.path() / "discs.jpg").string(), cv::imread(png), {cv::IMWRITE_JPEG_QUALITY, 95});
   std::string text = kDiscMarks;
@@ -128,7 +129,7 @@ TEST(LearnPalette, FindsTheEncodingInTheFiles) {
 }
 
 TEST(LearnPalette, WarnsOfColoursThatAreTakenForEachOther) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   draw_discs(scratch);
   const std::string marks = scratch.write("marks.json", R"({"marks": [
     {"picture": "discs.png", "colour": "red", "circle_px": [33, 60, 10]},
@@ -141,7 +142,7 @@ TEST(LearnPalette, WarnsOfColoursThatAreTakenForEachOther) {
 
 // Every odd input is one line and exit 2, and leaves no palette.
 TEST(LearnPalette, RefusesMarksThatAreNotRight) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   draw_discs(scratch);
   const auto complaint = [&](const std::string& marks) {
     const std::string file = scratch.write("odd.json", marks);
@@ -173,18 +174,13 @@ TEST(LearnPalette, RefusesMarksThatAreNotRight) {
 
 // Mutation: names that are there twice.
 TEST(PaletteFile, RefusesWhatIsNone) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   vision::LearnedColour red{"red", {0.9, 0.05}, 4e-4 * Eigen::Matrix2d::Identity(), 60.0, {10, 5, 220}};
   const std::string good = palette_json({{red}});
   const auto complaint = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     if (!from.empty()) text.replace(text.find(from), from.size(), to);
-    try {
-      parse_palette(text, "palette.json");
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("no complaint");
+    return complaint_of([&] { parse_palette(text, "palette.json"); });
   };
   EXPECT_EQ(complaint("", ""), "no complaint");
   EXPECT_THAT(complaint("\"red\"", "\"\""), HasSubstr("name: expected a name"));

@@ -24,7 +24,7 @@ void expect_one_line(const Outcome& outcome, int exit_code, const std::string& m
 
 // Mutation: no limit in parse_line, or in parse_yaml (each ended with signal 11).
 TEST(NestedInput, IsBadInputWhereverItStands) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string deep = nested(80'000);
   const std::string marks = scratch.write("marks.json", R"({"marks": [{"picture": )" + deep + "}]}");
   const std::string palette = scratch.write("palette.json", R"({"format": )" + deep + "}");
@@ -41,7 +41,7 @@ TEST(NestedInput, IsBadInputWhereverItStands) {
 }
 
 TEST(NestedInput, AsADetectorsAnswerEndsTheRun) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string script =
       scratch.write("deep.sh", R"(read setup; read frame; printf '{"frame": 0, "balls": [{"colour": '
 head -c 80000 /dev/zero | tr '\0' '['; head -c 80000 /dev/zero | tr '\0' ']'; echo '}]}'; cat >/dev/null

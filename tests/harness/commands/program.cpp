@@ -21,7 +21,7 @@ void redirect(int file, const std::filesystem::path& path) {
 }  // namespace
 
 Outcome run_stereobench(const std::vector<std::string>& arguments, Environment environment) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   std::vector<std::string> words = {STEREOBENCH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -43,24 +43,6 @@ Outcome run_stereobench(const std::vector<std::string>& arguments, Environment e
 
 std::string scenario_path(const std::string& name) {
   return fmt::format("{}/assets/scenarios/{}.yaml", STEREOBENCH_SOURCE_DIR, name);
-}
-
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "stereobench_test_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "cannot make a scratch folder";
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::permissions(path_, std::filesystem::perms::owner_all, std::filesystem::perm_options::add,
-                               ignored);
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string ScratchFolder::write(const std::string& name, const std::string& content) const {
-  std::ofstream(path_ / name, std::ios::binary) << content;
-  return (path_ / name).string();
 }
 
 std::string bytes_of(const std::filesystem::path& path) {

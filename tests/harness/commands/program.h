@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/test_folder.h"
+
 namespace stereobench::harness {
 
 struct Outcome {
@@ -28,21 +30,6 @@ Outcome run_stereobench(const std::vector<std::string>& arguments, Environment e
 
 /// The path of a shipped scenario.
 std::string scenario_path(const std::string& name);
-
-/// An empty folder of a test's own, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file in it. @return its path
-  std::string write(const std::string& name, const std::string& content) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// All of a file's bytes. Fails the test when it cannot be read.
 std::string bytes_of(const std::filesystem::path& path);

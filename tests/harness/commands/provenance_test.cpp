@@ -1,5 +1,4 @@
 /// What run.json says of what it was made from.
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ nlohmann::json run(const std::filesystem::path& out, std::vector<std::string> ar
 // Mutations: the scenario's text without overrides, or without the command line's seeds, particles and
 // filters.
 TEST(MadeFrom, IsWhatMakesTheSameAgain) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto first = scratch.path() / "first", second = scratch.path() / "second";
   auto made = run(first, {scenario_path("open_field"), "--set", "oracle.range_sd_m=0.2", "--seeds", "3,1",
                           "--particles", "7", "--filters", "ufastslam,ekf"});
@@ -42,7 +41,7 @@ TEST(MadeFrom, IsWhatMakesTheSameAgain) {
 
 // Mutations: names in place of contents; the fingerprint of no or of another frame than doctor's.
 TEST(MadeFrom, NamesFilesByTheirContentAndPixelsByTheirFingerprint) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string picture = (scratch.path() / "floor.png").string();
   const auto hash_with_grey = [&](int level) {
     cv::imwrite(picture, cv::Mat(16, 16, CV_8UC3, cv::Scalar::all(level)));
@@ -61,7 +60,7 @@ TEST(MadeFrom, NamesFilesByTheirContentAndPixelsByTheirFingerprint) {
 
 // Mutation: each cell with the first one's hash.
 TEST(MadeFrom, OfASweepSaysItOfEachCell) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome =
       run_stereobench({"sweep", scenario_path("open_field"), "--vary", "oracle.range_sd_m=0.1,0.2", "--seeds",
                        "0", "--particles", "5", "--filters", "ekf", "--out", scratch.path().string()});

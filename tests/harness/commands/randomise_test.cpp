@@ -33,7 +33,7 @@ std::vector<std::string> with_world(std::vector<std::string> arguments, const st
 
 /// Renders a drawn world to "drawn", writes it to "plain.yaml" and "draws.jsonl", renders that to "again",
 /// and expects the same files.
-void expect_the_same_bytes_once_written_out(const ScratchFolder& folder, const std::string& randomise) {
+void expect_the_same_bytes_once_written_out(const TestFolder& folder, const std::string& randomise) {
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   const auto succeed = [](const std::vector<std::string>& arguments) {
     const Outcome outcome = run_stereobench(arguments);
@@ -56,7 +56,7 @@ void expect_the_same_bytes_once_written_out(const ScratchFolder& folder, const s
 // The drawn world, written as a plain scenario, gives the same bytes; another seed other ones.
 // Mutation: jitter kept in the written scenario.
 TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   expect_the_same_bytes_once_written_out(folder, kAll);
   const std::string other = (folder.path() / "other").string();
   ASSERT_EQ(
@@ -68,7 +68,7 @@ TEST(RandomisedWorld, RendersTheSameBytesOnceWrittenOut) {
 }
 
 /// A picture of random blocks, as a file.
-std::string write_blocks(const ScratchFolder& folder, const char* name, int seed) {
+std::string write_blocks(const TestFolder& folder, const char* name, int seed) {
   cv::RNG random(static_cast<std::uint64_t>(seed));
   cv::Mat small(8, 8, CV_8UC3), large;
   random.fill(small, cv::RNG::UNIFORM, 0, 255);
@@ -80,7 +80,7 @@ std::string write_blocks(const ScratchFolder& folder, const char* name, int seed
 
 // The same with pictures on walls and floor. Meant to catch: the first texture for all walls once written.
 TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   const std::string textures = "textures: [{file: " + write_blocks(folder, "a.png", 1) +
                                ", tile_m: 0.8}, {file: " + write_blocks(folder, "b.jpg", 2) + "}]";
   expect_the_same_bytes_once_written_out(folder,
@@ -93,7 +93,7 @@ TEST(RandomisedWorld, ShowsTheSameTexturesOnceWrittenOut) {
 
 // What looks like a ball is a surface in truth. Mutation: shapes numbered among the balls.
 TEST(RandomisedWorld, HasDistractorsInTruthAsSurfaces) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   ASSERT_EQ(run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.5", "--set",
                              "rig.width_px=512", "--set", "rig.height_px=384", "--set", "rig.focal_px=443",
@@ -121,7 +121,7 @@ TEST(RandomisedWorld, HasDistractorsInTruthAsSurfaces) {
 
 // Mutation: what is drawn for all seeds that of the first.
 TEST(RandomisedWorld, EachSeedOfARunDrawsItsOwn) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   const auto out = [&](const char* name) { return (folder.path() / name).string(); };
   for (const char* jobs : {"1", "2"})
     ASSERT_EQ(run_stereobench(
@@ -142,7 +142,7 @@ TEST(RandomisedWorld, EachSeedOfARunDrawsItsOwn) {
 // Without noise nothing but the world makes a difference to what is seen.
 // Mutation: the first seed's world for all.
 TEST(RandomisedWorld, OfEachSeedIsTheOneThatIsLookedAt) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   std::set<double> errors;
   for (const char* seeds : {"2", "3", "3,2"}) {
     const std::string out = (folder.path() / seeds).string();

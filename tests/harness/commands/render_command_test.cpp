@@ -44,7 +44,7 @@ nlohmann::json marker_of(const fs::path& folder) {
 // depend on which frames are asked for. Mutations: seeds counted from 0; noise of the n-th picture in place
 // of the frame's.
 TEST(RenderCommand, SeedsAndFramesAreTheSameInAnyCompany) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path one = scratch.path() / "one", three = scratch.path() / "three", all = scratch.path() / "all";
   const std::vector<std::string> seeds = {"--seeds", "2..4", "--frames", "1..5:2", "--truth", "balls,flow"};
   const auto with_jobs = [&](const char* jobs) {
@@ -72,7 +72,7 @@ TEST(RenderCommand, SeedsAndFramesAreTheSameInAnyCompany) {
 
 // Mutation: complete data sets rendered, or at least their tables written, once more.
 TEST(RenderCommand, CompleteSeedsAreLeftAsTheyAre) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   ASSERT_EQ(render_to(scratch.path(), {"--seeds", "0..1", "--frames", "0..1"}).exit_code, 0);
   std::map<fs::path, fs::file_time_type> times;
   for (const auto& entry : fs::recursive_directory_iterator(scratch.path()))
@@ -89,7 +89,7 @@ TEST(RenderCommand, CompleteSeedsAreLeftAsTheyAre) {
 // A dropped frame has no pictures, and the data set does not claim it. Mutation: the frames that were asked
 // for listed as those that there are.
 TEST(RenderCommand, SaysWhichFramesThereAre) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   ASSERT_EQ(render_to(scratch.path(), {"--set", "shutter.drop_probability=0.5"}).exit_code, 0);
   std::vector<int> there;
   for (const auto& entry : fs::directory_iterator(scratch.path() / "left"))
@@ -102,7 +102,7 @@ TEST(RenderCommand, SaysWhichFramesThereAre) {
 // What is said while it runs is gone later. Mutations: the warning alone; blur among what tells renderings
 // apart, so that none is ever complete.
 TEST(RenderCommand, KeepsHowCoarseItsBlurIs) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::vector<std::string> coarse = {"--frames",           "1..2",  "--set",
                                            "shutter.open_s=0.5", "--set", "shutter.most_samples=8"};
   const Outcome outcome = render_to(scratch.path(), coarse);
@@ -116,7 +116,7 @@ TEST(RenderCommand, KeepsHowCoarseItsBlurIs) {
 
 // Mutation: `render` whose own detector looks all the same.
 TEST(RenderCommand, WritesWhatAnotherDetectorSees) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string blind =
       "read setup; while read line; do f=${line#*frame\\\":}; echo \"{\\\"frame\\\": ${f%%,*}, "
       "\\\"balls\\\": []}\"; done";
@@ -130,7 +130,7 @@ TEST(RenderCommand, WritesWhatAnotherDetectorSees) {
 
 // Nothing is a surface of no number, infinitely far. Mutation: a floor in the list of surfaces.
 TEST(RenderCommand, HasNoFloorInTheTruthWhereThereIsNone) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = render_to(
       scratch.path(), {"--frames", "0", "--set", "world.floor=none", "--truth", "surface,range,disparity"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -159,13 +159,13 @@ void PrintTo(const OtherOption& option, std::ostream* out) {
 class OtherRendering : public testing::TestWithParam<OtherOption> {
  protected:
   static void SetUpTestSuite() {
-    scratch_ = std::make_unique<ScratchFolder>();
+    scratch_ = std::make_unique<TestFolder>();
     ASSERT_EQ(render_to(scratch_->path(), {"--frames", "0..1"}).exit_code, 0);
   }
   static void TearDownTestSuite() { scratch_.reset(); }
-  static std::unique_ptr<ScratchFolder> scratch_;
+  static std::unique_ptr<TestFolder> scratch_;
 };
-std::unique_ptr<ScratchFolder> OtherRendering::scratch_;
+std::unique_ptr<TestFolder> OtherRendering::scratch_;
 
 // Mutations: an identity without the frames, the detector or the files; one that does not say what differs.
 TEST_P(OtherRendering, IsRefusedByTheKeysThatDiffer) {
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(Options, OtherRendering,
 
 // Mutations: the default format whatever is asked for; ids claimed of a data set that has none.
 TEST(RenderCommand, WritesTheFormatThatIsAskedFor) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path out = scratch.path() / "out";
   const Outcome outcome = render_to(out, {"--frames", "1", "--format", "kitti"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -206,7 +206,7 @@ TEST(RenderCommand, WritesTheFormatThatIsAskedFor) {
 
 // Mutations: found out after rendering (a folder is there); another exit code.
 TEST(RenderCommand, RefusesFormatsThatThereAreNotOrThatCannotHoldIt) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path out = scratch.path() / "out";
   using Words = std::vector<std::string>;
   for (const auto& [words, complaint] :
@@ -223,7 +223,7 @@ TEST(RenderCommand, RefusesFormatsThatThereAreNotOrThatCannotHoldIt) {
 }
 
 TEST(RenderCommand, RefusesFramesThatThereAreNot) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path out = scratch.path() / "out";
   for (const auto& [frames, complaint] :
        std::map<std::string, std::string>{{"", "--frames: expected a value, got an empty one"},
@@ -241,7 +241,7 @@ TEST(RenderCommand, RefusesFramesThatThereAreNot) {
 // Several seeds in a folder that is a data set itself would leave a mixture. Mutations: no look at the
 // folder; a dry run that writes.
 TEST(RenderCommand, DryRunsCheckTheFolderAndWriteNothing) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path out = scratch.path() / "out";
   const Outcome dry = render_to(out, {"--seeds", "0,3", "--frames", "0..6:3", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
@@ -254,7 +254,7 @@ TEST(RenderCommand, DryRunsCheckTheFolderAndWriteNothing) {
 
 // Mutations: no PR_SET_PDEATHSIG (workers render on); SIGKILL in its place (half-written files stay).
 TEST(RenderCommand, KilledLeavesNoWorkerNorHalfAFileAndGoesOn) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const fs::path whole = scratch.path() / "whole";
   const std::vector<std::string> seeds = {"--seeds", "0..2", "--jobs", "2"};
   for (const int signal : {SIGTERM, SIGKILL}) {

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 /// Runs and gives the bytes of a result file.
 std::string result_of(std::vector<std::string> arguments, const std::string& file) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   arguments.insert(arguments.end(), {"--out", scratch.path().string()});
   const Outcome outcome = run_stereobench(arguments);
   EXPECT_LE(outcome.exit_code, 1) << outcome.err;
@@ -24,7 +24,7 @@ const std::vector<std::string> kShortDrive = {
 
 // Mutations: a filter seeded by the worker's process, results in order of arrival, a time in run.json.
 TEST(RunCommand, SameBytesForAnyNumberOfJobsAndRunAfterRun) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   for (const char* run : {"1", "2", "2again"})
     ASSERT_LE(run_stereobench(with(kShortDrive,
                                    {"--jobs", std::string(run, 1), "--out", (scratch.path() / run).string()}))
@@ -64,7 +64,7 @@ TEST(RunCommand, RunJsonHasTheKeysThatStay) {
 }
 
 TEST(RunCommand, PipedOutputHasNoProgress) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench(with(kShortDrive, {"--out", scratch.path().string()}));
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("ufastslam"));
@@ -72,7 +72,7 @@ TEST(RunCommand, PipedOutputHasNoProgress) {
 
 // Mutation: comparing the wrong way round.
 TEST(RunCommand, BrokenGateIsExitOneAndSaysByHowMuch) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run = [&](const std::string& limit) {
     return run_stereobench(
         {"run", scenario_path("open_field"), "--seeds", "0", "--particles", "5", "--out",
@@ -89,7 +89,7 @@ TEST(RunCommand, BrokenGateIsExitOneAndSaysByHowMuch) {
 }
 
 TEST(RunCommand, DrawsAFewFramesWithDetections) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   run_stereobench(with(kShortDrive, {"--out", scratch.path().string()}));
   std::size_t frames = 0;
   for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "frames"))
@@ -99,7 +99,7 @@ TEST(RunCommand, DrawsAFewFramesWithDetections) {
 
 // Property: a rendered data set, replayed as a recorded log, gives the filters the very same measurements.
 TEST(RenderCommand, ReplayedDataSetScoresAsTheRunDid) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string data = (scratch.path() / "data").string();
   const std::string out = (scratch.path() / "out").string();
   ASSERT_EQ(run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--seed", "1",
@@ -123,7 +123,7 @@ TEST(RenderCommand, ReplayedDataSetScoresAsTheRunDid) {
 
 // Mutation: writing frames over again, or taking up a folder of another seed.
 TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string out = (scratch.path() / "data").string();
   const std::vector<std::string> render = {
       "render", scenario_path("ball_circle"), "--set", "path.laps=0.06", "--out", out};
@@ -143,7 +143,7 @@ TEST(RenderCommand, InterruptedRenderingGoesOnAndAnotherIsRefused) {
 
 // Mutations: an identity without the truth; truth that is asked for and not written.
 TEST(RenderCommand, FurtherTruthIsPartOfWhatAFolderHolds) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string out = (scratch.path() / "data").string();
   const std::vector<std::string> render = {
       "render", scenario_path("ball_circle"), "--set", "path.laps=0.02", "--out", out, "--truth"};
@@ -155,7 +155,7 @@ TEST(RenderCommand, FurtherTruthIsPartOfWhatAFolderHolds) {
 
 // Mutation: seeds that are shifted from cell to cell.
 TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome =
       run_stereobench({"sweep", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--set", "gates=[]",
                        "--vary", "camera.noise_sd_levels=0,4", "--seeds", "0..1", "--particles", "20",
@@ -177,7 +177,7 @@ class ShippedScenario : public testing::TestWithParam<const char*> {};
 // The figures that the scenarios promise; see their gates. Mutation: edges mixed into balls before them (the
 // corridor's normalised error is 1.5).
 TEST_P(ShippedScenario, KeepsItsGates) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome =
       run_stereobench({"run", scenario_path(GetParam()), "--jobs", "2", "--out", scratch.path().string()});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
 // Their stands hide slivers of them. Mutation: shades are looked at once, from where such an edge pulled the
 // outline (0.26 mm for 0.20).
 TEST(BallCircle, IsSeenToAFifthOfAMillimetre) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench(
       {"run", scenario_path("ball_circle"), "--jobs", "2", "--filters", "dead_reckoning", "--set",
        "gates=[{metric: vision.range_rms_m, at_most: 0.00023}]", "--out", scratch.path().string()});
@@ -200,7 +200,7 @@ TEST(BallCircle, IsSeenToAFifthOfAMillimetre) {
 // A rectified picture is interpolated, and an edge between pixels looks like no other. Mutation: its errors
 // are claimed to be those of pictures as taken (their squares are 4.3 times the claim).
 TEST(BallCircle, BehindALensIsSeenAsWellAsClaimed) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench({"run", scenario_path("ball_circle"), "--seeds", "0", "--filters",
                                            "dead_reckoning", "--set", "path.laps=0.5", "--set",
                                            "rig.distortion=[-0.2,0.05,0.001,-0.001,0]", "--set",

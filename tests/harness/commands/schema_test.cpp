@@ -61,7 +61,7 @@ class Validator {
  public:
   void add(const Json& document) { documents_.push_back(document); }
   std::vector<std::string> verdicts() const {
-    const ScratchFolder scratch;
+    const TestFolder scratch;
     scratch.write("schema.json", scenario_schema().dump());
     scratch.write("documents.json", documents_.dump());
     const std::string script = scratch.write("validate.py", R"(
@@ -150,7 +150,7 @@ TEST_F(Schema, AndReaderAgreeAboutEveryKey) {
   const std::vector<Probe> all = probes();
   ASSERT_GT(all.size(), 400U);
   for (const Probe& probe : all)
-    validator.add(json_of(worlds::load_yaml(file, probe.overrides, &experiment_keys()).root));
+    validator.add(json_of(worlds::load_yaml(file, probe.overrides, experiment_keys()).root));
   const auto verdicts = validator.verdicts();
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(verdicts[i].empty(), all[i].is_right) << all[i].path << ": " << verdicts[i];

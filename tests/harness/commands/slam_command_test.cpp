@@ -21,7 +21,7 @@ using testing::Not;
 /// A recorded drive through open_field, as a folder of CSV files.
 class SlamCommand : public testing::Test {
  protected:
-  ScratchFolder scratch_;
+  TestFolder scratch_;
   std::filesystem::path log_ = scratch_.path() / "log";
 
   SlamCommand() {

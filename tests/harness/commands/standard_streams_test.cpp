@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 /// Runs the program in a shell. @param how its arguments and redirections, standard error aside
 Outcome run_in_shell(const std::string& how) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string errors = (scratch.path() / "err").string();
   Outcome outcome;
   outcome.exit_code = exit_code_of(start_stereobench(how + " 2>'" + errors + "'"));
@@ -29,7 +29,7 @@ class OutputThatIsNotTaken : public testing::TestWithParam<std::string> {};
 // Mutations: no check of what is buffered at the end; std::cout, which --help uses, not checked; a closed
 // output opened for writing.
 TEST_P(OutputThatIsNotTaken, IsAnError) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string picture = scratch.write("dark.pnm", "P3 2 2 255 7 7 7 7 7 7 7 7 7 7 7 7\n");
   const std::string scenario = "'" + scenario_path("ball_circle") + "'";
   const std::string run =
@@ -57,7 +57,7 @@ TEST(StandardStreams, ErrorsThatNobodyTakesKeepTheirExitCode) {
 // Descriptor 0 was given to a pipe, and closed when the detector started. Mutation: open_standard_streams.
 TEST(StandardStreams, ThatAreClosedAreNoDetectorsPipes) {
   for (const char* closed : {"<&-", "<&- >&-"}) {
-    const ScratchFolder scratch;
+    const TestFolder scratch;
     const Outcome outcome = run_in_shell(fmt::format(
         "run '{}' --set path.laps=0.06 --set gates=[] --seeds 0 --filters dead_reckoning "
         "--detector '{} detect --serve' --out "

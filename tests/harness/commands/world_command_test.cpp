@@ -14,7 +14,7 @@ constexpr const char* kWall = "world.walls=[{corners_m: [[-3, 0.5], [3, 0.5]]}]"
 
 // Mutations: no warning; one without the step; a warning that fails the run.
 TEST(WorldCommand, WarnsOfADriveThroughAWall) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome clear = run_stereobench({"world", scenario_path("ball_circle")});
   EXPECT_EQ(clear.exit_code, 0) << clear.err;
   EXPECT_THAT(clear.err, IsEmpty());

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ const std::string kServe = std::string(STEREOBENCH_PROGRAM) + " detect --serve";
 
 /// A drive of three pairs in small pictures, in a scenario of its own, so that shell commands need no
 /// quoting.
-std::vector<std::string> small_drive(const ScratchFolder& scratch, const std::vector<std::string>& more) {
+std::vector<std::string> small_drive(const TestFolder& scratch, const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"run",         scenario_path("ball_circle"),
                                         "--set",       "path.laps=0.06",
                                         "--set",       "rig.width_px=256",
@@ -35,7 +34,7 @@ std::vector<std::string> small_drive(const ScratchFolder& scratch, const std::ve
   return arguments;
 }
 
-nlohmann::json run_json_of(const ScratchFolder& scratch) {
+nlohmann::json run_json_of(const TestFolder& scratch) {
   return nlohmann::json::parse(bytes_of(scratch.path() / "out/run.json"));
 }
 
@@ -44,7 +43,7 @@ nlohmann::json run_json_of(const ScratchFolder& scratch) {
 // believed to be. Mutations, some tried together: a range of six digits; the setup's encoding not read, or
 // its noise; cameras swapped in the reader.
 TEST(DetectorProgram, OursThroughTheProtocolGivesTheSameBytes) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"run",
                                           scenario_path("ball_circle"),
@@ -103,7 +102,7 @@ long left_in(const std::filesystem::path& folder) {
 // Mutations: the frame's number not looked at; what comes after the last frame, or how it ended, not looked
 // at; told as bad input.
 TEST_P(MisbehavingDetector, EndsTheRunWithFourAndOneLineAndNothingLeft) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto began = std::chrono::steady_clock::now();
   const Outcome outcome = run_stereobench(
       small_drive(scratch,
@@ -134,7 +133,7 @@ std::string in_the_end(const std::string& last) {
 // Libraries and models take their time to load, which is told apart from the time for a frame. Mutations: the
 // first frame as any other; a start of four timeouts, whatever is asked for; the scenario's line not read.
 TEST(DetectorProgram, HasATimeOfItsOwnToStart) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const auto run = [&](const std::string& seconds, const std::vector<std::string>& options) {
     std::vector<std::string> words = {"--detector", "sleep " + seconds + "; " + in_the_end("exit 0"),
                                       "--detector-timeout-s", "1"};
@@ -153,7 +152,7 @@ TEST(DetectorProgram, HasATimeOfItsOwnToStart) {
 
 // The line of a traceback that tells is seldom the last one. Mutation: the last line alone.
 TEST(DetectorProgram, ThatFailsShowsTheLastTenLinesOfItsErrors) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string script = scratch.write(
       "fails.sh", "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo \"  line $i\" >&2; done; exit 1\n");
   const Outcome outcome = run_stereobench(small_drive(scratch, {"--detector", "sh " + script}));
@@ -211,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.kind; });
 
 TEST(DetectorProgram, ThatFindsNothingIsScoredSo) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench(small_drive(scratch, {"--set", "detector=sh no_such_script.sh"}));
   EXPECT_EQ(outcome.exit_code, 4);  // there is no such script
   const std::string script = scratch.write("blind.sh", in_the_end("exit 0"));
@@ -224,7 +223,7 @@ TEST(DetectorProgram, ThatFindsNothingIsScoredSo) {
 }
 
 TEST(DetectorProgram, ThatCannotBeStartedIsBadInput) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string no_program = scratch.write("no_program", "");
   for (const std::string& command : {std::string("no_such_detector --fast"), no_program}) {
     const Outcome outcome = run_stereobench(small_drive(scratch, {"--detector", command}));
@@ -241,7 +240,7 @@ TEST(DetectorProgram, ThatCannotBeStartedIsBadInput) {
 // Range and bearing alone do, too: told from the scenario's balls by their colour, and scored.
 // Mutation: scored by the pixels that are made up for it, at the cameras' height.
 TEST(DetectorProgram, RangeAndBearingAloneAreScored) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string script =
       scratch.write("strip.sh", kServe + R"( | sed -u -E 's/,"left_px":\[[^]]*\],"right_px":\[[^]]*\]//g')"
                                          R"( | sed -u -E 's/,"(left|right)_radius_px":[^,}]*//g')");
@@ -259,7 +258,7 @@ TEST(DetectorProgram, RangeAndBearingAloneAreScored) {
 // The example that people copy: it works, and it is a simple one. Skipped without Debian's python3-opencv.
 TEST(ExampleDetector, FindsWhatASimpleOneCan) {
   if (std::system("/usr/bin/python3 -c 'import cv2' 2>/dev/null") != 0) GTEST_SKIP() << "no python3-opencv";
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const Outcome outcome = run_stereobench(
       {"run", scenario_path("ball_circle"), "--set", "path.laps=0.15", "--set", "gates=[]", "--seeds", "0",
        "--particles", "20", "--out", (scratch.path() / "out").string(), "--detector",

@@ -30,7 +30,7 @@ TEST(DetectorRegistry, HasOursAndTakesANameOnce) {
 // The program of tests/linked_detector. Mutations: names are started as programs (exit 2); ours whatever the
 // name.
 TEST(DetectorRegistry, IsChosenByTheCommandLine) {
-  const ScratchFolder folder;
+  const TestFolder folder;
   const auto vision_of = [&](const std::string& detector) {
     const std::string out = (folder.path() / detector).string();
     const std::string command = std::string(STEREOBENCH_LINKED_DETECTOR) + " run " +

@@ -7,53 +7,34 @@
 #include <gtest/gtest.h>
 
 #include "harness/experiment/experiment.h"
+#include "tests/complaint.h"
+#include "tests/worlds/scenario/faults.h"
 #include "tests/worlds/scenario/scenario_text.h"
 
 namespace stereobench::harness {
 namespace {
 
 using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
+using worlds::BadOverride;
+using worlds::Fault;
 using worlds::kSmallScenario;
 using worlds::ScenarioFolder;
 using worlds::small_scenario_with;
 
 std::string complaint_about(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides = {}) {
-  try {
-    read_experiment(file, overrides);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { read_experiment(file, overrides); });
 }
 
-/// A fault planted into the small scenario, and the line:key and the words of the complaint about it.
-struct RunFault {
-  const char* piece;
-  const char* instead;
-  const char* complaint;
-};
-
-void PrintTo(const RunFault& fault, std::ostream* out) {
-  *out << fault.instead;
-}
-
-class BadExperiment : public testing::TestWithParam<RunFault> {};
+class BadExperiment : public testing::TestWithParam<Fault> {};
 
 // Catches: a check dropped, a line counted from 0, a key path without its group, an unchecked leftover key.
 TEST_P(BadExperiment, IsRefusedInOneLineThatNamesPlaceAndExpectation) {
-  const RunFault fault = GetParam();
-  const ScenarioFolder folder;
-  const auto file = folder.write("bad.yaml", small_scenario_with(fault.piece, fault.instead));
-  const std::string complaint = complaint_about(file);
-  EXPECT_THAT(complaint, StartsWith(file.string() + ":" + fault.complaint));
-  EXPECT_THAT(complaint, Not(HasSubstr("\n")));
+  worlds::expect_refused(GetParam(), complaint_about);
 }
 
-constexpr RunFault kRunFaults[] = {
+constexpr Fault kFaults[] = {
     {"particles: 20", "particels: 20", "4: particels: unknown key, did you mean particles?"},
     {"at_least: 0.9", "atleast: 0.9", "33: gates[0].atleast: unknown key, did you mean at_least?"},
     {"seeds: 0..2", "seeds: 2..0", "3: seeds: expected seeds such as 0..9, 3 or 0,4,7"},
@@ -76,7 +57,7 @@ constexpr RunFault kRunFaults[] = {
     {", at_least: 0.9", "", "33: gates[0]: expected either at_most or at_least"},
     {"at_least: 0.9", "at_least: much", "33: gates[0].at_least: expected a number"},
 };
-INSTANTIATE_TEST_SUITE_P(Faults, BadExperiment, testing::ValuesIn(kRunFaults));
+INSTANTIATE_TEST_SUITE_P(Faults, BadExperiment, testing::ValuesIn(kFaults));
 
 TEST(BadBelief, OfAnOracleThatIsNotThere) {
   const ScenarioFolder folder;
@@ -95,25 +76,13 @@ TEST(BadDetector, LooksAtNoPicturesOfAnOracle) {
               StartsWith("--set detector: the oracle has no pictures to look at"));
 }
 
-/// An override that cannot be, and the complaint about it.
-struct BadRunOverride {
-  const char* text;
-  const char* complaint;
-};
-
-void PrintTo(const BadRunOverride& bad, std::ostream* out) {
-  *out << bad.text;
-}
-
-class BadRunOverrides : public testing::TestWithParam<BadRunOverride> {};
+class BadRunOverrides : public testing::TestWithParam<BadOverride> {};
 
 // Catches: an override blamed on the file, an unknown key that is quietly added.
 TEST_P(BadRunOverrides, AreBlamedOnTheCommandLine) {
-  const ScenarioFolder folder;
-  const auto file = folder.write("good.yaml", kSmallScenario);
-  EXPECT_THAT(complaint_about(file, {GetParam().text}), StartsWith(GetParam().complaint));
+  worlds::expect_blamed(GetParam(), complaint_about);
 }
-constexpr BadRunOverride kBadOverrides[] = {
+constexpr BadOverride kBadOverrides[] = {
     {"particles=many", "--set particles: expected a whole number from 1 to 100000 (got many)"},
     {"particles=", "--set particles: expected a whole number from 1 to 100000 (got nothing)"},
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},

@@ -1,5 +1,4 @@
 // The declared keys of a scenario file: those of worlds and those of a run, as one table.
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -7,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/experiment/experiment.h"
+#include "tests/complaint.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "tests/worlds/yaml/declared_keys.h"
@@ -22,14 +22,7 @@ using worlds::small_scenario_with;
 
 std::vector<std::string> complaints_about(const std::filesystem::path& file,
                                           const std::vector<std::string>& overrides = {}) {
-  std::vector<std::string> lines;
-  try {
-    read_experiment(file, overrides);
-  } catch (const std::runtime_error& error) {
-    std::istringstream text(error.what());
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-  }
-  return lines;
+  return complaints_of([&] { read_experiment(file, overrides); });
 }
 
 // Both tables complain together. Mutations: each checked for itself; stopping at the first complaint.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/math/random.h"
+#include "tests/complaint.h"
 #include "tests/harness/logs/log_folder.h"
 
 namespace stereobench::harness {
@@ -79,50 +80,40 @@ TEST(CalibrationFile, TwoCamerasAreReadAsTheyWereWritten) {
 // Mutation: a turn that is no rotation let through.
 TEST(CalibrationFile, RefusesCamerasThatAreNone) {
   const TestFolder folder;
-  const auto complaint_of = [&](const vision::CameraPair& cameras, const std::string& from,
-                                const std::string& to) {
+  const auto complaint = [&](const vision::CameraPair& cameras, const std::string& from,
+                             const std::string& to) {
     std::string text = calibration_yaml({{640, 480, 535.5, 334.0, 242.5}, 0.083, 0.0, 0.0}, cameras);
     text.replace(text.rfind(from), from.size(), to);
     folder.write("rig.yaml", text);
-    try {
-      read_rig_calibration(folder.path() / "rig.yaml");
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("no complaint");
+    return complaint_of([&] { read_rig_calibration(folder.path() / "rig.yaml"); });
   };
   vision::CameraPair stretched = two_cameras();
   stretched[1].rectified_from_camera *= 1.1;
   vision::CameraPair folded = two_cameras();
   folded[0].lens = {.k1 = -2.0};
-  EXPECT_THAT(complaint_of(stretched, "K", "K"), HasSubstr("right_eye: expected cameras"));
-  EXPECT_THAT(complaint_of(folded, "K", "K"), HasSubstr("expected cameras"));
-  EXPECT_THAT(complaint_of(two_cameras(), "right_eye:", "third_eye:"), HasSubstr("expected both"));
-  EXPECT_THAT(complaint_of(two_cameras(), "K:", "L:"), HasSubstr("K: this key is missing"));
-  EXPECT_EQ(complaint_of(two_cameras(), "K", "K"), "no complaint");
+  EXPECT_THAT(complaint(stretched, "K", "K"), HasSubstr("right_eye: expected cameras"));
+  EXPECT_THAT(complaint(folded, "K", "K"), HasSubstr("expected cameras"));
+  EXPECT_THAT(complaint(two_cameras(), "right_eye:", "third_eye:"), HasSubstr("expected both"));
+  EXPECT_THAT(complaint(two_cameras(), "K:", "L:"), HasSubstr("K: this key is missing"));
+  EXPECT_EQ(complaint(two_cameras(), "K", "K"), "no complaint");
 }
 
 TEST(CalibrationFile, RefusesWhatItCannotComputeWith) {
   const TestFolder folder;
-  const auto complaint_of = [&](const std::string& from, const std::string& to) {
+  const auto complaint = [&](const std::string& from, const std::string& to) {
     std::string text = calibration_yaml({{640, 480, 500.0, 319.5, 239.5}, 0.12, 0.3, 0.0});
     text.replace(text.find(from), from.size(), to);
     folder.write("rig.yaml", text);
-    try {
-      read_calibration(folder.path() / "rig.yaml");
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("no complaint");
+    return complaint_of([&] { read_calibration(folder.path() / "rig.yaml"); });
   };
-  EXPECT_THAT(complaint_of("baseline_m:", "base:"), HasSubstr("rig.yaml: baseline_m: expected a number"));
-  EXPECT_THAT(complaint_of("1.2000000000000000e-01", "-1."), HasSubstr("positive sizes and baseline"));
-  EXPECT_THAT(complaint_of("image_width: 640", "image_width: 0"), HasSubstr("positive sizes"));
-  EXPECT_THAT(complaint_of("data: [ 0., 0.,", "data: [ -3., 0.,"), HasSubstr("D: expected a lens"));
-  EXPECT_THAT(complaint_of("data: [ 500.", "data: [ .Nan"), testing::Not(HasSubstr("no complaint")));
-  EXPECT_THAT(complaint_of("data: [ 500.", "data: [ 1100."), HasSubstr("K: expected focal lengths"));
-  EXPECT_THAT(complaint_of("rows: 3", "rows: 2000000000"), HasSubstr("K: expected a matrix of 3 x 3"));
-  EXPECT_THAT(complaint_of("K: !!opencv-matrix", "K: 3 #"), HasSubstr("rig.yaml: "));
+  EXPECT_THAT(complaint("baseline_m:", "base:"), HasSubstr("rig.yaml: baseline_m: expected a number"));
+  EXPECT_THAT(complaint("1.2000000000000000e-01", "-1."), HasSubstr("positive sizes and baseline"));
+  EXPECT_THAT(complaint("image_width: 640", "image_width: 0"), HasSubstr("positive sizes"));
+  EXPECT_THAT(complaint("data: [ 0., 0.,", "data: [ -3., 0.,"), HasSubstr("D: expected a lens"));
+  EXPECT_THAT(complaint("data: [ 500.", "data: [ .Nan"), testing::Not(HasSubstr("no complaint")));
+  EXPECT_THAT(complaint("data: [ 500.", "data: [ 1100."), HasSubstr("K: expected focal lengths"));
+  EXPECT_THAT(complaint("rows: 3", "rows: 2000000000"), HasSubstr("K: expected a matrix of 3 x 3"));
+  EXPECT_THAT(complaint("K: !!opencv-matrix", "K: 3 #"), HasSubstr("rig.yaml: "));
 }
 
 }  // namespace

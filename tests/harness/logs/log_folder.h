@@ -6,47 +6,19 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include "harness/logs/measurement_log_writer.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 
-/// A folder of its own for each test, removed at the end.
-class TestFolder {
- public:
-  TestFolder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(info->test_suite_name()) + "." + info->name();
-    for (char& c : name) c = c == '/' ? '_' : c;
-    path_ = std::filesystem::temp_directory_path() / ("stereobench." + std::to_string(getpid()) + "." + name);
-    std::filesystem::create_directories(path_);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  ~TestFolder() { std::filesystem::remove_all(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-  }
-
-  void write_gz(const std::string& name, const std::string& text) const {
-    gzFile file = gzopen((path_ / name).c_str(), "wb");
-    ASSERT_NE(gzwrite(file, text.data(), static_cast<unsigned>(text.size())), 0);
-    gzclose(file);
-  }
-
-  std::string read(const std::string& name) const {
-    std::ifstream stream(path_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
-
- private:
-  std::filesystem::path path_;
-};
+/// Writes a file packed by gzip.
+inline void write_gz(const std::filesystem::path& path, const std::string& text) {
+  gzFile file = gzopen(path.c_str(), "wb");
+  ASSERT_NE(gzwrite(file, text.data(), static_cast<unsigned>(text.size())), 0);
+  gzclose(file);
+}
 
 inline const std::string kOdometry = "t_s,v_mps,w_radps\n0,1,0\n1,1,0.5\n2,0,0\n";
 inline const std::string kObservations = "t_s,landmark_id,range_m,bearing_rad\n0.5,7,2,0.1\n1.5,7,1.5,0.2\n";

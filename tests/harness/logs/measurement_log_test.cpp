@@ -142,7 +142,7 @@ TEST(ReadLog, TakesAFileOfTheFolderGzipWindowsLineEndsAndTheParentsLandmarks) {
   const MeasurementLog plain = read_log(folder.path() / "log", {}).log;
   fs::rename(folder.path() / "log/landmarks.csv", folder.path() / "landmarks.csv");
   fs::remove(folder.path() / "log/odometry.csv");
-  folder.write_gz("log/odometry.csv.gz", "t_s,v_mps,w_radps\r\n0,1,0\r\n1.0,1e0,0.5\r\n2,0,0");
+  write_gz(folder.path() / "log/odometry.csv.gz", "t_s,v_mps,w_radps\r\n0,1,0\r\n1.0,1e0,0.5\r\n2,0,0");
   const MeasurementLog packed = read_log(folder.path() / "log/odometry.csv.gz", {}).log;
   ASSERT_EQ(packed.steps.size(), plain.steps.size());
   EXPECT_EQ(packed.landmarks.size(), 1U);

@@ -37,7 +37,7 @@ bool exists(const std::string& pid) {
 
 /// A folder of its own for the process to remove, within one that the test removes.
 struct Place {
-  ScratchFolder outer;
+  TestFolder outer;
   std::filesystem::path scratch = outer.path() / "scratch";
   Place() { std::filesystem::create_directory(scratch); }
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -30,7 +29,7 @@ constexpr Board kBoard{9, 6, 0.03};
 constexpr std::size_t kViews = 9;
 
 /// A chessboard as a mesh: (right, down) of the board are its x and y, and a rim of white squares is around.
-void write_board_mesh(const ScratchFolder& folder) {
+void write_board_mesh(const TestFolder& folder) {
   const int across = kBoard.columns + 3;
   const int down = kBoard.rows + 3;
   std::string vertices, white, black;
@@ -53,7 +52,7 @@ void write_board_mesh(const ScratchFolder& folder) {
 }
 
 /// The board held somewhere in the world of a robot at the origin.
-worlds::World world_with_board(const ScratchFolder& folder, const vision::StereoRig& rig,
+worlds::World world_with_board(const TestFolder& folder, const vision::StereoRig& rig,
                                const Eigen::Isometry3d& left_from_board) {
   const Eigen::Isometry3d world_from_board = vision::robot_from_camera(rig) * left_from_board;
   const Eigen::Vector3d turns = world_from_board.linear().eulerAngles(2, 1, 0);
@@ -73,7 +72,7 @@ worlds::World world_with_board(const ScratchFolder& folder, const vision::Stereo
 class RenderedBoards : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<ScratchFolder>();
+    folder_ = std::make_unique<TestFolder>();
     write_board_mesh(*folder_);
     rig_ = test::faulty_rig();
     rig_.height_m = 1.0;
@@ -92,10 +91,10 @@ class RenderedBoards : public testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
   static std::vector<ViewFiles> files() { return find_view_files(folder_->path(), {}); }
 
-  static std::unique_ptr<ScratchFolder> folder_;
+  static std::unique_ptr<TestFolder> folder_;
   static vision::StereoRig rig_;
 };
-std::unique_ptr<ScratchFolder> RenderedBoards::folder_;
+std::unique_ptr<TestFolder> RenderedBoards::folder_;
 vision::StereoRig RenderedBoards::rig_;
 
 // The rig that rendered the pictures is found again, within what the fit says of itself. Mutations:

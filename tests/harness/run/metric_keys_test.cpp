@@ -19,7 +19,7 @@ using testing::IsEmpty;
 using Json = nlohmann::ordered_json;
 
 Json run_of(std::vector<std::string> arguments) {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   arguments.insert(arguments.end(), {"--out", scratch.path().string(), "--particles", "5"});
   const Outcome outcome = run_stereobench(arguments);
   EXPECT_LE(outcome.exit_code, 1) << outcome.err;
@@ -28,7 +28,7 @@ Json run_of(std::vector<std::string> arguments) {
 
 /// run.json of every kind.
 std::vector<Json> varied_runs() {
-  const ScratchFolder scratch;
+  const TestFolder scratch;
   const std::string data = (scratch.path() / "data").string();
   EXPECT_EQ(
       run_stereobench({"render", scenario_path("ball_circle"), "--set", "path.laps=0.06", "--out", data})

@@ -111,7 +111,7 @@ TEST(RunOutput, KeepsSomeNumbersOfASeedAndNoneOfItsSteps) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's allocator does not say what is in use";
 #endif
-  const ScratchFolder folder;
+  const TestFolder folder;
   RunOutput output(folder.path(), RunTally("name", kNoBackend));
   output.add(seed_of(0, 2000));
   const std::size_t before = bytes_in_use();

@@ -2,7 +2,6 @@
 
 #include "renderer/meshes/mesh_file.h"
 
-#include <functional>
 #include <ostream>
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/surfaces/mesh_surfaces.h"
+#include "tests/complaint.h"
 #include "tests/renderer/folder.h"
 #include "tests/renderer/random_scene.h"
 
@@ -175,36 +175,27 @@ std::string many_triangles(int count) {
   return text;
 }
 
-std::string complaint(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
-
 // Meant to catch: each check dropped; `>=` for `>` in the count.
 TEST(MeshFile, KeepsToItsLimits) {
   const std::string file = written("mesh_many.obj", many_triangles(40000));  // 1.5 MB
   EXPECT_EQ(read_mesh(file, {.triangles = 40000}).size(), 40000U);
-  EXPECT_EQ(complaint([&] { read_mesh(file, {.triangles = 39999}); }),
+  EXPECT_EQ(complaint_of([&] { read_mesh(file, {.triangles = 39999}); }),
             file + ": has more than 39999 triangles");
-  EXPECT_EQ(complaint([&] { read_mesh(file, {.file_mib = 1}); }), file + ": is larger than 1 MiB");
-  EXPECT_EQ(complaint([&] { read_mesh(file, {.seconds = 0.001}); }), file + ": takes longer than 0.001 s");
+  EXPECT_EQ(complaint_of([&] { read_mesh(file, {.file_mib = 1}); }), file + ": is larger than 1 MiB");
+  EXPECT_EQ(complaint_of([&] { read_mesh(file, {.seconds = 0.001}); }), file + ": takes longer than 0.001 s");
   worlds::World world;
   world.meshes = {{file}, {file}, {file}};
   world.mesh_limits.triangles = 120000;
   EXPECT_EQ(place_meshes(world).vertices.size(), 360000U);
   world.mesh_limits.triangles = 119999;
-  EXPECT_EQ(complaint([&] { place_meshes(world); }),
+  EXPECT_EQ(complaint_of([&] { place_meshes(world); }),
             file + ": with it the world has more than 119999 triangles");
 }
 
 // An OBJ index may be a gigabyte away from its file's size: nothing that a small file says may cost much.
 TEST(MeshFile, EndsAFileThatEatsMemory) {
   const std::string file = written("mesh_hungry.obj", many_triangles(200000));  // 7 MB, 200 MB when read
-  const std::string said = complaint([&] { read_mesh(file, {.memory_mib = 20}); });
+  const std::string said = complaint_of([&] { read_mesh(file, {.memory_mib = 20}); });
 #ifdef __SANITIZE_ADDRESS__
   EXPECT_THAT(said, HasSubstr(file + ": crashed"));  // its allocator ends the process by itself
 #else

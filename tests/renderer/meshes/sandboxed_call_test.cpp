@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/complaint.h"
+
 namespace stereobench::renderer {
 namespace {
 
@@ -25,12 +27,7 @@ using testing::StartsWith;
 using Work = std::function<std::string()>;
 
 std::string complaint_of_child(const Work& work, const ChildLimits& limits = {}) {
-  try {
-    call_in_child(work, limits);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { call_in_child(work, limits); });
 }
 
 bool has_children() {

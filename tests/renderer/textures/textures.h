@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "renderer/renderer.h"
+#include "tests/complaint.h"
 #include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer::test {
@@ -18,12 +18,7 @@ inline double light_of(int level) {
 
 /// What a renderer has against a world's files.
 inline std::string complaint(const worlds::World& world) {
-  try {
-    Renderer(world, small_rig());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { Renderer(world, small_rig()); });
 }
 
 }  // namespace stereobench::renderer::test

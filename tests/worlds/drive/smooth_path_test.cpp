@@ -12,6 +12,7 @@
 #include "slam/math/random.h"
 #include "slam/models/belief.h"
 #include "slam/models/motion.h"
+#include "tests/complaint.h"
 #include "tests/slam/checks.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "worlds/drive/biarc.h"
@@ -137,12 +138,7 @@ std::vector<TimedPose> poses_in(const std::string& text) {
 }
 
 std::string trajectory_complaint(const std::string& text) {
-  try {
-    poses_in(text);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "none";
+  return complaint_of([&] { poses_in(text); });
 }
 
 // Mutation: qx for qz in the heading.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/complaint.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "tests/worlds/visibility/obj_solids.h"
@@ -162,12 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 std::string complaint(const std::string& generator, const std::string& path) {
   const ScenarioFolder folder;
-  try {
-    read_scenario(folder.write("made.yaml", made(generator, path)));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { read_scenario(folder.write("made.yaml", made(generator, path))); });
 }
 
 TEST(Generator, SaysWhatIsImpossible) {

@@ -1,35 +1,18 @@
 // Values of `--set` that cannot be: each is refused in one line that blames the command line.
-#include <ostream>
-#include <string>
-
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/faults.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 
 namespace stereobench::worlds {
 namespace {
 
-using testing::StartsWith;
-
-/// An override that cannot be, and the complaint about it.
-struct BadOverride {
-  const char* text;
-  const char* complaint;
-};
-
-void PrintTo(const BadOverride& bad, std::ostream* out) {
-  *out << plain(bad.text);
-}
-
 class BadOverrides : public testing::TestWithParam<BadOverride> {};
 
 // Catches: an override blamed on the file, an unknown key that is quietly added.
 TEST_P(BadOverrides, AreBlamedOnTheCommandLine) {
-  const ScenarioFolder folder;
-  const auto file = folder.write("good.yaml", kSmallScenario);
-  EXPECT_THAT(complaint_about(file, {GetParam().text}), StartsWith(GetParam().complaint));
+  expect_blamed(GetParam(), complaint_about);
 }
 constexpr BadOverride kBadOverrides[] = {
     {"particles", "--set particles: expected key.path=value (got no =)"},

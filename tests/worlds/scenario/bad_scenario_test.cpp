@@ -1,44 +1,26 @@
 // What a scenario file can have wrong: each is refused in one line that names the place and the cure.
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/worlds/scenario/faults.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 
 namespace stereobench::worlds {
 namespace {
 
-using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
-
-/// A fault planted into the small scenario, and the line:key and the words of the complaint about it.
-struct Fault {
-  const char* piece;
-  const char* instead;
-  const char* complaint;
-};
-
-void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << plain(fault.instead) << " at " << plain(fault.complaint);
-}
 
 class BadScenario : public testing::TestWithParam<Fault> {};
 
 // Catches: a check dropped, a line counted from 0, a key path without its group, an unchecked leftover key.
 TEST_P(BadScenario, IsRefusedInOneLineThatNamesPlaceAndExpectation) {
-  const Fault fault = GetParam();
-  const ScenarioFolder folder;
-  const auto file = folder.write("bad.yaml", small_scenario_with(fault.piece, fault.instead));
-  const std::string complaint = complaint_about(file);
-  EXPECT_THAT(complaint, StartsWith(file.string() + ":" + fault.complaint));
-  EXPECT_THAT(complaint, Not(HasSubstr("\n")));
+  expect_refused(GetParam(), complaint_about);
 }
 
 constexpr Fault kKeyFaults[] = {

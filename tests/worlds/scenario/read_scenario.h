@@ -4,12 +4,12 @@
 #include <array>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
 
+#include "tests/complaint.h"
 #include "worlds/scenario/scenario.h"
 #include "worlds/scenario/write_scenario.h"
 
@@ -34,7 +34,7 @@ inline constexpr std::array kKeysOfRuns = {"filters",
 /// A scenario file without those keys.
 inline YamlDocument load_scenario(const std::filesystem::path& file,
                                   const std::vector<std::string>& overrides) {
-  YamlDocument document = load_yaml(file, overrides, &scenario_keys());
+  YamlDocument document = load_yaml(file, overrides, scenario_keys());
   for (const char* const key : kKeysOfRuns) document.root.remove(key);
   return document;
 }
@@ -66,12 +66,7 @@ inline std::string written_out(const std::filesystem::path& file,
 /// What reading a file is refused with.
 inline std::string complaint_about(const std::filesystem::path& file,
                                    const std::vector<std::string>& overrides = {}) {
-  try {
-    read_scenario(file, overrides);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { read_scenario(file, overrides); });
 }
 
 }  // namespace stereobench::worlds

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <cctype>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
+#include "tests/test_folder.h"
 
 namespace stereobench::worlds {
 
@@ -56,27 +52,10 @@ inline std::string plain(std::string text) {
   return text;
 }
 
-/// A folder of this test's own, with a mesh in it, removed at the end.
-class ScenarioFolder {
+/// A folder with the small scenario's mesh in it.
+class ScenarioFolder : public TestFolder {
  public:
-  ScenarioFolder() {
-    std::string name = (std::filesystem::path(testing::TempDir()) / "stereobench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for a test");
-    folder_ = name;
-    write("thing.obj", "v 0 0 0\n");
-  }
-  ~ScenarioFolder() { std::filesystem::remove_all(folder_); }
-  ScenarioFolder(const ScenarioFolder&) = delete;
-  ScenarioFolder& operator=(const ScenarioFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
-  const std::filesystem::path& path() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
+  ScenarioFolder() { write("thing.obj", "v 0 0 0\n"); }
 };
 
 /// The small scenario with one piece of its text put in place of another, which must be there.

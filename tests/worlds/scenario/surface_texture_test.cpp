@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/complaint.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "worlds/generate/randomise.h"
@@ -29,12 +30,7 @@ class TexturedScenario : public testing::Test {
     return folder_.write("scenario.yaml", small_scenario_with(piece, instead) + after);
   }
   std::string complaint(const std::string& piece, const std::string& instead) const {
-    try {
-      read_scenario(write(piece, instead));
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { read_scenario(write(piece, instead)); });
   }
 
   ScenarioFolder folder_;

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/complaint.h"
+
 namespace stereobench::worlds {
 namespace {
 
@@ -134,14 +136,7 @@ TEST(Fields, OfAMemberStandAmongOthers) {
 }
 
 TEST(Fields, RefuseWhatTheirKeysDoNotDeclare) {
-  const auto complaint = [](const std::string& yaml) {
-    try {
-      lamp_of(yaml);
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto complaint = [](const std::string& yaml) { return complaint_of([&] { lamp_of(yaml); }); };
   EXPECT_THAT(complaint("{angle: 9}"), HasSubstr("lamp.yaml:1: angle: expected a number from 0 to 8"));
   EXPECT_THAT(complaint("{at_m: 3}"), HasSubstr("at_m: expected a list of 2"));
   EXPECT_THAT(complaint("{spares: [{power_w: x}]}"), HasSubstr("spares[0].power_w: expected a number"));

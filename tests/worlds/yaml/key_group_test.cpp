@@ -2,13 +2,13 @@
 // once.
 #include "worlds/yaml/key_group.h"
 
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/complaint.h"
 #include "tests/worlds/scenario/read_scenario.h"
 #include "tests/worlds/scenario/scenario_text.h"
 #include "tests/worlds/yaml/declared_keys.h"
@@ -23,14 +23,7 @@ using testing::StartsWith;
 
 std::vector<std::string> complaints_about(const std::filesystem::path& file,
                                           const std::vector<std::string>& overrides = {}) {
-  std::vector<std::string> lines;
-  try {
-    read_scenario(file, overrides);
-  } catch (const std::runtime_error& error) {
-    std::istringstream text(error.what());
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-  }
-  return lines;
+  return complaints_of([&] { read_scenario(file, overrides); });
 }
 
 // Mutations: stopping at the first complaint; not looking below lists; leaving out what is missing.
