@@ -43,7 +43,7 @@ std::optional<AnswerHeader> header_in(const std::string& text) {
   return text_of(header) == text ? std::optional(header) : std::nullopt;
 }
 
-[[noreturn]] void fail_with_store(const std::filesystem::path& file, const char* what, int error) {
+[[noreturn]] void fail_with_errno(const std::filesystem::path& file, const char* what, int error) {
   throw std::runtime_error(fmt::format("{}: {}: {}", file.string(), what, std::strerror(error)));
 }
 
@@ -83,7 +83,7 @@ bool is_taken_by_another(int descriptor) {
 
 AnswerStore::AnswerStore(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail_with_store(file_, "cannot be written", errno);
+  if (descriptor_ < 0) fail_with_errno(file_, "cannot be written", errno);
   if (is_taken_by_another(descriptor_)) {
     ::close(descriptor_);
     throw std::runtime_error(fmt::format(
@@ -100,7 +100,7 @@ AnswerStore::~AnswerStore() {
 
 void AnswerStore::index() {
   struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) fail_with_store(file_, "cannot be read", errno);
+  if (::fstat(descriptor_, &status) != 0) fail_with_errno(file_, "cannot be read", errno);
   const auto size = static_cast<std::uint64_t>(status.st_size);
   while (end_ + kHeaderBytes <= size) {
     const auto header = header_in(read_at(descriptor_, end_, kHeaderBytes));
@@ -111,7 +111,7 @@ void AnswerStore::index() {
     end_ = offset + header->bytes;
   }
   if (end_ < size && ::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0)
-    fail_with_store(file_, "cannot be written", errno);
+    fail_with_errno(file_, "cannot be written", errno);
 }
 
 std::string AnswerStore::read(const std::string& key) const {
@@ -129,8 +129,8 @@ void AnswerStore::write_all(std::string_view bytes) {
     if (written < 0) {
       const int error = errno;
       if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0)
-        fail_with_store(file_, "cannot be repaired", errno);
-      fail_with_store(file_, "cannot be written", error);
+        fail_with_errno(file_, "cannot be repaired", errno);
+      fail_with_errno(file_, "cannot be written", error);
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
     at += static_cast<std::uint64_t>(written);
@@ -142,13 +142,13 @@ void AnswerStore::append(const std::string& key, std::string_view answer) {
   std::string record = text_of({key, answer.size(), sha256_of(answer)});
   record += answer;
   write_all(record);
-  if (::fdatasync(descriptor_) != 0) fail_with_store(file_, "cannot be written", errno);
+  if (::fdatasync(descriptor_) != 0) fail_with_errno(file_, "cannot be written", errno);
   places_[key] = {end_ + kHeaderBytes, answer.size()};
   end_ += record.size();
 }
 
 void AnswerStore::remove() {
-  if (::unlink(file_.c_str()) != 0 && errno != ENOENT) fail_with_store(file_, "cannot be removed", errno);
+  if (::unlink(file_.c_str()) != 0 && errno != ENOENT) fail_with_errno(file_, "cannot be removed", errno);
   places_.clear();
 }
 

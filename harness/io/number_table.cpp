@@ -25,12 +25,12 @@ constexpr std::size_t kMaxQuoted = 40;
 
 /// What a file said, made fit for one line of a message.
 std::string in_quotes(std::string_view text) {
-  std::string text_in_quotes = "'";
+  std::string quoted = "'";
   for (const char c : text.substr(0, kMaxQuoted)) {
     const bool printable = c >= ' ' && c <= '~';
-    text_in_quotes += printable ? c : '?';
+    quoted += printable ? c : '?';
   }
-  return text_in_quotes + (text.size() > kMaxQuoted ? "...'" : "'");
+  return quoted + (text.size() > kMaxQuoted ? "...'" : "'");
 }
 
 [[noreturn]] void fail_at(const fs::path& file, long line, std::string_view what) {

@@ -7,7 +7,7 @@ namespace stereobench::vision {
 namespace {
 
 // The first and last pixel that has the patch's colour, of a row or a column.
-struct LineOfPatch {
+struct PixelSpan {
   int first = 0;
   int last = -1;
 
@@ -22,8 +22,8 @@ struct LineOfPatch {
 
 ScratchVector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& blob,
                                               const ColourTable& table) {
-  ScratchVector<LineOfPatch> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
-  ScratchVector<LineOfPatch> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
+  ScratchVector<PixelSpan> rows(static_cast<std::size_t>(blob.max_y - blob.min_y + 1));
+  ScratchVector<PixelSpan> columns(static_cast<std::size_t>(blob.max_x - blob.min_x + 1));
   for (int y = blob.min_y; y <= blob.max_y; ++y) {
     const auto* bgr = image.ptr<std::uint8_t>(y) + 3 * blob.min_x;
     for (int x = blob.min_x; x <= blob.max_x; ++x, bgr += 3) {
@@ -34,13 +34,13 @@ ScratchVector<Eigen::Vector2d> patch_boundary(const cv::Mat& image, const Blob& 
   }
   ScratchVector<Eigen::Vector2d> points;
   for (int y = blob.min_y; y <= blob.max_y; ++y) {
-    const LineOfPatch& row = rows[static_cast<std::size_t>(y - blob.min_y)];
+    const PixelSpan& row = rows[static_cast<std::size_t>(y - blob.min_y)];
     if (row.last < row.first) continue;
     if (row.first > 0) points.emplace_back(row.first - 0.5, y);
     if (row.last < image.cols - 1) points.emplace_back(row.last + 0.5, y);
   }
   for (int x = blob.min_x; x <= blob.max_x; ++x) {
-    const LineOfPatch& column = columns[static_cast<std::size_t>(x - blob.min_x)];
+    const PixelSpan& column = columns[static_cast<std::size_t>(x - blob.min_x)];
     if (column.last < column.first) continue;
     if (column.first > 0) points.emplace_back(x, column.first - 0.5);
     if (column.last < image.rows - 1) points.emplace_back(x, column.last + 0.5);
