@@ -59,20 +59,22 @@ struct Views {
   std::vector<photograph::Photograph> photographs;
 };
 
-constexpr std::size_t kOutcomes = 5;
-constexpr std::array<const char*, kOutcomes> kTitles = {"circle", "corridor", "defocus and lens", "hidden",
-                                                        "photographs"};
+constexpr std::size_t kDrives = 4;
+constexpr std::size_t kOutcomes = kDrives + 2;
+constexpr std::array<const char*, kOutcomes> kTitles = {"circle", "corridor", "defocus",
+                                                        "lens",   "hidden",   "photographs"};
 using Outcomes = std::array<Outcome, kOutcomes>;
 
 Views make_views() {
   Views views;
   views.drives.push_back(drive("ball_circle", {"path.laps=1"}, 1, 0));
   views.drives.push_back(drive("corridor", {}, 6, 0));
+  views.drives.push_back(drive("ball_circle", {"path.laps=1", "camera.defocus_sd_px=0.8"}, 2, 1));
   views.drives.push_back(
       drive("ball_circle",
-            {"path.laps=1", "camera.defocus_sd_px=0.8", "rig.distortion=[-0.1,0.02,0,0,0]",
-             "rig.right_turn_deg=[0.1,0.05,0]", "believed_rig={right_turn_deg: [0, 0, 0]}"},
-            2, 1));
+            {"path.laps=1", "rig.distortion=[-0.1,0.02,0,0,0]", "rig.right_turn_deg=[0.1,0.05,0]",
+             "believed_rig={right_turn_deg: [0, 0, 0]}"},
+            2, 3));
   views.hidden = hidden_balls(60);
   views.photographs = photographs(16);
   return views;
@@ -86,10 +88,10 @@ bool is_of_photographs(const std::string& name) {
 Outcomes measure(const Views& views, bool with_photographs, bool photographs_alone) {
   Outcomes outcomes;
   if (!photographs_alone) {
-    for (std::size_t i = 0; i < 3; ++i) outcomes[i] = outcome_of(views.drives[i]);
-    outcomes[3] = outcome_of(views.hidden);
+    for (std::size_t i = 0; i < kDrives; ++i) outcomes[i] = outcome_of(views.drives[i]);
+    outcomes[kDrives] = outcome_of(views.hidden);
   }
-  if (with_photographs) outcomes[4] = outcome_of(views.photographs);
+  if (with_photographs) outcomes[kDrives + 1] = outcome_of(views.photographs);
   return outcomes;
 }
 
