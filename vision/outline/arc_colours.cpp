@@ -62,6 +62,25 @@ Eigen::Matrix3d texture(const Eigen::Matrix3d& scatter, double freedom, double n
   return beyond.trace() > by_chance ? beyond : Eigen::Matrix3d::Zero();
 }
 
+// Beside all arcs, each about its own mean. An edge in the background may lie under the rim and be seen
+// nowhere; deviations are averaged, not variances, so that one edge beside a few arcs says little of all.
+Eigen::Matrix3d texture_everywhere(const ScratchVector<RimArc>& arcs, double noise_variance) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double deviations = 0.0;
+  double count = 0.0;
+  for (const RimArc& arc : arcs) {
+    if (arc.outside.count() < 2.0) continue;
+    count += 1.0;
+    const Eigen::Matrix3d beside = texture(arc.outside.scatter(), arc.outside.count() - 1.0, noise_variance);
+    const double variance = beside.trace();
+    if (!(variance > 0.0)) continue;
+    const double deviation = std::sqrt(variance);
+    sum += beside / deviation;
+    deviations += deviation;
+  }
+  return sum * (count > 0.0 ? deviations / (count * count) : 0.0);
+}
+
 // Beside an arc and its neighbours, about one mean: what is beside the rim most often goes on behind it.
 Eigen::Matrix3d texture_around(const ScratchVector<RimArc>& arcs, std::size_t arc, double noise_variance) {
   BackgroundSums around;
@@ -210,6 +229,8 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
   const Balls balls = balls_beside(rim.arcs, settings, noise_variance);
   const auto gradients = gradients_beside(rim, noise_variance);
   const auto checks = rim.has_shades ? check_shades(balls, noise_variance) : ScratchVector<ShadeCheck>();
+  const Eigen::Matrix3d elsewhere =
+      kArcColours.texture_elsewhere * texture_everywhere(rim.arcs, noise_variance);
   ScratchVector<ArcColours> arcs(rim.arcs.size());
   const double noise_sd = std::sqrt(noise_variance);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -224,7 +245,7 @@ ScratchVector<ArcColours> arc_colours(const Rim& rim, const UnmixSettings& setti
     arcs[i] = unmixed({.background = beside - raised(beside, noise_sd),
                        .ball = shade + beyond_shade,
                        .beyond_shade = beyond_shade,
-                       .texture = texture_around(rim.arcs, i, noise_variance),
+                       .texture = elsewhere + texture_around(rim.arcs, i, noise_variance),
                        .shade_sd = trust.relative_sd,
                        .noise_variance = noise_variance});
   }

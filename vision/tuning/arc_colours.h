@@ -18,7 +18,10 @@ struct ArcColourTuning {
   /// Scatter of the background below so many standard errors of the noise's is taken for noise.
   double texture_sigmas = 2.0;
   /// Arcs to either side whose colours tell an arc's texture: most often it goes on behind the rim.
-  std::size_t texture_arcs = 2;
+  std::size_t texture_arcs = 1;
+  /// Part of the texture beside all arcs that is added to an arc's own, as a variance: an edge may begin
+  /// under the rim and be seen nowhere.
+  double texture_elsewhere = 0.25;
   /// Arcs to either side whose colours tell a gradient in the background.
   std::size_t gradient_arcs = 3;
   /// Least evidence for a gradient: chi-square with three degrees of freedom, one in a hundred by chance.

@@ -20,7 +20,7 @@ struct ArcFitTuning {
   /// k of a large ball: noise of the colours beside an arc adds to that of its pixels.
   double noise_factor = 1.06;
   /// k of a ball of one pixel's radius, less that: the smaller a ball, the fewer pixels tell its shading.
-  double noise_factor_per_radius_px = 1.5;
+  double noise_factor_per_radius_px = 1.0;
   /// How often what k has beyond 1 counts for each pixel more of an edge (edge_width_px): it is an error of
   /// colours, which an arc's pixels share. Counted once, NIS/2 out of focus was up to 1.8.
   double noise_per_edge = 3.0;

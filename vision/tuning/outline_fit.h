@@ -45,9 +45,9 @@ struct OutlineFitTuning {
   double tolerance_px = 0.02;
   /// Inside of this depth a pixel is wholly the ball's, and counts as hidden where it shows something else.
   double rim_depth_px = 1.2;
-  /// What all arcs together are off by: of what a camera and a light source make of a rim. In pictures without
-  /// noise NIS/2 of near balls is 0.5 with it (lab book, biases of the radius).
-  double rim_sd_px = 0.0003;
+  /// What all arcs together are off by: of what a camera and a light source make of a rim. Radii are right to
+  /// half a thousandth of a pixel (lab book, biases of the radius).
+  double rim_sd_px = 0.0006;
   /// The same of a picture that was interpolated.
   double resampled_rim_sd_px = 0.0025;
   /// What a centre is off by, in common for all arcs.
