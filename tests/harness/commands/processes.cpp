@@ -55,7 +55,7 @@ std::vector<pid_t> children_of(pid_t process) {
 }
 
 bool comes_true_in_time(const std::function<bool()>& condition) {
-  for (int tries = 0; tries < 2000; ++tries) {
+  for (int tries = 0; tries < 24'000; ++tries) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

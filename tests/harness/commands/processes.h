@@ -18,7 +18,8 @@ bool ignores(pid_t process, int signal);
 /// The children of a process that are alive.
 std::vector<pid_t> children_of(pid_t process);
 
-/// Waits up to ten seconds for something. @return whether it came true
+/// Waits up to two minutes for something: under the sanitizers a seed of a run takes more than ten seconds.
+/// @return whether it came true
 bool comes_true_in_time(const std::function<bool()>& condition);
 
 /// Starts the program in a shell: `command` stands after its path, with redirections and all.

@@ -5,7 +5,7 @@
 
 #include "harness/io/calibration_file.h"
 #include "slam/math/random.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/test_folder.h"
 #include "vision/camera/rig.h"
 
 namespace stereobench::harness {

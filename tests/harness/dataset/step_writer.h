@@ -6,7 +6,7 @@
 #include "harness/dataset/formats/format_registry.h"
 #include "harness/dataset/frame_truth.h"
 #include "harness/dataset/rendered_dataset.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 

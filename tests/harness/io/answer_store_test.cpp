@@ -11,7 +11,7 @@
 
 #include "harness/io/sha256.h"
 #include "slam/math/random.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 namespace {

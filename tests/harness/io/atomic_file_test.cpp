@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include "tests/harness/logs/log_folder.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 namespace {

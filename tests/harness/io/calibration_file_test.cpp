@@ -6,7 +6,7 @@
 
 #include "slam/math/random.h"
 #include "tests/complaint.h"
-#include "tests/harness/logs/log_folder.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 namespace {

@@ -15,8 +15,8 @@
 #include "renderer/camera/expose.h"
 #include "renderer/renderer.h"
 #include "tests/harness/commands/program.h"
-#include "tests/harness/logs/log_folder.h"
 #include "tests/harness/rig_calibration/board_views.h"
+#include "tests/test_folder.h"
 
 namespace stereobench::harness {
 namespace {
