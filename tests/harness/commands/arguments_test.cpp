@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include "slam/filter_registry.h"
@@ -34,12 +36,10 @@ TEST(ParseFilters, NamesEachFilterOnce) {
 
 // Mutation: letting a comma at the end pass.
 TEST(ParseFilters, RefusesUnknownAndEmptyNamesAndSaysWhichThereAre) {
+  const std::string all = fmt::format("{}", fmt::join(slam::filter_names(), ", "));
   for (const char* text : {"", ",", "kalman", "ufastslam,", ",ufastslam", "ufastslam,,fastslam2", "UFastSLAM",
                            "ufastslam, fastslam2"})
-    EXPECT_THAT(
-        [&] { parse_filters(text); },
-        ThrowsMessage<std::runtime_error>(HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam")))
-        << text;
+    EXPECT_THAT([&] { parse_filters(text); }, ThrowsMessage<std::runtime_error>(HasSubstr(all))) << text;
 }
 
 RunArguments parsed(std::vector<std::string> words) {
