@@ -1,5 +1,7 @@
 #include "slam/models/noise_law.h"
 
+#include <algorithm>
+
 #include "slam/models/motion.h"
 
 namespace stereobench::slam {
@@ -16,6 +18,12 @@ Observation observe(const RangeBearing& seen, const FilterConfig& config) {
   }
   observation.noise.diagonal() += Eigen::Vector2d(config.range_floor_m, config.bearing_floor_rad).cwiseAbs2();
   return observation;
+}
+
+FilterConfig without_floor(FilterConfig config) {
+  config.range_floor_m = std::min(config.range_floor_m, 1e-5);
+  config.bearing_floor_rad = std::min(config.bearing_floor_rad, 1e-7);
+  return config;
 }
 
 }  // namespace stereobench::slam

@@ -12,6 +12,10 @@ namespace stereobench::slam {
 /// above the floor.
 Observation observe(const RangeBearing& seen, const FilterConfig& config);
 
+/// The settings with hardly any floor under the measurement noise. The floor keeps weights of particles from
+/// vanishing. What has no weights needs it only against sensors that claim to be exact.
+FilterConfig without_floor(FilterConfig config);
+
 /// @param range_m where the landmark should be seen
 /// @return by how much the variance of a range there exceeds that of a range of 0
 inline double range_variance_growth(const Observation& observation, double range_m) {

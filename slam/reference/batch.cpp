@@ -20,9 +20,9 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr int kParticles = 10;        ///< of the filter whose estimate the search starts from
-constexpr int kMostIterations = 200;  ///< ten times what logs of thousands of steps take
-constexpr double kTolerance = 1e-9;   ///< of the cost, some thousands: what is left is no part of a deviation
+constexpr int kParticles = 10;         ///< of the filter whose estimate the search starts from
+constexpr int kMostIterations = 1000;  ///< most logs take a tenth of it
+constexpr double kTolerance = 1e-9;  ///< of the cost, some thousands: what is left is no part of a deviation
 
 using PoseBlock = std::array<double, 3>;
 using PlaceBlock = std::array<double, 2>;
@@ -138,6 +138,7 @@ class PathSearch {
     // Eigen's, for the same bytes everywhere: CHOLMOD's depend on which BLAS is installed.
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.num_threads = 1;
+    options.use_nonmonotonic_steps = true;
     options.max_num_iterations = kMostIterations;
     options.function_tolerance = kTolerance;
     options.logging_type = ceres::SILENT;
@@ -190,7 +191,7 @@ BatchEstimate estimate_batch(const FilterConfig& config, const Pose& start,
                              std::span<const BatchStep> steps) {
   const BatchEstimate first = filtered(config, start, steps);
   if (!is_finite(first)) return first;
-  PathSearch search(config, start, first);
+  PathSearch search(without_floor(config), start, first);
   for (std::size_t k = 0; k < steps.size(); ++k) search.add(k, steps[k]);
   return search.solve();
 }

@@ -37,6 +37,14 @@ TEST(NoiseLaw, ReplacesWhatASightingStatesAndKeepsTheFloor) {
   EXPECT_EQ(noise(0, 1), 0.0);
 }
 
+// Mutation: a floor that was lower already is raised.
+TEST(NoiseLaw, HardlyAnyFloorIsLeftWithoutIt) {
+  EXPECT_EQ(without_floor({}).range_floor_m, 1e-5);
+  EXPECT_EQ(without_floor({}).bearing_floor_rad, 1e-7);
+  EXPECT_EQ(without_floor({.range_floor_m = 1e-6, .bearing_floor_rad = 0.0}).range_floor_m, 1e-6);
+  EXPECT_EQ(without_floor({.range_floor_m = 1e-6, .bearing_floor_rad = 0.0}).bearing_floor_rad, 0.0);
+}
+
 // Deviations are scaled, so that a covariance of both goes with their product, and the floor stays as it is.
 // Mutation: variances to scale.
 TEST(NoiseLaw, StatedNoiseIsBelievedToScale) {
