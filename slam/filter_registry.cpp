@@ -9,6 +9,7 @@
 #include "slam/dead_reckoning.h"
 #include "slam/ekf/ekf_slam.h"
 #include "slam/fastslam/fast_slam.h"
+#include "slam/models/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
@@ -67,6 +68,10 @@ constexpr auto kKinds = std::to_array<FilterKind>({
     {"ekf", "EKF-SLAM", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(config, start);
+     }},
+    {"iekf", "iterated EKF-SLAM", true, false, false,
+     [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
+       return EkfSlam(without_floor(config), start, Linearisation::kIterated);
      }},
     {"fastslam1", "FastSLAM 1.0", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {

@@ -9,12 +9,19 @@
 #include "slam/association/frame_reader.h"
 #include "slam/association/map_management.h"
 #include "slam/association/policy.h"
+#include "slam/ekf/frame_mode.h"
 #include "slam/ekf/joint_belief.h"
 #include "slam/filter_config.h"
 #include "slam/models/linearised.h"
 #include "slam/update_report.h"
 
 namespace stereobench::slam {
+
+/// Where an EKF linearises the motion and the sightings of a frame.
+enum class Linearisation {
+  kOnce,      ///< at what is predicted
+  kIterated,  ///< at what explains the frame best, with the motion's error along and across its chord
+};
 
 /// EKF-SLAM (Smith, Self and Cheeseman, 1990): one Gaussian, in which the pose and every landmark are
 /// correlated with each other.
@@ -26,9 +33,12 @@ namespace stereobench::slam {
 /// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
 /// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
 /// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapManagement.
+///
+/// Iterated (Bell and Cathey, 1993), it finds the mode of a frame first (frame_mode), and leaves out the
+/// sightings that all others speak against.
 class EkfSlam {
  public:
-  EkfSlam(const FilterConfig& config, const Pose& start);
+  EkfSlam(const FilterConfig& config, const Pose& start, Linearisation linearisation = Linearisation::kOnce);
 
   void predict(const Control& control);
   void update(std::span<const RangeBearing> sightings);
@@ -53,12 +63,19 @@ class EkfSlam {
 
   Landmark landmark(std::size_t j) const;
   Decided decide(std::span<const Sighting> frame);
+  void correct_once(Decided& decided, const PoseBelief& motion);
+  void correct_iterated(Decided& decided, JointBelief before, const PoseBelief& motion);
+  std::optional<FrameMode> leave_out_outliers(const Decided& decided, const JointBelief& before,
+                                              const ChordBelief& motion, std::vector<std::size_t>& used);
+  bool judge_refused(Decided& decided, std::vector<std::size_t>& used, JointBelief& before);
+  static std::vector<SeenLandmark> seen_by(const Decided& decided, const std::vector<std::size_t>& used);
   void correct_one_by_one(Decided& decided);
   Outcome use(int landmark, const Sighting& sighting, bool corroborated);
   std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
 
   FilterConfig config_;
+  Linearisation linearisation_;
   AssociationPolicy policy_;
   MapManagement management_;
   Linearised model_;

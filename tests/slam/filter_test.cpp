@@ -20,15 +20,15 @@ class EveryFilter : public ::testing::Test {
     return make_filter(Name::kName, in_blocks_of<Name>(config), start, seed);
   }
 };
-using AllNames = ::testing::Types<DeadReckoningName, EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
-                                  UFastSlamKimName, FastSlam2BlockName, UFastSlamBlockName,
+using AllNames = ::testing::Types<DeadReckoningName, EkfName, IteratedEkfName, FastSlam1Name, FastSlam2Name,
+                                  UFastSlamName, UFastSlamKimName, FastSlam2BlockName, UFastSlamBlockName,
                                   InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(EveryFilter, AllNames);
 
 template <class Name>
 class MappingFilter : public EveryFilter<Name> {};
-using MappingNames = ::testing::Types<EkfName, FastSlam1Name, FastSlam2Name, UFastSlamName, UFastSlamKimName,
-                                      FastSlam2BlockName, UFastSlamBlockName,
+using MappingNames = ::testing::Types<EkfName, IteratedEkfName, FastSlam1Name, FastSlam2Name, UFastSlamName,
+                                      UFastSlamKimName, FastSlam2BlockName, UFastSlamBlockName,
                                       InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
 TYPED_TEST_SUITE(MappingFilter, MappingNames);
 
@@ -286,7 +286,7 @@ TEST(MakeFilter, KnowsItsNamesAndRefusesTheRest) {
     make_filter("kalman", {}, {}, 0);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("dead_reckoning, ekf, fastslam1, fastslam2, ufastslam"));
+    for (const std::string& name : filter_names()) EXPECT_THAT(error.what(), ::testing::HasSubstr(name));
   }
 }
 

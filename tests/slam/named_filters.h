@@ -11,6 +11,9 @@ struct DeadReckoningName {
 struct EkfName {
   static constexpr const char* kName = "ekf";
 };
+struct IteratedEkfName {
+  static constexpr const char* kName = "iekf";
+};
 struct FastSlam1Name {
   static constexpr const char* kName = "fastslam1";
 };

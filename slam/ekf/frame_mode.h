@@ -1,0 +1,40 @@
+/// What explains a frame best: the iterated Kalman update, before anything is linearised for good.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam/ekf/joint_belief.h"
+#include "slam/models/chord.h"
+
+namespace stereobench::slam {
+
+/// A sighting and the landmark that it is given to.
+struct SeenLandmark {
+  int landmark = 0;
+  Observation observation;
+};
+
+/// The likeliest pose before a motion, motion and landmarks, given the belief before and the sightings after.
+struct FrameMode {
+  Pose from;                               ///< before the motion
+  Eigen::Vector3d chord;                   ///< the motion
+  std::vector<Eigen::Vector2d> landmarks;  ///< by sighting
+
+  /// By sighting: squared Mahalanobis length of its innovation, predicted from all that is known but itself.
+  /// Chi-square distributed with two degrees of freedom, where all is as believed.
+  std::vector<double> squared_lengths;
+};
+
+/// Finds the mode by Gauss-Newton steps in gain form (the iterated extended Kalman filter of Bell and Cathey,
+/// 1993), with the motion's own error in the state, so that what bends the motion stays on its curve. A step
+/// that does not lower the cost is halved.
+///
+/// @param before pose and map before the motion; its covariance may be singular
+/// @param motion since then
+/// @return nothing where the sightings' covariance has no root
+std::optional<FrameMode> frame_mode(const JointBelief& before, const ChordBelief& motion,
+                                    std::span<const SeenLandmark> seen);
+
+}  // namespace stereobench::slam
