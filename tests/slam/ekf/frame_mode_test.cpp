@@ -169,9 +169,8 @@ TEST(FrameMode, NeedsNoInverseOfAPrior) {
   const std::vector<Eigen::Vector2d> places = frame.before.landmarks;
   frame.before = {pose, {}, {}};
   long repairs = 0;
-  for (int j = 0; j < 3; ++j) place(frame.before, j, {places[static_cast<std::size_t>(j)], {}}, repairs);
   for (int j = 0; j < 3; ++j)
-    frame.before.landmarks[static_cast<std::size_t>(j)] = places[static_cast<std::size_t>(j)];
+    place(frame.before, j, {places[static_cast<std::size_t>(j)], Eigen::Matrix2d::Zero()}, repairs);
   const auto mode = frame_mode(frame.before, frame.motion, frame.seen);
   ASSERT_TRUE(mode);
   EXPECT_EQ(mode->from.x_m, pose.x_m);
