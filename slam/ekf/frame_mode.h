@@ -16,7 +16,8 @@ struct SeenLandmark {
   Observation observation;
 };
 
-/// The likeliest pose before a motion, motion and landmarks, given the belief before and the sightings after.
+/// Where a frame is linearised: at the likeliest pose before the motion, motion and landmarks, given the
+/// belief before and the sightings after.
 struct FrameMode {
   Pose from;                               ///< before the motion
   Eigen::Vector3d chord;                   ///< the motion
@@ -29,7 +30,8 @@ struct FrameMode {
 
 /// Finds the mode by Gauss-Newton steps in gain form (the iterated extended Kalman filter of Bell and Cathey,
 /// 1993), with the motion's own error in the state, so that what bends the motion stays on its curve. A step
-/// that does not lower the cost is halved.
+/// that does not lower the cost is halved. Where the first step leads to the cost that it foresees, the frame
+/// is as good as linear, and the prior's mean is returned as the point of linearisation.
 ///
 /// @param before pose and map before the motion; its covariance may be singular
 /// @param motion since then

@@ -162,6 +162,17 @@ TEST(FrameMode, HoldsEachSightingAgainstAllOthers) {
   }
 }
 
+// Mutation: frames are linearised anew however straight they are.
+TEST(FrameMode, StaysAtThePredictionWhereAFrameIsNearlyLinear) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Frame frame = random_frame(seed, 1e-4, 0.01);
+    const auto mode = frame_mode(frame.before, frame.motion, frame.seen);
+    ASSERT_TRUE(mode);
+    EXPECT_TRUE(near(mode->from, frame.before.pose, 0.0)) << seed;
+    EXPECT_EQ(mode->chord, frame.motion.mean) << seed;
+  }
+}
+
 // A pose that is certain and landmarks that are certain: the motion alone explains the frame.
 TEST(FrameMode, NeedsNoInverseOfAPrior) {
   Frame frame = random_frame(3, 0.14, 2e-4);
