@@ -119,7 +119,6 @@ BallLight fit_light_source(ScratchVector<Sample>& samples, std::size_t stride,
 // behind it, and must not say which.
 bool shows_light_source(const BallLight& light, double noise_variance) {
   const auto light_source = light.colours.bottomRows<3>();
-  if (!(light_source.norm() > kShading.faint_light_source * light.colours.row(0).norm())) return false;
   const Eigen::Vector3d both = light.information.bottomLeftCorner<3, 1>();
   const Eigen::Matrix3d of_light_source =
       light.information.bottomRightCorner<3, 3>() - both * both.transpose() / light.information(0, 0);

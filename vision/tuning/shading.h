@@ -37,8 +37,6 @@ struct ShadingTuning {
   /// Least evidence for a light source: chi-square with nine degrees of freedom and a lit side to choose. A
   /// ball seen from its unlit side outvoted others: one in four hundred was off by 5 to 15 times the bound.
   double by_chance = 40.0;
-  /// Least brightness of a light source, of the light from all around: reflections do as much.
-  double faint_light_source = 0.05;
   /// Information on the light source, of a sample's, that is put in: one that nothing shows is none, and the
   /// equations have an inverse.
   double ridge = 1e-6;
