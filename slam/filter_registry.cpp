@@ -10,6 +10,7 @@
 #include "slam/ekf/ekf_slam.h"
 #include "slam/fastslam/fast_slam.h"
 #include "slam/models/noise_law.h"
+#include "slam/smoother/smoother.h"
 
 namespace stereobench::slam {
 namespace {
@@ -72,6 +73,10 @@ constexpr auto kKinds = std::to_array<FilterKind>({
     {"iekf", "iterated EKF-SLAM", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(without_floor(config), start, Linearisation::kIterated);
+     }},
+    {"smoother", "incremental smoothing", true, false, false,
+     [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
+       return Smoother(without_floor(config), start);
      }},
     {"fastslam1", "FastSLAM 1.0", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {

@@ -86,7 +86,7 @@ struct EkfSlam::View {
   }
 
   void see_again(int landmark, const Sighting& sighting) {
-    filter.learn({filter.use(landmark, sighting, true), landmark}, sighting);
+    filter.learn({filter.correct_by(landmark, sighting, true), landmark}, sighting);
   }
 
   /// The rows of a dead landmark are as good as new ones.
@@ -120,9 +120,23 @@ void EkfSlam::predict(const Control& control) {
 }
 
 void EkfSlam::update(std::span<const RangeBearing> sightings) {
+  use(read(sightings));
+}
+
+std::vector<Sighting> EkfSlam::read(std::span<const RangeBearing> sightings) {
+  return reader_.read(sightings, counters_.rejected_inputs);
+}
+
+void EkfSlam::assume(JointBelief belief, std::vector<Mapped> map, std::vector<int> landmark_of_slot) {
+  belief_ = std::move(belief);
+  map_ = std::move(map);
+  landmark_of_slot_ = std::move(landmark_of_slot);
+}
+
+void EkfSlam::use(std::span<const Sighting> frame) {
   report_ = {};
-  const std::vector<Sighting> frame = reader_.read(sightings, counters_.rejected_inputs);
   decided_.clear();
+  drift_.setZero();
   if (frame.empty()) return;
   const PoseBelief motion = std::exchange(motion_, {});
   std::optional<JointBelief> before;
@@ -224,8 +238,9 @@ bool EkfSlam::judge_refused(Decided& decided, std::vector<std::size_t>& used, Jo
     target.outcome =
         judge_contradiction(map_[j].status.record, policy_.is_certain(sighting), corroborated || drifted);
     if (target.outcome != Outcome::kUse) continue;
-    before.covariance.move_pose(Eigen::Vector2d::Zero(),
-                                drift_covariance(belief_.pose, belief_.landmarks[j], sighting.observation));
+    const Eigen::Matrix3d drift = drift_covariance(belief_.pose, belief_.landmarks[j], sighting.observation);
+    before.covariance.move_pose(Eigen::Vector2d::Zero(), drift);
+    drift_ += drift;
     used.push_back(k);
     drifted = true;
   }
@@ -243,13 +258,13 @@ void EkfSlam::correct_one_by_one(Decided& decided) {
   bool corroborated = false;
   for (const std::size_t k : decided.order) {
     Target& target = decided.targets[k];
-    target.outcome = use(target.landmark, decided.frame[k], corroborated);
+    target.outcome = correct_by(target.landmark, decided.frame[k], corroborated);
     corroborated |= target.outcome == Outcome::kUse;
   }
 }
 
 /// @param corroborated whether some landmark has corrected the pose in this frame
-Outcome EkfSlam::use(int landmark, const Sighting& sighting, bool corroborated) {
+Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corroborated) {
   const Observation& observation = sighting.observation;
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
@@ -264,8 +279,9 @@ Outcome EkfSlam::use(int landmark, const Sighting& sighting, bool corroborated) 
       if (config_.report_updates) report_.innovations.back().refused = true;
       return outcome;
     }
-    belief_.covariance.move_pose(Eigen::Vector2d::Zero(),
-                                 drift_covariance(belief_.pose, belief_.landmarks[j], observation));
+    const Eigen::Matrix3d drift = drift_covariance(belief_.pose, belief_.landmarks[j], observation);
+    belief_.covariance.move_pose(Eigen::Vector2d::Zero(), drift);
+    drift_ += drift;
     seen = innovation(belief_, landmark, observation, repairs);
   }
   if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
@@ -317,15 +333,20 @@ Landmark EkfSlam::landmark(std::size_t j) const {
 Estimate EkfSlam::estimate() const {
   Estimate estimate = estimate_without_map();
   for (std::size_t j = 0; j < map_.size(); ++j) {
-    const auto& [slot, status] = map_[j];
-    if (slot == kUnknown && !Existence::is_believed(status.log_odds)) continue;
-    RangeBearing seen{.colour_class = status.colour_class};
-    if (slot != kUnknown) seen = reader_.first_sighting(static_cast<std::size_t>(slot));
-    const LandmarkBelief belief = landmark(j).belief;
-    estimate.landmarks.push_back(
-        {seen.landmark_id, seen.colour_class, belief.mean, belief.covariance, status.origin});
+    if (is_told(map_[j])) estimate.landmarks.push_back(told(map_[j], landmark(j).belief));
   }
   return estimate;
+}
+
+bool EkfSlam::is_told(const Mapped& landmark) {
+  return landmark.slot != kUnknown || Existence::is_believed(landmark.status.log_odds);
+}
+
+LandmarkEstimate EkfSlam::told(const Mapped& landmark, const LandmarkBelief& belief) const {
+  const auto& [slot, status] = landmark;
+  RangeBearing seen{.colour_class = status.colour_class};
+  if (slot != kUnknown) seen = reader_.first_sighting(static_cast<std::size_t>(slot));
+  return {seen.landmark_id, seen.colour_class, belief.mean, belief.covariance, status.origin};
 }
 
 Decisions EkfSlam::last_decisions() const {

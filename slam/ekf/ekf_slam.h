@@ -48,11 +48,37 @@ class EkfSlam {
   int particle_count() const { return 1; }
   Decisions last_decisions() const;
 
- private:
+  /// A landmark of the map beside its place.
   struct Mapped {
     int slot = kUnknown;
     LandmarkStatus status;
   };
+
+  // An update in parts, for an estimator that has beliefs of its own and reads its frames with this filter.
+
+  /// @return those sightings that can be; the others are counted
+  std::vector<Sighting> read(std::span<const RangeBearing> sightings);
+
+  /// Forgets pose and map for others; the motion since the last update stays.
+  /// @param landmark_of_slot by slot that was given out
+  void assume(JointBelief belief, std::vector<Mapped> map, std::vector<int> landmark_of_slot);
+
+  /// @return whether a landmark is believed to be there, and told of
+  static bool is_told(const Mapped& landmark);
+  LandmarkEstimate told(const Mapped& landmark, const LandmarkBelief& belief) const;
+
+  /// The rest of an update.
+  void use(std::span<const Sighting> frame);
+
+  const JointBelief& belief() const { return belief_; }    ///< at the last update
+  const PoseBelief& motion() const { return motion_; }     ///< since then, in the robot's frame of that time
+  const std::vector<Mapped>& map() const { return map_; }  ///< in the order of belief().landmarks
+  std::span<const Decision> decided() const { return decided_; }  ///< by sighting of the last frame
+
+  /// What the last frame added to the covariance of the pose before its motion, since it had drifted.
+  const Eigen::Matrix3d& drift() const { return drift_; }
+
+ private:
   /// A frame beside what becomes of it.
   struct Decided {
     std::span<const Sighting> frame;
@@ -70,7 +96,7 @@ class EkfSlam {
   bool judge_refused(Decided& decided, std::vector<std::size_t>& used, JointBelief& before);
   static std::vector<SeenLandmark> seen_by(const Decided& decided, const std::vector<std::size_t>& used);
   void correct_one_by_one(Decided& decided);
-  Outcome use(int landmark, const Sighting& sighting, bool corroborated);
+  Outcome correct_by(int landmark, const Sighting& sighting, bool corroborated);
   std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
 
@@ -85,6 +111,7 @@ class EkfSlam {
   std::vector<Mapped> map_;
   std::vector<int> landmark_of_slot_;
   std::vector<Decision> decided_;  ///< of the last frame
+  Eigen::Matrix3d drift_ = Eigen::Matrix3d::Zero();
   FilterCounters counters_;
   UpdateReport report_;  ///< of the last update
 };

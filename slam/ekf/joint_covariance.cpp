@@ -22,6 +22,13 @@ bool is_semidefinite(const Eigen::Matrix3d& p) {
 
 }  // namespace
 
+JointCovariance::JointCovariance(const Eigen::MatrixXd& dense) : size_(dense.rows()) {
+  lower_.clear();
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) lower_.push_back(dense(i, j));
+  }
+}
+
 Eigen::Matrix3d JointCovariance::pose() const {
   const double* p = lower_.data();
   Eigen::Matrix3d block;

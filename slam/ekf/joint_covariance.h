@@ -16,6 +16,11 @@ class JointCovariance {
   /// By row of the state: its covariances with the two numbers of a sighting.
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
+  JointCovariance() = default;
+
+  /// @param dense symmetric, of (x, y, heading) and landmarks
+  explicit JointCovariance(const Eigen::MatrixXd& dense);
+
   /// Where the coordinates of a landmark begin in the state.
   static Eigen::Index row_of(int landmark) { return 3 + 2 * landmark; }
 

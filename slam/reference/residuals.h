@@ -9,7 +9,7 @@ namespace stereobench::slam {
 
 /// No residual knows a length or an angle better than this.
 inline constexpr double kLeast_m = 1e-6;
-inline constexpr double kLeast_rad = 1e-6;
+inline constexpr double kLeast_rad = 1e-7;
 
 /// A step's odometry: how far two poses lie from where it would put them, in standard deviations.
 ///

@@ -14,6 +14,10 @@ struct EkfName {
 struct IteratedEkfName {
   static constexpr const char* kName = "iekf";
 };
+struct SmootherName {
+  static constexpr const char* kName = "smoother";
+  static constexpr double kLeastSd = 1e-6;  // m and rad, of any motion
+};
 struct FastSlam1Name {
   static constexpr const char* kName = "fastslam1";
 };
@@ -39,6 +43,13 @@ template <class Name>
 struct InShortBlocks : Name {
   static constexpr int kDrawEvery = 3;
 };
+
+// The least standard deviation (m and rad) that a filter takes a motion for: 0 unless its name says so.
+template <class Name>
+constexpr double least_sd() {
+  if constexpr (requires { Name::kLeastSd; }) return Name::kLeastSd;
+  return 0.0;
+}
 
 // Settings that say of blocks what a name says of them.
 template <class Name>

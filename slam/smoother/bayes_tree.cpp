@@ -1,0 +1,368 @@
+#include "slam/smoother/bayes_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <suitesparse/ccolamd.h>
+
+namespace stereobench::slam {
+namespace {
+
+/// Least change of a variable, in its conditional standard deviations, that is followed.
+constexpr double kFollowed = 1e-4;
+
+/// What stands in for a direction of which nothing is known: one over its standard deviation, m or rad.
+constexpr double kUnknownWeight = 1e-6;
+
+/// Turns rows so that all but one of them are zero in a column; that one comes to stand at `pivot`.
+///
+/// @param pivot of the rows; those above stay as they are, and those that are zero in the column
+/// @return whether any was not zero
+template <class Matrix>
+bool reflect(Matrix& rows, Eigen::Index pivot, Eigen::Index column, std::vector<Eigen::Index>& concerned) {
+  concerned.clear();
+  double square = 0.0;
+  for (Eigen::Index i = pivot; i < rows.rows(); ++i) {
+    const double value = rows(i, column);
+    if (value == 0.0) continue;
+    concerned.push_back(i);
+    square += value * value;
+  }
+  if (concerned.empty()) return false;
+  if (concerned.front() != pivot) {
+    rows.row(pivot).swap(rows.row(concerned.front()));
+    concerned.front() = pivot;
+  }
+  if (concerned.size() == 1) return true;
+  // The reflection that takes the column to (-sign(head) length, 0, ...): 1 - v v' / (length |v_1|).
+  const double head = rows(pivot, column);
+  const double length = std::copysign(std::sqrt(square), head);
+  rows(pivot, column) = head + length;
+  const double scale = 1.0 / (length * (head + length));
+  const Eigen::Index rest = rows.cols() - column - 1;
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rest);
+  for (const Eigen::Index i : concerned) sum.noalias() += rows(i, column) * rows.row(i).tail(rest);
+  sum *= scale;
+  for (const Eigen::Index i : concerned) {
+    rows.row(i).tail(rest).noalias() -= rows(i, column) * sum;
+    rows(i, column) = 0.0;
+  }
+  rows(pivot, column) = -length;
+  return true;
+}
+
+}  // namespace
+
+int BayesTree::add_variable(int numbers, const Eigen::Vector3d& guess) {
+  Node added;
+  added.numbers = numbers;
+  added.solution.head(numbers) = guess.head(numbers);
+  nodes_.push_back(std::move(added));
+  column_.push_back(-1);
+  const int variable = static_cast<int>(nodes_.size()) - 1;
+  touched_.push_back(variable);
+  return variable;
+}
+
+void BayesTree::touch(const Factor& factor) {
+  touched_.push_back(factor.first);
+  if (factor.second != kNone) touched_.push_back(factor.second);
+}
+
+int BayesTree::add(const Factor& factor) {
+  const int index = static_cast<int>(factors_.size());
+  factors_.push_back(factor);
+  waiting_.push_back(index);
+  touch(factor);
+  return index;
+}
+
+void BayesTree::replace(int index, const Factor& factor) {
+  factors_[static_cast<std::size_t>(index)] = factor;
+  touch(factor);
+}
+
+std::vector<int> BayesTree::solve(std::span<const int> last) {
+  std::vector<int> changed;
+  if (touched_.empty()) return changed;
+  Top top = take_off_top();
+  order(top, last);
+  eliminate(top);
+  // From the root down: what a variable depends on is solved before it.
+  for (auto it = top.variables.rbegin(); it != top.variables.rend(); ++it) {
+    if (solve_node(*it)) changed.push_back(*it);
+  }
+  std::vector<int> below = top.orphans;
+  while (!below.empty()) {
+    const int variable = below.back();
+    below.pop_back();
+    if (!solve_node(variable)) continue;
+    changed.push_back(variable);
+    below.insert(below.end(), node(variable).children.begin(), node(variable).children.end());
+  }
+  return changed;
+}
+
+/// Takes apart the nodes of what was touched, and all above them.
+BayesTree::Top BayesTree::take_off_top() {
+  Top top;
+  top.factors = std::exchange(waiting_, {});
+  constexpr Eigen::Index kTaken = -2;
+  for (const int touched : std::exchange(touched_, {})) {
+    for (int v = touched; v != kNone && column_[static_cast<std::size_t>(v)] != kTaken; v = node(v).parent) {
+      column_[static_cast<std::size_t>(v)] = kTaken;
+      top.variables.push_back(v);
+    }
+  }
+  for (const int v : top.variables) {
+    Node& taken = node(v);
+    for (const int child : taken.children)
+      if (column_[static_cast<std::size_t>(child)] != kTaken) top.orphans.push_back(child);
+    top.factors.insert(top.factors.end(), taken.factors.begin(), taken.factors.end());
+    taken.factors.clear();
+    taken.children.clear();
+    taken.parent = kNone;
+  }
+  for (const int v : top.variables) column_[static_cast<std::size_t>(v)] = -1;
+  std::ranges::sort(top.factors);  // the same sums, whichever way they came
+  std::ranges::sort(top.orphans);
+  return top;
+}
+
+/// Finds an order in which little fills in (CCOLAMD of Davis, Gilbert, Larimore and Ng, ACM TOMS 2004).
+void BayesTree::order(Top& top, std::span<const int> last) const {
+  std::ranges::sort(top.variables);
+  const auto index_of = [&top](int variable) {
+    return static_cast<int>(std::ranges::lower_bound(top.variables, variable) - top.variables.begin());
+  };
+  const auto columns = static_cast<int>(top.variables.size());
+  std::vector<std::vector<int>> rows_of(top.variables.size());
+  int rows = 0;
+  const auto add_row = [&](auto... variables) {
+    (rows_of[static_cast<std::size_t>(index_of(variables))].push_back(rows), ...);
+    ++rows;
+  };
+  for (const int f : top.factors) {
+    const Factor& factor = this->factor(f);
+    if (factor.second != kNone)
+      add_row(factor.first, factor.second);
+    else
+      add_row(factor.first);
+  }
+  for (const int orphan : top.orphans) {
+    for (const int v : node(orphan).separator) rows_of[static_cast<std::size_t>(index_of(v))].push_back(rows);
+    ++rows;
+  }
+  std::vector<int> starts{0};
+  std::vector<int> entries;
+  for (const auto& of_column : rows_of) {
+    entries.insert(entries.end(), of_column.begin(), of_column.end());
+    starts.push_back(static_cast<int>(entries.size()));
+  }
+  std::vector<int> late(top.variables.size(), 0);
+  for (const int v : last) {
+    const auto at = static_cast<std::size_t>(index_of(v));
+    if (at < late.size() && top.variables[at] == v) late[at] = 1;
+  }
+  entries.resize(ccolamd_recommended(static_cast<int>(entries.size()), rows, columns));
+  std::array<int, CCOLAMD_STATS> stats{};
+  if (ccolamd(rows, columns, static_cast<int>(entries.size()), entries.data(), starts.data(), nullptr,
+              stats.data(), late.data()) == 0)
+    return;  // any order is right
+  std::vector<int> ordered;
+  for (int i = 0; i < columns; ++i)
+    ordered.push_back(top.variables[static_cast<std::size_t>(starts[static_cast<std::size_t>(i)])]);
+  top.variables = std::move(ordered);
+}
+
+void BayesTree::eliminate(const Top& top) {
+  for (const int v : top.variables) node(v).rank = next_rank_++;
+  for (const int f : top.factors) {
+    const Factor& entering = factor(f);
+    const bool second = entering.second != kNone && node(entering.second).rank < node(entering.first).rank;
+    node(second ? entering.second : entering.first).factors.push_back(f);
+  }
+  const auto hang_below = [this](int parent, int v) {
+    node(v).parent = parent;
+    node(parent).children.push_back(v);
+  };
+  for (const int orphan : top.orphans) {
+    const auto rank = [this](int s) { return node(s).rank; };
+    hang_below(*std::ranges::min_element(node(orphan).separator, {}, rank), orphan);
+  }
+  for (const int v : top.variables) {
+    eliminate(v, node(v).children);
+    if (!node(v).separator.empty()) hang_below(node(v).separator.front(), v);
+  }
+}
+
+/// Writes all that is known of a variable and of those tied to it into rows.
+///
+/// @param rows receives them: the columns of the variable, of its separator, and the target
+/// @return how many columns the separator has
+Eigen::Index BayesTree::assemble(int variable, std::span<const int> children, Rows& rows) {
+  Node& own = node(variable);
+  own.separator.clear();
+  Eigen::Index row_count = 0;
+  const auto meet = [&](int other) {
+    if (other == kNone || other == variable || column_[static_cast<std::size_t>(other)] >= 0) return;
+    column_[static_cast<std::size_t>(other)] = 0;
+    own.separator.push_back(other);
+  };
+  for (const int f : own.factors) {
+    meet(factor(f).first);
+    meet(factor(f).second);
+    row_count += factor(f).rows;
+  }
+  for (const int child : children) {
+    for (const int s : node(child).separator) meet(s);
+    row_count += node(child).passed.rows();
+  }
+  std::ranges::sort(own.separator, {}, [this](int s) { return node(s).rank; });
+  Eigen::Index columns = own.numbers;
+  column_[static_cast<std::size_t>(variable)] = 0;
+  for (const int s : own.separator) {
+    column_[static_cast<std::size_t>(s)] = columns;
+    columns += node(s).numbers;
+  }
+  rows.setZero(row_count, columns + 1);
+  Eigen::Index row = 0;
+  for (const int f : own.factors) {
+    const Factor& entering = factor(f);
+    const auto write = [&](int v, const Eigen::Matrix3d& by) {
+      if (v == kNone) return;
+      rows.block(row, column_[static_cast<std::size_t>(v)], entering.rows, node(v).numbers) =
+          by.topLeftCorner(entering.rows, node(v).numbers);
+    };
+    write(entering.first, entering.by_first);
+    write(entering.second, entering.by_second);
+    rows.block(row, columns, entering.rows, 1) = entering.target.head(entering.rows);
+    row += entering.rows;
+  }
+  for (const int child : children) {
+    const Node& below = node(child);
+    const Eigen::Index count = below.passed.rows();
+    Eigen::Index from = 0;
+    for (const int s : below.separator) {
+      const int numbers = node(s).numbers;
+      rows.block(row, column_[static_cast<std::size_t>(s)], count, numbers) =
+          below.passed.middleCols(from, numbers);
+      from += numbers;
+    }
+    rows.block(row, columns, count, 1) = below.passed.rightCols<1>();
+    row += count;
+  }
+  column_[static_cast<std::size_t>(variable)] = -1;
+  for (const int s : own.separator) column_[static_cast<std::size_t>(s)] = -1;
+  return columns - own.numbers;
+}
+
+void BayesTree::eliminate(int variable, std::span<const int> children) {
+  Rows rows;
+  const Eigen::Index separator_columns = assemble(variable, children, rows);
+  Node& own = node(variable);
+  std::vector<Eigen::Index> concerned;
+  if (rows.rows() < own.numbers) rows.conservativeResizeLike(Rows::Zero(own.numbers, rows.cols()));
+  for (Eigen::Index j = 0; j < own.numbers; ++j) {
+    if (reflect(rows, j, j, concerned) && std::abs(rows(j, j)) > kUnknownWeight) continue;
+    // Nothing is known: a row in its place holds it where it is, and what stood there goes on as it was.
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows<1>() = rows.row(j);
+    rows.bottomRows<1>()(j) = 0.0;
+    rows.row(j).setZero();
+    rows(j, j) = kUnknownWeight;
+    rows(j, rows.cols() - 1) = kUnknownWeight * own.solution(j);
+    ++repairs_;
+  }
+  own.density = rows.topRows(own.numbers);
+  // More rows than columns say nothing more: those beyond are the misfit.
+  if (rows.rows() - own.numbers > separator_columns) {
+    for (Eigen::Index j = 0; j < separator_columns; ++j) {
+      const Eigen::Index at = own.numbers + j;
+      reflect(rows, at, at, concerned);
+    }
+    own.passed = rows.block(own.numbers, own.numbers, separator_columns, separator_columns + 1);
+  } else {
+    own.passed = rows.bottomRightCorner(rows.rows() - own.numbers, separator_columns + 1);
+  }
+}
+
+/// @return whether the solution has changed enough to be followed
+bool BayesTree::solve_node(int variable) {
+  Node& own = node(variable);
+  const auto n = static_cast<Eigen::Index>(own.numbers);
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  pull.head(n) = own.density.rightCols<1>();
+  Eigen::Index column = n;
+  for (const int s : own.separator) {
+    const auto numbers = static_cast<Eigen::Index>(node(s).numbers);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < numbers; ++j) pull(i) -= own.density(i, column + j) * node(s).solution(j);
+    }
+    column += numbers;
+  }
+  Eigen::Vector3d solution = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = n - 1; i >= 0; --i) {
+    double rest = pull(i);
+    for (Eigen::Index j = i + 1; j < n; ++j) rest -= own.density(i, j) * solution(j);
+    solution(i) = rest / own.density(i, i);
+  }
+  if (!((own.density.topLeftCorner(n, n) * (solution - own.solution).head(n)).norm() > kFollowed))
+    return false;
+  own.solution = solution;
+  return true;
+}
+
+/// @return they themselves too, in the order of elimination
+std::vector<int> BayesTree::ancestors_of(std::span<const int> variables) const {
+  std::vector<int> all;
+  std::vector<bool> met(nodes_.size(), false);
+  for (const int variable : variables) {
+    for (int v = variable; v != kNone && !met[static_cast<std::size_t>(v)]; v = node(v).parent) {
+      met[static_cast<std::size_t>(v)] = true;
+      all.push_back(v);
+    }
+  }
+  std::ranges::sort(all, {}, [this](int v) { return node(v).rank; });
+  return all;
+}
+
+/// With Y = R^-T E, where E picks the variables, R^-1 R^-T between them is Y' Y.
+Eigen::MatrixXd BayesTree::covariance(std::span<const int> variables) const {
+  const std::vector<int> path = ancestors_of(variables);
+  std::vector<Eigen::Index> row_of(nodes_.size(), -1);
+  Eigen::Index rows = 0;
+  for (const int v : path) {
+    row_of[static_cast<std::size_t>(v)] = rows;
+    rows += node(v).numbers;
+  }
+  Eigen::Index columns = 0;
+  for (const int v : variables) columns += node(v).numbers;
+  Rows y = Rows::Zero(rows, columns);
+  Eigen::Index column = 0;
+  for (const int v : variables) {
+    for (int i = 0; i < node(v).numbers; ++i) y(row_of[static_cast<std::size_t>(v)] + i, column++) = 1.0;
+  }
+  for (const int v : path) {
+    const Node& own = node(v);
+    const Eigen::Index at = row_of[static_cast<std::size_t>(v)];
+    for (Eigen::Index i = 0; i < own.numbers; ++i) {
+      for (Eigen::Index j = 0; j < i; ++j) y.row(at + i) -= own.density(j, i) * y.row(at + j);
+      y.row(at + i) /= own.density(i, i);
+    }
+    Eigen::Index from = own.numbers;
+    for (const int s : own.separator) {
+      const Eigen::Index above = row_of[static_cast<std::size_t>(s)];
+      for (Eigen::Index j = 0; j < node(s).numbers; ++j, ++from) {
+        for (Eigen::Index i = 0; i < own.numbers; ++i)
+          y.row(above + j) -= own.density(i, from) * y.row(at + i);
+      }
+    }
+  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(columns, columns);
+  covariance.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose());
+  return covariance.selfadjointView<Eigen::Lower>();
+}
+
+}  // namespace stereobench::slam

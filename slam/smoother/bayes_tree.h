@@ -1,0 +1,111 @@
+/// Sparse least squares that is solved anew at the cost of what changed: the Bayes tree.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace stereobench::slam {
+
+/// The linear least-squares problem of a factor graph, kept factored by QR (Kaess et al., iSAM2, IJRR 2012).
+///
+/// Each variable is a node that holds its density given its separator, the variables that are eliminated
+/// later and tied to it. A factor that is new or replaced concerns the nodes of its variables and all above
+/// them; those are eliminated anew in an order of their own (CCOLAMD), the trees below are hung on again.
+///
+/// Variables have one to three numbers, and factors concern one variable or two. Equal calls give equal
+/// bytes.
+class BayesTree {
+ public:
+  static constexpr int kMostNumbers = 3;
+  static constexpr int kNone = -1;
+
+  /// Rows of unit variance: by_first * first + by_second * second = target. Rows and columns beyond what is
+  /// used are not read.
+  struct Factor {
+    int first = kNone;   ///< a variable
+    int second = kNone;  ///< another one, or kNone
+    int rows = 0;
+    Eigen::Matrix3d by_first = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d by_second = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  };
+
+  /// @param guess its solution until something is known of it; the first `numbers` of it are read
+  /// @return the variable's index: they are counted from 0
+  int add_variable(int numbers, const Eigen::Vector3d& guess);
+
+  /// @return the factor's index: they are counted from 0
+  int add(const Factor& factor);
+
+  /// @param factor of the same variables as the one that it replaces
+  void replace(int index, const Factor& factor);
+
+  const Factor& factor(int index) const { return factors_[static_cast<std::size_t>(index)]; }
+
+  /// Factors what was added and replaced since the last call, and finds the solution.
+  ///
+  /// A variable that would change by less than 10^-4 of its conditional standard deviation stays as it is,
+  /// and so do those below it, until more has come together.
+  ///
+  /// @param last variables that the next factors will concern: they are eliminated last
+  /// @return the variables whose solution has changed
+  std::vector<int> solve(std::span<const int> last);
+
+  /// @return the solution of a variable; numbers that it does not have are 0
+  const Eigen::Vector3d& solution(int variable) const { return node(variable).solution; }
+
+  /// The joint covariance of variables at the solution, in their order. Exact for the linear problem, and
+  /// positive semidefinite by construction. Costs grow with the paths from them to the root.
+  ///
+  /// @param variables each once; none added since the last solve()
+  Eigen::MatrixXd covariance(std::span<const int> variables) const;
+
+  /// How many directions nothing was known of when they were eliminated; they stay at their solution.
+  long repairs() const { return repairs_; }
+
+ private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  struct Node {
+    int numbers = 0;
+    int rank = kNone;  ///< in the order of elimination; kNone before the first
+    int parent = kNone;
+    std::vector<int> children;
+    std::vector<int> separator;  ///< in the order of elimination as it was then
+    std::vector<int> factors;    ///< that entered here
+    Rows density;                ///< R, S, d: R x + S separator = d
+    Rows passed;                 ///< what is known of the separator from here and below, beside the target
+    Eigen::Vector3d solution = Eigen::Vector3d::Zero();
+  };
+
+  /// What is to be eliminated anew.
+  struct Top {
+    std::vector<int> variables;  ///< in the order of elimination once that is known
+    std::vector<int> factors;
+    std::vector<int> orphans;  ///< nodes whose parent is eliminated anew, but not they themselves
+  };
+
+  Node& node(int variable) { return nodes_[static_cast<std::size_t>(variable)]; }
+  const Node& node(int variable) const { return nodes_[static_cast<std::size_t>(variable)]; }
+  void touch(const Factor& factor);
+  Top take_off_top();
+  void order(Top& top, std::span<const int> last) const;
+  void eliminate(const Top& top);
+  void eliminate(int variable, std::span<const int> children);
+  Eigen::Index assemble(int variable, std::span<const int> children, Rows& rows);
+  bool solve_node(int variable);
+  std::vector<int> ancestors_of(std::span<const int> variables) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Factor> factors_;
+  std::vector<int> waiting_;  ///< factors that have not entered
+  std::vector<int> touched_;  ///< variables of factors that are new or replaced
+  int next_rank_ = 0;
+  long repairs_ = 0;
+  std::vector<Eigen::Index> column_;  ///< scratch, by variable
+};
+
+}  // namespace stereobench::slam

@@ -1,0 +1,234 @@
+#include "slam/smoother/path_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace stereobench::slam {
+namespace {
+
+/// Least distance of a factor's residual from what its slopes say, in standard deviations, for which it is
+/// linearised anew.
+constexpr double kCurved = 0.02;
+
+constexpr int kMostSteps = 20;  ///< in a frame; the next one goes on
+constexpr int kMostHalvings = 10;
+
+/// By how much a step may raise the cost: its rounding.
+constexpr double kRounding = 1e-9;
+constexpr double kLeastCost = 1e-6;
+
+Pose pose_of(const Eigen::Vector3d& value) {
+  return {value.x(), value.y(), value.z()};
+}
+
+bool is_finite(const BayesTree::Factor& factor) {
+  return factor.by_first.allFinite() && factor.by_second.allFinite() && factor.target.allFinite();
+}
+
+}  // namespace
+
+PathGraph::PathGraph(const Pose& start) : start_(start) {}
+
+int PathGraph::add_variable(int numbers, const Eigen::Vector3d& guess, double reach_m) {
+  variables_.push_back({guess, {}, reach_m, guess});
+  const int index = tree_.add_variable(numbers, guess);
+  late_.push_back(index);
+  return index;
+}
+
+void PathGraph::add_pose(const PoseBelief& motion, const Pose& guess) {
+  late_.clear();
+  const int from = pose_;
+  const double heading_rad = from == kStart ? start_.heading_rad : variable(from).value.z();
+  const double turned_rad = wrap_angle(guess.heading_rad - heading_rad);
+  pose_ = add_variable(3, {guess.x_m, guess.y_m, heading_rad + turned_rad}, 0.0);
+  motions_.push_back({from, pose_, MotionResidual(motion)});
+  add({true, motions_.size() - 1});
+}
+
+int PathGraph::add_landmark(const Eigen::Vector2d& guess) {
+  return add_variable(2, {guess.x(), guess.y(), 0.0}, std::numeric_limits<double>::infinity());
+}
+
+void PathGraph::add_sighting(int landmark, const Observation& observation) {
+  late_.push_back(landmark);
+  sightings_.push_back({pose_, landmark, SightingResidual(observation)});
+  add({false, sightings_.size() - 1});
+}
+
+void PathGraph::add(const FactorKind& kind) {
+  factors_.push_back(kind);
+  const std::size_t index = factors_.size() - 1;
+  const BayesTree::Factor rows = linearise(index).factor;
+  if (!is_finite(rows)) {
+    ++refused_;
+    factors_.pop_back();
+    return;
+  }
+  ++linearisations_;
+  tree_.add(rows);
+  variable(rows.first).factors.push_back(index);
+  if (rows.second == BayesTree::kNone) return;
+  Variable& other = variable(rows.second);
+  other.factors.push_back(index);
+  if (kind.is_motion) return;
+  // Its residual is off by the square of a shift over the range, in the units of its slopes.
+  const double range_m = (variable(rows.first).value - other.value).head<2>().norm();
+  other.reach_m = std::min(other.reach_m, std::sqrt(kCurved * range_m / rows.by_second.norm()));
+}
+
+PathGraph::Linear PathGraph::linearise(std::size_t factor) const {
+  Linear linear;
+  BayesTree::Factor& rows = linear.factor;
+  if (const auto [is_motion, index] = factors_[factor]; is_motion) {
+    const Motion& motion = motions_[index];
+    const bool starts = motion.from == kStart;
+    const Eigen::Vector3d& to = variable(motion.to).value;
+    const auto at = motion.residual.at(starts ? start_ : pose_of(variable(motion.from).value), pose_of(to));
+    linear.residual = at.residual;
+    rows.first = motion.to;
+    rows.rows = 3;
+    rows.by_first = at.by_to;
+    rows.target = at.by_to * to - at.residual;
+    if (starts) return linear;
+    rows.second = motion.from;
+    rows.by_second = at.by_from;
+    rows.target += at.by_from * variable(motion.from).value;
+  } else {
+    const Sighted& sighted = sightings_[index];
+    const Eigen::Vector3d& pose = variable(sighted.pose).value;
+    const Eigen::Vector2d place = landmark(sighted.landmark);
+    const auto at = sighted.residual.at(pose_of(pose), place);
+    linear.residual.head<2>() = at.residual;
+    rows.first = sighted.pose;
+    rows.second = sighted.landmark;
+    rows.rows = 2;
+    rows.by_first.topRows<2>() = at.by_pose;
+    rows.by_second.topLeftCorner<2, 2>() = at.by_landmark;
+    rows.target.head<2>() = at.by_pose * pose + at.by_landmark * place - at.residual;
+  }
+  return linear;
+}
+
+void PathGraph::solve() {
+  for (int i = 0; i < kMostSteps; ++i) {
+    const std::vector<int> changed = changed_variables();
+    if (changed.empty() || !step(changed)) return;
+  }
+}
+
+/// @return the variables whose values are not the tree's solution
+std::vector<int> PathGraph::changed_variables() {
+  std::vector<int> changed = tree_.solve(late_);
+  changed.insert(changed.end(), behind_.begin(), behind_.end());
+  behind_.clear();
+  std::ranges::sort(changed);
+  changed.erase(std::ranges::unique(changed).begin(), changed.end());
+  return changed;
+}
+
+/// @return the factors that a change to the tree's solution may bend, each once
+std::vector<std::size_t> PathGraph::concerned_by(std::span<const int> changed) const {
+  std::vector<std::size_t> concerned;
+  for (const int index : changed) {
+    const Variable& moved = variable(index);
+    if ((tree_.solution(index) - moved.looked_at).head<2>().norm() < moved.reach_m) continue;
+    concerned.insert(concerned.end(), moved.factors.begin(), moved.factors.end());
+  }
+  std::ranges::sort(concerned);
+  concerned.erase(std::ranges::unique(concerned).begin(), concerned.end());
+  return concerned;
+}
+
+PathGraph::Residuals PathGraph::residuals_of(std::span<const std::size_t> factors) const {
+  Residuals residuals;
+  residuals.reserve(factors.size());
+  for (const std::size_t factor : factors) residuals.push_back(linearise(factor).residual);
+  return residuals;
+}
+
+/// @return the squared length of all of them together
+double PathGraph::cost_of(const Residuals& residuals) {
+  double cost = 0.0;
+  for (const Eigen::Vector3d& residual : residuals) cost += residual.squaredNorm();
+  return cost;
+}
+
+/// @return those whose residuals at the present values are not what their slopes say
+std::vector<std::size_t> PathGraph::curved(std::span<const std::size_t> factors,
+                                           const Residuals& residuals) const {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const BayesTree::Factor& then = tree_.factor(static_cast<int>(factors[i]));
+    Eigen::Vector3d foreseen = then.by_first * variable(then.first).value - then.target;
+    if (then.second != BayesTree::kNone) foreseen += then.by_second * variable(then.second).value;
+    if ((foreseen - residuals[i]).norm() > kCurved) found.push_back(factors[i]);
+  }
+  return found;
+}
+
+void PathGraph::linearise_anew(std::span<const std::size_t> factors) {
+  for (const std::size_t factor : factors) {
+    const BayesTree::Factor rows = linearise(factor).factor;
+    if (!is_finite(rows)) continue;
+    tree_.replace(static_cast<int>(factor), rows);
+    ++linearisations_;
+  }
+}
+
+/// Takes the tree's solution, or what is on the way there and costs less, and linearises anew what is curved.
+///
+/// @return whether anything was
+bool PathGraph::step(std::span<const int> changed) {
+  const std::vector<std::size_t> concerned = concerned_by(changed);
+  std::vector<Eigen::Vector3d> before;
+  for (const int v : changed) before.push_back(variable(v).value);
+  const auto go = [&](double part) {
+    for (std::size_t i = 0; i < changed.size(); ++i)
+      variable(changed[i]).value = (1.0 - part) * before[i] + part * tree_.solution(changed[i]);
+    return residuals_of(concerned);
+  };
+  Residuals now = go(1.0);
+  std::vector<std::size_t> bent = curved(concerned, now);
+  const bool was_fresh = std::exchange(is_fresh_, false);
+  if (!bent.empty()) {  // else the cost is what the slopes say, and lower
+    const double limit = cost_of(go(0.0)) * (1.0 + kRounding) + kLeastCost;
+    if (!(cost_of(now) <= limit)) {
+      behind_.assign(changed.begin(), changed.end());
+      if (!was_fresh) {
+        linearise_anew(concerned);
+        is_fresh_ = true;
+        return true;
+      }
+    }
+    double part = 1.0;
+    now = go(part);
+    for (int i = 0; i < kMostHalvings && !(cost_of(now) <= limit); ++i) now = go(part *= 0.5);
+    bent = curved(concerned, now);
+  }
+  for (const int v : changed) {
+    Variable& moved = variable(v);
+    if (!((moved.value - moved.looked_at).head<2>().norm() < moved.reach_m)) moved.looked_at = moved.value;
+  }
+  linearise_anew(bent);
+  return !bent.empty();
+}
+
+Pose PathGraph::pose() const {
+  if (pose_ == kStart) return start_;
+  Pose pose = pose_of(variable(pose_).value);
+  pose.heading_rad = wrap_angle(pose.heading_rad);
+  return pose;
+}
+
+Eigen::MatrixXd PathGraph::covariance(std::span<const int> landmarks) const {
+  const auto size = 3 + 2 * static_cast<Eigen::Index>(landmarks.size());
+  if (pose_ == kStart) return Eigen::MatrixXd::Zero(size, size);
+  std::vector<int> variables{pose_};
+  variables.insert(variables.end(), landmarks.begin(), landmarks.end());
+  return tree_.covariance(variables);
+}
+
+}  // namespace stereobench::slam

@@ -1,0 +1,115 @@
+/// The most probable path and map, kept up to date frame by frame.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "slam/models/belief.h"
+#include "slam/reference/residuals.h"
+#include "slam/smoother/bayes_tree.h"
+
+namespace stereobench::slam {
+
+/// All poses at which something was seen and all landmarks, tied by motions and sightings: a factor graph,
+/// whose mode is followed by Gauss-Newton steps (iSAM2; Kaess et al., IJRR 2012).
+///
+/// A factor is linearised anew where its residual is off by more than kCurved standard deviations from what
+/// its slopes say. Where a step does not lower the cost, all that it concerns is linearised anew first, and
+/// the step is halved only then: old slopes can point uphill.
+class PathGraph {
+ public:
+  /// @param start world_from_robot, known exactly
+  explicit PathGraph(const Pose& start);
+
+  /// Adds the pose after a motion from the last one.
+  ///
+  /// @param motion in the robot's frame before it; the covariance may have any rank
+  /// @param guess where the search for it starts
+  void add_pose(const PoseBelief& motion, const Pose& guess);
+
+  /// @param guess where the search for it starts, m in the world
+  /// @return the landmark's variable
+  int add_landmark(const Eigen::Vector2d& guess);
+
+  /// @param landmark a landmark's variable, seen from the last pose
+  /// @param observation with the noise that is believed of it
+  void add_sighting(int landmark, const Observation& observation);
+
+  /// Goes to the mode of all that was added.
+  void solve();
+
+  /// @return the last pose, or the start
+  Pose pose() const;
+  Eigen::Vector2d landmark(int variable) const { return this->variable(variable).value.head<2>(); }
+
+  /// @param landmarks variables, each once
+  /// @return of the last pose (x, y, heading; zeros for the start) and landmarks, in their order
+  Eigen::MatrixXd covariance(std::span<const int> landmarks) const;
+
+  /// How many factors could not be used, and directions of which nothing was known.
+  long repairs() const { return refused_ + tree_.repairs(); }
+
+  /// How many factors were linearised, the first time included.
+  long linearisations() const { return linearisations_; }
+
+ private:
+  static constexpr int kStart = -1;
+
+  struct Motion {
+    int from;  ///< variable, or kStart
+    int to;
+    MotionResidual residual;
+  };
+  struct Sighted {
+    int pose;
+    int landmark;
+    SightingResidual residual;
+  };
+  struct FactorKind {
+    bool is_motion;
+    std::size_t index;  ///< among those of its kind
+  };
+  /// Residual and slopes of a factor at some values.
+  struct Linear {
+    Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+    BayesTree::Factor factor;
+  };
+  struct Variable {
+    Eigen::Vector3d value;             ///< a pose's heading is not wrapped
+    std::vector<std::size_t> factors;  ///< that concern it
+    double reach_m;                    ///< a landmark that moves less leaves its factors as good as linear
+    Eigen::Vector3d looked_at;         ///< where it was when its factors were last looked at
+  };
+
+  using Residuals = std::vector<Eigen::Vector3d>;
+
+  const Variable& variable(int index) const { return variables_[static_cast<std::size_t>(index)]; }
+  Variable& variable(int index) { return variables_[static_cast<std::size_t>(index)]; }
+  int add_variable(int numbers, const Eigen::Vector3d& guess, double reach_m);
+  void add(const FactorKind& kind);
+  Linear linearise(std::size_t factor) const;
+  Residuals residuals_of(std::span<const std::size_t> factors) const;
+  static double cost_of(const Residuals& residuals);
+  std::vector<std::size_t> curved(std::span<const std::size_t> factors, const Residuals& residuals) const;
+  void linearise_anew(std::span<const std::size_t> factors);
+  std::vector<int> changed_variables();
+  std::vector<std::size_t> concerned_by(std::span<const int> changed) const;
+  bool step(std::span<const int> changed);
+
+  Pose start_;
+  BayesTree tree_;
+  std::vector<Variable> variables_;
+  std::vector<Motion> motions_;
+  std::vector<Sighted> sightings_;
+  std::vector<FactorKind> factors_;  ///< by index in the tree
+  int pose_ = kStart;                ///< the last one
+  std::vector<int> late_;            ///< variables that the last frame concerned
+  std::vector<int> behind_;          ///< variables that are not at the tree's solution
+  bool is_fresh_ = false;            ///< whether all that the next step concerns was just linearised
+  long refused_ = 0;
+  long linearisations_ = 0;
+};
+
+}  // namespace stereobench::slam
