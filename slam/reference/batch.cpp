@@ -15,7 +15,7 @@
 #include "slam/models/measurement.h"
 #include "slam/models/motion.h"
 #include "slam/models/noise_law.h"
-#include "slam/reference/residuals.h"
+#include "slam/models/residuals.h"
 
 namespace stereobench::slam {
 namespace {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <suitesparse/ccolamd.h>
+#include "slam/smoother/elimination_order.h"
+#include "slam/smoother/householder.h"
 
 namespace stereobench::slam {
 namespace {
@@ -15,51 +16,14 @@ constexpr double kFollowed = 1e-4;
 /// What stands in for a direction of which nothing is known: one over its standard deviation, m or rad.
 constexpr double kUnknownWeight = 1e-6;
 
-/// Turns rows so that all but one of them are zero in a column; that one comes to stand at `pivot`.
-///
-/// @param pivot of the rows; those above stay as they are, and those that are zero in the column
-/// @return whether any was not zero
-template <class Matrix>
-bool reflect(Matrix& rows, Eigen::Index pivot, Eigen::Index column, std::vector<Eigen::Index>& concerned) {
-  concerned.clear();
-  double square = 0.0;
-  for (Eigen::Index i = pivot; i < rows.rows(); ++i) {
-    const double value = rows(i, column);
-    if (value == 0.0) continue;
-    concerned.push_back(i);
-    square += value * value;
-  }
-  if (concerned.empty()) return false;
-  if (concerned.front() != pivot) {
-    rows.row(pivot).swap(rows.row(concerned.front()));
-    concerned.front() = pivot;
-  }
-  if (concerned.size() == 1) return true;
-  // The reflection that takes the column to (-sign(head) length, 0, ...): 1 - v v' / (length |v_1|).
-  const double head = rows(pivot, column);
-  const double length = std::copysign(std::sqrt(square), head);
-  rows(pivot, column) = head + length;
-  const double scale = 1.0 / (length * (head + length));
-  const Eigen::Index rest = rows.cols() - column - 1;
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rest);
-  for (const Eigen::Index i : concerned) sum.noalias() += rows(i, column) * rows.row(i).tail(rest);
-  sum *= scale;
-  for (const Eigen::Index i : concerned) {
-    rows.row(i).tail(rest).noalias() -= rows(i, column) * sum;
-    rows(i, column) = 0.0;
-  }
-  rows(pivot, column) = -length;
-  return true;
-}
-
 }  // namespace
 
 int BayesTree::add_variable(int numbers, const Eigen::Vector3d& guess) {
   Node added;
   added.numbers = numbers;
-  added.solution.head(numbers) = guess.head(numbers);
+  added.held.head(numbers) = added.solution.head(numbers) = guess.head(numbers);
   nodes_.push_back(std::move(added));
-  column_.push_back(-1);
+  column_.push_back(kNotMet);
   const int variable = static_cast<int>(nodes_.size()) - 1;
   touched_.push_back(variable);
   return variable;
@@ -108,71 +72,48 @@ std::vector<int> BayesTree::solve(std::span<const int> last) {
 BayesTree::Top BayesTree::take_off_top() {
   Top top;
   top.factors = std::exchange(waiting_, {});
-  constexpr Eigen::Index kTaken = -2;
   for (const int touched : std::exchange(touched_, {})) {
-    for (int v = touched; v != kNone && column_[static_cast<std::size_t>(v)] != kTaken; v = node(v).parent) {
-      column_[static_cast<std::size_t>(v)] = kTaken;
+    for (int v = touched; v != kNone && column_of(v) != kTaken; v = node(v).parent) {
+      column_of(v) = kTaken;
       top.variables.push_back(v);
     }
   }
   for (const int v : top.variables) {
     Node& taken = node(v);
     for (const int child : taken.children)
-      if (column_[static_cast<std::size_t>(child)] != kTaken) top.orphans.push_back(child);
+      if (column_of(child) != kTaken) top.orphans.push_back(child);
     top.factors.insert(top.factors.end(), taken.factors.begin(), taken.factors.end());
     taken.factors.clear();
     taken.children.clear();
     taken.parent = kNone;
   }
-  for (const int v : top.variables) column_[static_cast<std::size_t>(v)] = -1;
+  for (const int v : top.variables) column_of(v) = kNotMet;
   std::ranges::sort(top.factors);  // the same sums, whichever way they came
   std::ranges::sort(top.orphans);
   return top;
 }
 
-/// Finds an order in which little fills in (CCOLAMD of Davis, Gilbert, Larimore and Ng, ACM TOMS 2004).
+/// @param last variables that come after all others
 void BayesTree::order(Top& top, std::span<const int> last) const {
   std::ranges::sort(top.variables);
   const auto index_of = [&top](int variable) {
     return static_cast<int>(std::ranges::lower_bound(top.variables, variable) - top.variables.begin());
   };
-  const auto columns = static_cast<int>(top.variables.size());
-  std::vector<std::vector<int>> rows_of(top.variables.size());
-  int rows = 0;
-  const auto add_row = [&](auto... variables) {
-    (rows_of[static_cast<std::size_t>(index_of(variables))].push_back(rows), ...);
-    ++rows;
-  };
+  std::vector<std::vector<int>> ties;
   for (const int f : top.factors) {
-    const Factor& factor = this->factor(f);
-    if (factor.second != kNone)
-      add_row(factor.first, factor.second);
-    else
-      add_row(factor.first);
+    ties.push_back({index_of(factor(f).first)});
+    if (factor(f).second != kNone) ties.back().push_back(index_of(factor(f).second));
   }
   for (const int orphan : top.orphans) {
-    for (const int v : node(orphan).separator) rows_of[static_cast<std::size_t>(index_of(v))].push_back(rows);
-    ++rows;
+    ties.emplace_back();
+    for (const int v : node(orphan).separator) ties.back().push_back(index_of(v));
   }
-  std::vector<int> starts{0};
-  std::vector<int> entries;
-  for (const auto& of_column : rows_of) {
-    entries.insert(entries.end(), of_column.begin(), of_column.end());
-    starts.push_back(static_cast<int>(entries.size()));
-  }
-  std::vector<int> late(top.variables.size(), 0);
-  for (const int v : last) {
-    const auto at = static_cast<std::size_t>(index_of(v));
-    if (at < late.size() && top.variables[at] == v) late[at] = 1;
-  }
-  entries.resize(ccolamd_recommended(static_cast<int>(entries.size()), rows, columns));
-  std::array<int, CCOLAMD_STATS> stats{};
-  if (ccolamd(rows, columns, static_cast<int>(entries.size()), entries.data(), starts.data(), nullptr,
-              stats.data(), late.data()) == 0)
-    return;  // any order is right
+  std::vector<int> is_late(top.variables.size(), 0);
+  for (const int v : last)
+    if (std::ranges::binary_search(top.variables, v)) is_late[static_cast<std::size_t>(index_of(v))] = 1;
   std::vector<int> ordered;
-  for (int i = 0; i < columns; ++i)
-    ordered.push_back(top.variables[static_cast<std::size_t>(starts[static_cast<std::size_t>(i)])]);
+  for (const int index : elimination_order(ties, is_late))
+    ordered.push_back(top.variables[static_cast<std::size_t>(index)]);
   top.variables = std::move(ordered);
 }
 
@@ -197,48 +138,48 @@ void BayesTree::eliminate(const Top& top) {
   }
 }
 
-/// Writes all that is known of a variable and of those tied to it into rows.
+/// Finds what a variable is tied to by the factors that enter with it and by what its children pass.
 ///
-/// @param rows receives them: the columns of the variable, of its separator, and the target
-/// @return how many columns the separator has
-Eigen::Index BayesTree::assemble(int variable, std::span<const int> children, Rows& rows) {
+/// @return how many rows these have together
+Eigen::Index BayesTree::find_separator(int variable, std::span<const int> children) {
   Node& own = node(variable);
   own.separator.clear();
-  Eigen::Index row_count = 0;
+  Eigen::Index rows = 0;
   const auto meet = [&](int other) {
-    if (other == kNone || other == variable || column_[static_cast<std::size_t>(other)] >= 0) return;
-    column_[static_cast<std::size_t>(other)] = 0;
+    if (other == kNone || other == variable || column_of(other) >= 0) return;
+    column_of(other) = 0;
     own.separator.push_back(other);
   };
   for (const int f : own.factors) {
     meet(factor(f).first);
     meet(factor(f).second);
-    row_count += factor(f).rows;
+    rows += factor(f).rows;
   }
   for (const int child : children) {
     for (const int s : node(child).separator) meet(s);
-    row_count += node(child).passed.rows();
+    rows += node(child).passed.rows();
   }
   std::ranges::sort(own.separator, {}, [this](int s) { return node(s).rank; });
+  return rows;
+}
+
+/// Writes all that is known of a variable and of its separator into rows.
+///
+/// @return its columns, those of the separator in their order, and the target
+BayesTree::Rows BayesTree::assemble(int variable, std::span<const int> children) {
+  const Eigen::Index row_count = find_separator(variable, children);
+  const Node& own = node(variable);
   Eigen::Index columns = own.numbers;
-  column_[static_cast<std::size_t>(variable)] = 0;
+  column_of(variable) = 0;
   for (const int s : own.separator) {
-    column_[static_cast<std::size_t>(s)] = columns;
+    column_of(s) = columns;
     columns += node(s).numbers;
   }
-  rows.setZero(row_count, columns + 1);
+  Rows rows = Rows::Zero(row_count, columns + 1);
   Eigen::Index row = 0;
   for (const int f : own.factors) {
-    const Factor& entering = factor(f);
-    const auto write = [&](int v, const Eigen::Matrix3d& by) {
-      if (v == kNone) return;
-      rows.block(row, column_[static_cast<std::size_t>(v)], entering.rows, node(v).numbers) =
-          by.topLeftCorner(entering.rows, node(v).numbers);
-    };
-    write(entering.first, entering.by_first);
-    write(entering.second, entering.by_second);
-    rows.block(row, columns, entering.rows, 1) = entering.target.head(entering.rows);
-    row += entering.rows;
+    write(factor(f), row, rows);
+    row += factor(f).rows;
   }
   for (const int child : children) {
     const Node& below = node(child);
@@ -246,22 +187,33 @@ Eigen::Index BayesTree::assemble(int variable, std::span<const int> children, Ro
     Eigen::Index from = 0;
     for (const int s : below.separator) {
       const int numbers = node(s).numbers;
-      rows.block(row, column_[static_cast<std::size_t>(s)], count, numbers) =
-          below.passed.middleCols(from, numbers);
+      rows.block(row, column_of(s), count, numbers) = below.passed.middleCols(from, numbers);
       from += numbers;
     }
     rows.block(row, columns, count, 1) = below.passed.rightCols<1>();
     row += count;
   }
-  column_[static_cast<std::size_t>(variable)] = -1;
-  for (const int s : own.separator) column_[static_cast<std::size_t>(s)] = -1;
-  return columns - own.numbers;
+  column_of(variable) = kNotMet;
+  for (const int s : own.separator) column_of(s) = kNotMet;
+  return rows;
+}
+
+/// @param row of the first of the factor's rows
+void BayesTree::write(const Factor& factor, Eigen::Index row, Rows& rows) {
+  const auto put = [&](int v, const Eigen::Matrix3d& by) {
+    if (v == kNone) return;
+    rows.block(row, column_of(v), factor.rows, node(v).numbers) =
+        by.topLeftCorner(factor.rows, node(v).numbers);
+  };
+  put(factor.first, factor.by_first);
+  put(factor.second, factor.by_second);
+  rows.rightCols<1>().segment(row, factor.rows) = factor.target.head(factor.rows);
 }
 
 void BayesTree::eliminate(int variable, std::span<const int> children) {
-  Rows rows;
-  const Eigen::Index separator_columns = assemble(variable, children, rows);
+  Rows rows = assemble(variable, children);
   Node& own = node(variable);
+  const Eigen::Index separator_columns = rows.cols() - 1 - own.numbers;
   std::vector<Eigen::Index> concerned;
   if (rows.rows() < own.numbers) rows.conservativeResizeLike(Rows::Zero(own.numbers, rows.cols()));
   for (Eigen::Index j = 0; j < own.numbers; ++j) {
@@ -272,7 +224,7 @@ void BayesTree::eliminate(int variable, std::span<const int> children) {
     rows.bottomRows<1>()(j) = 0.0;
     rows.row(j).setZero();
     rows(j, j) = kUnknownWeight;
-    rows(j, rows.cols() - 1) = kUnknownWeight * own.solution(j);
+    rows(j, rows.cols() - 1) = kUnknownWeight * own.held(j);
     ++repairs_;
   }
   own.density = rows.topRows(own.numbers);
@@ -308,6 +260,7 @@ bool BayesTree::solve_node(int variable) {
     for (Eigen::Index j = i + 1; j < n; ++j) rest -= own.density(i, j) * solution(j);
     solution(i) = rest / own.density(i, i);
   }
+  if (!solution.allFinite()) return false;
   if (!((own.density.topLeftCorner(n, n) * (solution - own.solution).head(n)).norm() > kFollowed))
     return false;
   own.solution = solution;

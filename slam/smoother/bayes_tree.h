@@ -33,7 +33,8 @@ class BayesTree {
     Eigen::Vector3d target = Eigen::Vector3d::Zero();
   };
 
-  /// @param guess its solution until something is known of it; the first `numbers` of it are read
+  /// @param guess its solution until something is known of it, and where it is held; the first `numbers` of
+  /// it are read
   /// @return the variable's index: they are counted from 0
   int add_variable(int numbers, const Eigen::Vector3d& guess);
 
@@ -42,6 +43,9 @@ class BayesTree {
 
   /// @param factor of the same variables as the one that it replaces
   void replace(int index, const Factor& factor);
+
+  /// Says where directions of a variable are held of which nothing is known.
+  void hold(int variable, const Eigen::Vector3d& at) { node(variable).held = at; }
 
   const Factor& factor(int index) const { return factors_[static_cast<std::size_t>(index)]; }
 
@@ -79,6 +83,7 @@ class BayesTree {
     Rows density;                ///< R, S, d: R x + S separator = d
     Rows passed;                 ///< what is known of the separator from here and below, beside the target
     Eigen::Vector3d solution = Eigen::Vector3d::Zero();
+    Eigen::Vector3d held = Eigen::Vector3d::Zero();
   };
 
   /// What is to be eliminated anew.
@@ -88,6 +93,11 @@ class BayesTree {
     std::vector<int> orphans;  ///< nodes whose parent is eliminated anew, but not they themselves
   };
 
+  // What column_ says of a variable besides its column.
+  static constexpr Eigen::Index kNotMet = -1;
+  static constexpr Eigen::Index kTaken = -2;
+  Eigen::Index& column_of(int variable) { return column_[static_cast<std::size_t>(variable)]; }
+
   Node& node(int variable) { return nodes_[static_cast<std::size_t>(variable)]; }
   const Node& node(int variable) const { return nodes_[static_cast<std::size_t>(variable)]; }
   void touch(const Factor& factor);
@@ -95,7 +105,9 @@ class BayesTree {
   void order(Top& top, std::span<const int> last) const;
   void eliminate(const Top& top);
   void eliminate(int variable, std::span<const int> children);
-  Eigen::Index assemble(int variable, std::span<const int> children, Rows& rows);
+  Eigen::Index find_separator(int variable, std::span<const int> children);
+  Rows assemble(int variable, std::span<const int> children);
+  void write(const Factor& factor, Eigen::Index row, Rows& rows);
   bool solve_node(int variable);
   std::vector<int> ancestors_of(std::span<const int> variables) const;
 

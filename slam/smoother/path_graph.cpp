@@ -187,7 +187,7 @@ bool PathGraph::step(std::span<const int> changed) {
   for (const int v : changed) before.push_back(variable(v).value);
   const auto go = [&](double part) {
     for (std::size_t i = 0; i < changed.size(); ++i)
-      variable(changed[i]).value = (1.0 - part) * before[i] + part * tree_.solution(changed[i]);
+      variable(changed[i]).value = before[i] + part * (tree_.solution(changed[i]) - before[i]);
     return residuals_of(concerned);
   };
   Residuals now = go(1.0);
@@ -206,10 +206,12 @@ bool PathGraph::step(std::span<const int> changed) {
     double part = 1.0;
     now = go(part);
     for (int i = 0; i < kMostHalvings && !(cost_of(now) <= limit); ++i) now = go(part *= 0.5);
+    if (!(cost_of(now) <= limit)) now = go(0.0);  // a later frame may know the way
     bent = curved(concerned, now);
   }
   for (const int v : changed) {
     Variable& moved = variable(v);
+    tree_.hold(v, moved.value);
     if (!((moved.value - moved.looked_at).head<2>().norm() < moved.reach_m)) moved.looked_at = moved.value;
   }
   linearise_anew(bent);

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "slam/models/belief.h"
-#include "slam/reference/residuals.h"
+#include "slam/models/residuals.h"
 #include "slam/smoother/bayes_tree.h"
 
 namespace stereobench::slam {

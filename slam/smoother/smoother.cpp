@@ -50,11 +50,11 @@ Smoother::Smoother(const FilterConfig& config, const Pose& start)
 
 void Smoother::update(std::span<const RangeBearing> sightings) {
   const std::vector<Sighting> frame = reader_.read(sightings);
+  if (frame.empty()) return reader_.use(frame);
   const PoseBelief motion = reader_.motion();
   const std::vector<std::size_t> near = may_be_seen(frame);
-  if (!frame.empty()) assume(near);
+  assume(near);
   reader_.use(frame);
-  if (frame.empty()) return;
 
   const PoseBelief drifted = after_drift(motion, graph_.pose(), reader_.drift());
   graph_.add_pose(with_slack(drifted, frame), reader_.belief().pose);

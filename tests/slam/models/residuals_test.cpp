@@ -1,4 +1,4 @@
-#include "slam/reference/residuals.h"
+#include "slam/models/residuals.h"
 
 #include <cmath>
 
