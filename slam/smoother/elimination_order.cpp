@@ -1,5 +1,6 @@
 #include "slam/smoother/elimination_order.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -22,6 +23,8 @@ std::vector<int> elimination_order(std::span<const std::vector<int>> ties, std::
   const auto columns = static_cast<int>(is_late.size());
   entries.resize(ccolamd_recommended(static_cast<int>(entries.size()), rows, columns));
   std::vector<int> late(is_late.begin(), is_late.end());
+  // Where all come last none does: CCOLAMD wants its sets numbered below the number of columns.
+  if (std::ranges::find(late, 0) == late.end()) std::ranges::fill(late, 0);
   std::array<int, CCOLAMD_STATS> stats{};
   const int found = ccolamd(rows, columns, static_cast<int>(entries.size()), entries.data(), starts.data(),
                             nullptr, stats.data(), late.data());
