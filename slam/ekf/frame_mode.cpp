@@ -183,7 +183,8 @@ std::optional<FrameMode> frame_mode(const JointBelief& before, const ChordBelief
     const bool stays = step == 0 ? is_linear(guess, guess_at(prior, seen, wanted)) : step == kMostSteps;
     const double cost = guess.cost;
     if (!stays) guess = improved(guess, wanted, prior, seen);
-    if (cost - guess.cost > kConverged * (1.0 + guess.cost)) continue;
+    // A prior that rounding made indefinite can cost less than nothing.
+    if (!stays && cost - guess.cost > kConverged * (1.0 + std::abs(guess.cost))) continue;
     FrameMode mode{prior.from(guess.shift), prior.chord(guess.shift), {}, squared_lengths_of(root, solved)};
     for (std::size_t i = 0; i < seen.size(); ++i) mode.landmarks.push_back(prior.landmark_of(i, guess.shift));
     return mode;
