@@ -230,16 +230,16 @@ Landmark EkfSlam::landmark(std::size_t j) const {
 Estimate EkfSlam::estimate() const {
   Estimate estimate = estimate_without_map();
   for (std::size_t j = 0; j < map_.size(); ++j) {
-    if (is_told(map_[j])) estimate.landmarks.push_back(told(map_[j], landmark(j).belief));
+    if (is_reported(map_[j])) estimate.landmarks.push_back(reported(map_[j], landmark(j).belief));
   }
   return estimate;
 }
 
-bool EkfSlam::is_told(const Mapped& landmark) {
+bool EkfSlam::is_reported(const Mapped& landmark) {
   return landmark.slot != kUnknown || Existence::is_believed(landmark.status.log_odds);
 }
 
-LandmarkEstimate EkfSlam::told(const Mapped& landmark, const LandmarkBelief& belief) const {
+LandmarkEstimate EkfSlam::reported(const Mapped& landmark, const LandmarkBelief& belief) const {
   const auto& [slot, status] = landmark;
   RangeBearing seen{.colour_class = status.colour_class};
   if (slot != kUnknown) seen = reader_.first_sighting(static_cast<std::size_t>(slot));

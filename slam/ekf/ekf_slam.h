@@ -63,9 +63,11 @@ class EkfSlam {
   /// @param landmark_of_slot by slot that was given out
   void assume(JointBelief belief, std::vector<Mapped> map, std::vector<int> landmark_of_slot);
 
-  /// @return whether a landmark is believed to be there, and told of
-  static bool is_told(const Mapped& landmark);
-  LandmarkEstimate told(const Mapped& landmark, const LandmarkBelief& belief) const;
+  /// @return whether a landmark is sure enough to be part of an estimate
+  static bool is_reported(const Mapped& landmark);
+
+  /// @return what an estimate says of it
+  LandmarkEstimate reported(const Mapped& landmark, const LandmarkBelief& belief) const;
 
   /// The rest of an update.
   void use(std::span<const Sighting> frame);
@@ -75,7 +77,7 @@ class EkfSlam {
   const std::vector<Mapped>& map() const { return map_; }  ///< in the order of belief().landmarks
   std::span<const Decision> decided() const { return decided_; }  ///< by sighting of the last frame
 
-  /// What the last frame added to the covariance of the pose before its motion, since it had drifted.
+  /// What the last frame added to the covariance of the pose (x, y, heading), since it had drifted.
   const Eigen::Matrix3d& drift() const { return drift_; }
 
  private:

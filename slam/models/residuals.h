@@ -15,8 +15,8 @@ inline constexpr double kLeast_rad = 1e-7;
 ///
 /// Motions are compared along and across the direction half way of the turn. There a single control moves
 /// along and turns, and whatever its errors are, never moves across: its noise has rank two. What it leaves
-/// out is given a hundredth of the step's own deviation, 10^-4 of its variance. That is less than a log can
-/// tell, and enough for a search to move in all directions.
+/// out is given kAcrossShare of the step's own deviation (chord.h). That is less than a log can tell, and
+/// enough for a search to move in all directions.
 class MotionResidual {
  public:
   struct Value {

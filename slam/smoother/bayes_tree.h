@@ -1,7 +1,6 @@
 /// Sparse least squares that is solved anew at the cost of what changed: the Bayes tree.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -19,7 +18,6 @@ namespace stereobench::slam {
 /// bytes.
 class BayesTree {
  public:
-  static constexpr int kMostNumbers = 3;
   static constexpr int kNone = -1;
 
   /// Rows of unit variance: by_first * first + by_second * second = target. Rows and columns beyond what is
@@ -67,7 +65,7 @@ class BayesTree {
   /// @param variables each once; none added since the last solve()
   Eigen::MatrixXd covariance(std::span<const int> variables) const;
 
-  /// How many directions nothing was known of when they were eliminated; they stay at their solution.
+  /// How many directions nothing was known of when they were eliminated; they stay where they are held.
   long repairs() const { return repairs_; }
 
  private:
@@ -83,7 +81,7 @@ class BayesTree {
     Rows density;                ///< R, S, d: R x + S separator = d
     Rows passed;                 ///< what is known of the separator from here and below, beside the target
     Eigen::Vector3d solution = Eigen::Vector3d::Zero();
-    Eigen::Vector3d held = Eigen::Vector3d::Zero();
+    Eigen::Vector3d held = Eigen::Vector3d::Zero();  ///< where nothing else is known
   };
 
   /// What is to be eliminated anew.

@@ -67,7 +67,6 @@ void PathGraph::add(const FactorKind& kind) {
     factors_.pop_back();
     return;
   }
-  ++linearisations_;
   tree_.add(rows);
   variable(rows.first).factors.push_back(index);
   if (rows.second == BayesTree::kNone) return;
@@ -113,6 +112,7 @@ PathGraph::Linear PathGraph::linearise(std::size_t factor) const {
 }
 
 void PathGraph::solve() {
+  is_fresh_ = false;
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<int> changed = changed_variables();
     if (changed.empty() || !step(changed)) return;
@@ -172,10 +172,26 @@ std::vector<std::size_t> PathGraph::curved(std::span<const std::size_t> factors,
 void PathGraph::linearise_anew(std::span<const std::size_t> factors) {
   for (const std::size_t factor : factors) {
     const BayesTree::Factor rows = linearise(factor).factor;
-    if (!is_finite(rows)) continue;
-    tree_.replace(static_cast<int>(factor), rows);
-    ++linearisations_;
+    if (is_finite(rows)) tree_.replace(static_cast<int>(factor), rows);
   }
+}
+
+/// Goes half of the way, or a quarter and so on, until that costs no more than the limit; else nowhere: a
+/// later frame may know the way.
+///
+/// @param go (double part) moves the values
+/// @return the factors that are curved there
+template <class Go>
+std::vector<std::size_t> PathGraph::go_part_of_the_way(const Go& go, std::span<const std::size_t> concerned,
+                                                       double limit) {
+  double part = 1.0;
+  for (int i = 0; i < kMostHalvings; ++i) {
+    go(part *= 0.5);
+    const Residuals there = residuals_of(concerned);
+    if (cost_of(there) <= limit) return curved(concerned, there);
+  }
+  go(0.0);
+  return curved(concerned, residuals_of(concerned));
 }
 
 /// Takes the tree's solution, or what is on the way there and costs less, and linearises anew what is curved.
@@ -188,26 +204,25 @@ bool PathGraph::step(std::span<const int> changed) {
   const auto go = [&](double part) {
     for (std::size_t i = 0; i < changed.size(); ++i)
       variable(changed[i]).value = before[i] + part * (tree_.solution(changed[i]) - before[i]);
-    return residuals_of(concerned);
   };
-  Residuals now = go(1.0);
-  std::vector<std::size_t> bent = curved(concerned, now);
+  go(1.0);
+  const Residuals all_the_way = residuals_of(concerned);
+  std::vector<std::size_t> bent = curved(concerned, all_the_way);
   const bool was_fresh = std::exchange(is_fresh_, false);
   if (!bent.empty()) {  // else the cost is what the slopes say, and lower
-    const double limit = cost_of(go(0.0)) * (1.0 + kRounding) + kLeastCost;
-    if (!(cost_of(now) <= limit)) {
+    go(0.0);
+    const double limit = cost_of(residuals_of(concerned)) * (1.0 + kRounding) + kLeastCost;
+    if (cost_of(all_the_way) <= limit) {
+      go(1.0);
+    } else {
       behind_.assign(changed.begin(), changed.end());
       if (!was_fresh) {
         linearise_anew(concerned);
         is_fresh_ = true;
         return true;
       }
+      bent = go_part_of_the_way(go, concerned, limit);
     }
-    double part = 1.0;
-    now = go(part);
-    for (int i = 0; i < kMostHalvings && !(cost_of(now) <= limit); ++i) now = go(part *= 0.5);
-    if (!(cost_of(now) <= limit)) now = go(0.0);  // a later frame may know the way
-    bent = curved(concerned, now);
   }
   for (const int v : changed) {
     Variable& moved = variable(v);

@@ -51,9 +51,6 @@ class PathGraph {
   /// How many factors could not be used, and directions of which nothing was known.
   long repairs() const { return refused_ + tree_.repairs(); }
 
-  /// How many factors were linearised, the first time included.
-  long linearisations() const { return linearisations_; }
-
  private:
   static constexpr int kStart = -1;
 
@@ -96,6 +93,9 @@ class PathGraph {
   void linearise_anew(std::span<const std::size_t> factors);
   std::vector<int> changed_variables();
   std::vector<std::size_t> concerned_by(std::span<const int> changed) const;
+  template <class Go>
+  std::vector<std::size_t> go_part_of_the_way(const Go& go, std::span<const std::size_t> concerned,
+                                              double limit);
   bool step(std::span<const int> changed);
 
   Pose start_;
@@ -107,9 +107,8 @@ class PathGraph {
   int pose_ = kStart;                ///< the last one
   std::vector<int> late_;            ///< variables that the last frame concerned
   std::vector<int> behind_;          ///< variables that are not at the tree's solution
-  bool is_fresh_ = false;            ///< whether all that the next step concerns was just linearised
+  bool is_fresh_ = false;            ///< whether what the last step concerned was linearised where it stands
   long refused_ = 0;
-  long linearisations_ = 0;
 };
 
 }  // namespace stereobench::slam

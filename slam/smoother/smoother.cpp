@@ -14,9 +14,11 @@ namespace {
 /// By how much a pose may turn out to be elsewhere than predicted, in standard deviations.
 constexpr double kFar = 4.0;
 
-/// A motion gets room across its chord: this share of what a frame's ranges alone leave of a place, which is
-/// too little to be told, but no more than that share of its own uncertainty.
+/// Room that a motion gets in all directions, as a standard deviation: a share of what the ranges of a frame
+/// alone leave of a place, which is too little to be told (lab book, incremental smoothing).
 constexpr double kShareOfFrame = 0.03;
+
+/// Most of it, of the motion's own standard deviation: exact odometry stays exact.
 constexpr double kShareOfMotion = 0.1;
 
 /// A motion whose start has drifted.
@@ -27,7 +29,7 @@ PoseBelief after_drift(const PoseBelief& motion, const Pose& start, const Eigen:
   return follow(in_its_frame, motion);
 }
 
-/// A motion with room for a search: along a stiff curve its steps would be short.
+/// A motion with room for a search. Where it is known not to leave a curve, steps along the curve are short.
 ///
 /// @param frame at its end
 PoseBelief with_slack(PoseBelief motion, std::span<const Sighting> frame) {
@@ -165,11 +167,11 @@ Estimate Smoother::estimate_without_map() const {
 Estimate Smoother::estimate() const {
   Estimate estimate = estimate_without_map();
   for (const Mapped& landmark : map_) {
-    if (!EkfSlam::is_told(landmark.kept)) continue;
+    if (!EkfSlam::is_reported(landmark.kept)) continue;
     const std::vector<int> variables{landmark.variable};
     const Eigen::Matrix2d covariance = graph_.covariance(variables).bottomRightCorner<2, 2>();
     estimate.landmarks.push_back(
-        reader_.told(landmark.kept, {graph_.landmark(landmark.variable), covariance}));
+        reader_.reported(landmark.kept, {graph_.landmark(landmark.variable), covariance}));
   }
   return estimate;
 }

@@ -59,6 +59,7 @@ struct Drive {
   double bearing_sd_rad = 0.02;
   double max_range_m = 12.0;
   OdometryNoise odometry_noise{0.05, 0.0, 0.0, 0.02, 0.0, 0.0};
+  bool looks_at_start = false;
 
   std::vector<Control> controls() const {
     std::vector<Control> list;
@@ -105,18 +106,22 @@ struct DriveScore {
   Estimate last;
 };
 
-inline DriveScore drive(Filter filter, const Drive& world, std::uint64_t seed) {
+// @param visit (const Estimate& without map, const Pose& truth) after each step
+template <class Visit>
+DriveScore drive(Filter filter, const Drive& world, std::uint64_t seed, const Visit& visit) {
   RandomStream odometry(seed, Stream::kOdometry);
   RandomStream sensor(seed, Stream::kOracle);
   Pose truth;
   DriveScore score;
   const std::vector<Control> controls = world.controls();
+  if (world.looks_at_start) update(filter, world.look(truth, sensor));
   for (const Control& control : controls) {
     truth = advance(truth, control);
     predict(filter, perturb(control, world.odometry_noise, odometry));
     update(filter, world.look(truth, sensor));
-    const Pose pose = estimate_without_map(filter).pose;
-    score.rms_m += std::pow(pose.x_m - truth.x_m, 2) + std::pow(pose.y_m - truth.y_m, 2);
+    const Estimate now = estimate_without_map(filter);
+    score.rms_m += std::pow(now.pose.x_m - truth.x_m, 2) + std::pow(now.pose.y_m - truth.y_m, 2);
+    visit(now, truth);
   }
   score.rms_m = std::sqrt(score.rms_m / static_cast<double>(controls.size()));
   score.last = estimate(filter);
@@ -128,6 +133,22 @@ inline DriveScore drive(Filter filter, const Drive& world, std::uint64_t seed) {
   score.map_rms_m =
       std::sqrt(score.map_rms_m / std::fmax(1.0, static_cast<double>(score.last.landmarks.size())));
   return score;
+}
+
+inline DriveScore drive(Filter filter, const Drive& world, std::uint64_t seed) {
+  return drive(std::move(filter), world, seed, [](const Estimate&, const Pose&) {});
+}
+
+// Two laps of a room where bearings are off by 14 degrees.
+inline Drive drive_with_poor_bearings() {
+  Drive world;
+  world.side_m = 12.0;
+  world.laps = 2;
+  world.max_range_m = 30.0;
+  world.range_sd_m = 0.3;
+  world.bearing_sd_rad = 0.25;
+  world.odometry_noise = {0.3, 0.0, 0.0, 0.05, 0.0, 0.0};
+  return world;
 }
 
 }  // namespace stereobench::slam

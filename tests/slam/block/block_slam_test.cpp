@@ -151,13 +151,7 @@ TEST(BlockSlam, IsAnEkfWhileNothingIsDrawn) {
 // One particle that draws nothing is the joint Gaussian of its model; 20 seeds.
 // Mutation: S without what is off the line (0.83 of the linearised error).
 TEST(BlockSlam, NeedsSigmaPointsWhereBearingsArePoor) {
-  Drive world;
-  world.side_m = 12.0;
-  world.laps = 2;
-  world.max_range_m = 30.0;
-  world.range_sd_m = 0.3;
-  world.bearing_sd_rad = 0.25;
-  world.odometry_noise = {0.3, 0.0, 0.0, 0.05, 0.0, 0.0};
+  const Drive world = drive_with_poor_bearings();
   double linearised = 0.0, unscented = 0.0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const FilterConfig config = drawing_every(1000, 1, world);

@@ -207,7 +207,6 @@ TEST(BayesTree, CostsWhatAStepChanges) {
   EXPECT_LE(changed, 10U);
 }
 
-// Mutation: the row that holds it takes the place of one that is tied to others.
 TEST(BayesTree, HoldsWhatNothingIsKnownOf) {
   BayesTree tree;
   const int pose = tree.add_variable(3, {1.0, 2.0, 3.0});
@@ -225,6 +224,35 @@ TEST(BayesTree, HoldsWhatNothingIsKnownOf) {
   EXPECT_TRUE(tree.solution(landmark).isApprox(Eigen::Vector3d(4.0, 5.0, 0.0), 1e-9));
   EXPECT_EQ(tree.repairs(), 4);
   EXPECT_TRUE(tree.covariance(std::vector<int>{pose, landmark}).allFinite());
+}
+
+// A landmark whose x alone two poses see: once x is eliminated, what is left says where the poses are to each
+// other. Mutation: the row that holds the landmark's y takes the place of that.
+TEST(BayesTree, KeepsWhatIsKnownOfOthersWhereItHoldsAVariable) {
+  BayesTree tree;
+  const int known = tree.add_variable(1, {1.0, 0.0, 0.0});
+  const int landmark = tree.add_variable(2, {4.0, 5.0, 0.0});
+  const int other = tree.add_variable(1, {0.0, 0.0, 0.0});
+  Factor prior;
+  prior.first = known;
+  prior.rows = 1;
+  prior.by_first(0, 0) = 100.0;
+  prior.target.x() = 100.0;
+  tree.add(prior);
+  for (const auto& [pose, distance_m] : {std::pair(known, 3.0), std::pair(other, 2.0)}) {
+    Factor range;
+    range.first = pose;
+    range.second = landmark;
+    range.rows = 1;
+    range.by_first(0, 0) = -100.0;
+    range.by_second(0, 0) = 100.0;
+    range.target.x() = 100.0 * distance_m;
+    tree.add(range);
+  }
+  tree.solve(std::vector<int>{other});
+  EXPECT_NEAR(tree.solution(other).x(), 2.0, 1e-9);
+  EXPECT_NEAR(tree.solution(landmark).x(), 4.0, 1e-9);
+  EXPECT_NEAR(tree.solution(landmark).y(), 5.0, 1e-9);
 }
 
 }  // namespace
