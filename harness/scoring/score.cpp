@@ -56,7 +56,7 @@ struct Metric {
   double (*of)(const FilterScore&);
 };
 
-constexpr std::array<Metric, 11> kMetrics = {{
+constexpr auto kMetrics = std::to_array<Metric>({
     {&FilterSummary::ate_aligned_rms_m, [](const FilterScore& s) { return s.trajectory.ate_aligned_rms_m; }},
     {&FilterSummary::ate_rms_m, [](const FilterScore& s) { return s.trajectory.ate_rms_m; }},
     {&FilterSummary::ate_max_m, [](const FilterScore& s) { return s.trajectory.ate_max_m; }},
@@ -70,8 +70,13 @@ constexpr std::array<Metric, 11> kMetrics = {{
     {&FilterSummary::landmark_path_aligned_rms_m,
      [](const FilterScore& s) { return s.map_path_aligned.rms_m; }},
     {&FilterSummary::anees, mean_normalised_error},
-}};
-constexpr std::size_t kAligned = 0;  // the index of the metric that has a median too
+});
+
+/// @return its index in kMetrics
+constexpr std::size_t index_of(Summary FilterSummary::*metric) {
+  const auto* const row = std::ranges::find(kMetrics, metric, &Metric::summary);
+  return static_cast<std::size_t>(row - kMetrics.begin());
+}
 
 /// How many estimates have the identity of a true landmark.
 long count_named(std::span<const slam::LandmarkEstimate> map, std::span<const LandmarkTruth> truth) {
@@ -155,9 +160,10 @@ FilterSummary FilterTally::summary(int particles, Seeds seeds) const {
   const std::vector<std::vector<double>> metrics =
       metrics_.empty() ? std::vector<std::vector<double>>(kMetrics.size()) : metrics_;
   for (std::size_t i = 0; i < kMetrics.size(); ++i) summary.*kMetrics[i].summary = summarise(metrics[i]);
-  summary.ate_aligned_median_m = median(metrics[kAligned]);
+  const std::vector<double>& aligned_m = metrics[index_of(&FilterSummary::ate_aligned_rms_m)];
+  summary.ate_aligned_median_m = median(aligned_m);
   summary.nees_by_step = nees_by_step_;
-  for (SquaredSum& sum : summary.nees_by_step) sum = worth(sum, seeds, metrics[kAligned].size());
+  for (SquaredSum& sum : summary.nees_by_step) sum = worth(sum, seeds, aligned_m.size());
   summary.nees = judge_steps(summary.nees_by_step);
   summary.consistency = consistency_.summary(seeds);
   return summary;

@@ -1,17 +1,19 @@
 /// Summaries over seeds and how far a mean can be trusted.
 #pragma once
 
+#include <limits>
 #include <span>
 
 namespace stereobench::harness {
 
-/// A metric over several seeds.
+/// A metric over several seeds. NaN where there is no value.
 struct Summary {
-  double mean = 0.0;  ///< NaN when there is no value
-  double sd = 0.0;    ///< with n - 1; 0 for a single value
-  double max = 0.0;
-  double half_width = 0.0;  ///< of the 95 % interval of the mean (Student t); +inf for a single value
-  long count = 0;           ///< values that were finite; the others are left out
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double sd = std::numeric_limits<double>::quiet_NaN();  ///< with n - 1; 0 for a single value
+  double max = std::numeric_limits<double>::quiet_NaN();
+  /// Of the 95 % interval of the mean (Student t); +inf for a single value.
+  double half_width = std::numeric_limits<double>::quiet_NaN();
+  long count = 0;  ///< values that were finite; the others are left out
 };
 
 /// Mean, spread, largest value and 95 % interval of the finite ones among some values.

@@ -23,7 +23,7 @@ static_assert(!FilterType<Pose>);
 
 // Red when Filter's predict does not reach the filter it holds.
 TEST(FilterValue, HoldsAFilterThatSlamHasNeverHeardOf) {
-  Filter filter = ExampleFilter({1.0, 2.0, 0.0});
+  Filter filter = ExampleFilter({}, {1.0, 2.0, 0.0});
   predict(filter, kAhead);
   predict(filter, kAhead);
   update(filter, {});
@@ -34,14 +34,17 @@ TEST(FilterValue, HoldsAFilterThatSlamHasNeverHeardOf) {
   EXPECT_TRUE(last_update(filter).innovations.empty());
 }
 
-// What the page shows keeps what slam/filter.h asks of every filter.
-TEST(FilterValue, TheExampleCountsInputsThatAreNotFinite) {
+// What the page shows keeps what is asked of every filter.
+TEST(FilterValue, TheExampleCountsInputsThatAreNotFiniteAndIsUncertain) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Filter filter = ExampleFilter({1.0, 2.0, 0.0});
+  Filter filter = ExampleFilter({.odometry_noise = {0.1, 0.0, 0.0, 0.1, 0.0, 0.0}}, {1.0, 2.0, 0.0});
   predict(filter, {nan, 0.0, 0.5});
   update(filter, std::vector<RangeBearing>{{.range_m = nan}});
   EXPECT_EQ(estimate(filter).counters.rejected_inputs, 2);
   EXPECT_EQ(estimate(filter).pose.x_m, 1.0);
+  for (int i = 0; i < 2; ++i) predict(filter, {1.0, 3.0, 0.5});
+  EXPECT_EQ(estimate(filter).pose.x_m, 2.0);
+  EXPECT_GT(estimate(filter).covariance.diagonal().minCoeff(), 0.0);
 }
 
 class Registry : public ::testing::TestWithParam<std::string> {};

@@ -6,7 +6,7 @@
 
 #include "slam/fastslam/predictive_mixture.h"
 #include "tests/slam/checks.h"
-#include "tests/slam/named_filters.h"
+#include "tests/slam/tested_filters.h"
 
 namespace stereobench::slam {
 namespace {
@@ -29,14 +29,14 @@ FilterConfig reporting(const Drive& world, int particles) {
   return config;
 }
 
-template <class Name>
-class Reports : public ::testing::Test {
+/// Filters that report each sighting by itself.
+class Reports : public ::testing::TestWithParam<TestedFilter> {
  protected:
   // Drives a lap and hands each update's report over.
   template <class Take>
-  static Estimate drive(const Drive& world, const FilterConfig& config, std::uint64_t seed, const Take& take,
-                        double claimed_variance = 1.0) {
-    Filter filter = make_filter(Name::kName, in_blocks_of<Name>(config), {}, seed);
+  Estimate drive(const Drive& world, const FilterConfig& config, std::uint64_t seed, const Take& take,
+                 double claimed_variance = 1.0) const {
+    Filter filter = GetParam().make(config, {}, seed);
     RandomStream odometry(seed, Stream::kOdometry);
     RandomStream sensor(seed, Stream::kOracle);
     Pose truth;
@@ -57,7 +57,7 @@ class Reports : public ::testing::Test {
     double mean() const { return sum / (2.0 * count); }
     double standard_error() const { return 1.0 / std::sqrt(count); }  // of chi-square(2) / 2
   };
-  static Lengths lengths(const Drive& world, int particles, std::uint64_t seed, double claimed_variance) {
+  Lengths lengths(const Drive& world, int particles, std::uint64_t seed, double claimed_variance) const {
     Lengths all;
     drive(
         world, reporting(world, particles), seed,
@@ -71,20 +71,21 @@ class Reports : public ::testing::Test {
     return all;
   }
 };
-using ReportingNames = ::testing::Types<EkfName, IteratedEkfName, SmootherName, FastSlam1Name, FastSlam2Name,
-                                        UFastSlamName, FastSlam2BlockName, UFastSlamBlockName,
-                                        InShortBlocks<FastSlam2BlockName>, InShortBlocks<UFastSlamBlockName>>;
-TYPED_TEST_SUITE(Reports, ReportingNames);
+INSTANTIATE_TEST_SUITE_P(Filters, Reports,
+                         ::testing::ValuesIn(tested_filters({"ekf", "iekf", "smoother", "fastslam1",
+                                                             "fastslam2", "ufastslam", "fastslam2_block",
+                                                             "ufastslam_block"})),
+                         ::testing::PrintToStringParamName());
 
 // A report draws nothing and repairs nothing that counts.
-TYPED_TEST(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {
+TEST_P(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {
   const Drive world;
   FilterConfig config = reporting(world, 20);
   const auto nothing = [](const auto&, const UpdateReport&) {};
-  const Estimate with = this->drive(world, config, 3, nothing);
+  const Estimate with = drive(world, config, 3, nothing);
   config.report_updates = false;
   std::size_t reported = 0;
-  const Estimate without = this->drive(world, config, 3, [&](const auto&, const UpdateReport& report) {
+  const Estimate without = drive(world, config, 3, [&](const auto&, const UpdateReport& report) {
     reported += report.innovations.size() + report.ancestors.size();
   });
   EXPECT_EQ(reported, 0u);
@@ -96,9 +97,9 @@ TYPED_TEST(Reports, ChangeNothingAndAreEmptyUnlessAskedFor) {
 
 // Each sighting of a landmark that was in the map, once, by its index; impossible ones in between and
 // landmarks that are new have none. Mutation: the index within the frame that the filter reads.
-TYPED_TEST(Reports, NameEachSightingOfAKnownLandmarkOnce) {
+TEST_P(Reports, NameEachSightingOfAKnownLandmarkOnce) {
   Drive world = precise_lap();
-  Filter filter = make_filter(TypeParam::kName, reporting(world, 5), {}, 1);
+  Filter filter = GetParam().make(reporting(world, 5), {}, 1);
   RandomStream sensor(1, Stream::kOracle);
   std::vector<RangeBearing> frame = world.look({}, sensor);
   ASSERT_GE(frame.size(), 3u);
@@ -123,10 +124,10 @@ TYPED_TEST(Reports, NameEachSightingOfAKnownLandmarkOnce) {
 
 // Where all is linear a filter is right, and its squared lengths have a mean of 2. Twenty laps of about 500
 // sightings: five standard errors.
-TYPED_TEST(Reports, SquaredLengthsAreChiSquareWhenTheFilterIsRight) {
-  typename TestFixture::Lengths all;
+TEST_P(Reports, SquaredLengthsAreChiSquareWhenTheFilterIsRight) {
+  Lengths all;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const auto run = this->lengths(precise_lap(), 200, seed, 1.0);
+    const auto run = lengths(precise_lap(), 200, seed, 1.0);
     all.sum += run.sum;
     all.count += run.count;
   }
@@ -134,16 +135,16 @@ TYPED_TEST(Reports, SquaredLengthsAreChiSquareWhenTheFilterIsRight) {
 }
 
 // What is claimed is half of the variance: one run tells, with any filter.
-TYPED_TEST(Reports, OneRunTellsThatTheNoiseIsTwiceWhatIsClaimed) {
-  const auto run = this->lengths(precise_lap(), 200, 7, 0.5);
+TEST_P(Reports, OneRunTellsThatTheNoiseIsTwiceWhatIsClaimed) {
+  const auto run = lengths(precise_lap(), 200, 7, 0.5);
   EXPECT_GT(run.mean(), 1.0 + 5.0 * run.standard_error());
 }
 
 // A sighting that is off by a metre is refused, has a squared length beyond the gate, and is reported among
 // the others. Mutation: leaving refused ones out.
-TYPED_TEST(Reports, TellRefusedSightingsApart) {
+TEST_P(Reports, TellRefusedSightingsApart) {
   const Drive world = precise_lap();
-  Filter filter = make_filter(TypeParam::kName, reporting(world, 5), {}, 1);
+  Filter filter = GetParam().make(reporting(world, 5), {}, 1);
   RandomStream sensor(1, Stream::kOracle);
   for (int i = 0; i < 3; ++i) update(filter, world.look({}, sensor));
   std::vector<RangeBearing> frame = world.look({}, sensor);
@@ -159,13 +160,13 @@ TYPED_TEST(Reports, TellRefusedSightingsApart) {
 
 // The squared lengths of a frame, each given those before it, add up to that of the frame as a whole, S of
 // all sightings at once. Mutation: S smaller by a tenth.
-TYPED_TEST(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
+TEST_P(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
   const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {5.0, 4.0}};
   const double sd = 1e-4;
   FilterConfig config{.particles = 1, .odometry_noise = {1e-3, 0.0, 0.0, 1e-3, 0.0, 0.0}};
   config.range_floor_m = config.bearing_floor_rad = 0.0;
   config.report_updates = true;
-  Filter filter = make_filter(TypeParam::kName, config, {}, 1);
+  Filter filter = GetParam().make(config, {}, 1);
   std::vector<RangeBearing> frame;
   for (std::size_t i = 0; i < places.size(); ++i) {
     frame.push_back(sighting(predict_sighting({}, places[i]), sd, sd));
@@ -174,7 +175,7 @@ TYPED_TEST(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
   update(filter, frame);  // found from a pose that is known: each landmark is as uncertain as its sighting
   const Control turn{0.0, 0.3, 1.0};
   predict(filter, turn);
-  if (TypeParam::kName == std::string("fastslam1")) return;  // its only particle has drawn the turn
+  if (GetParam().name == "fastslam1") return;  // its only particle has drawn the turn
   const Pose now = advance({}, turn);
   Eigen::Matrix<double, 6, 6> s = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 3> by_pose;
@@ -200,40 +201,39 @@ TYPED_TEST(Reports, SquaredLengthsOfAFrameAddUpToThatOfTheWhole) {
 
 // FastSLAM 1.0 knows its way by what it has drawn, and expects sightings from there: another draw, another
 // expectation. The others have drawn nothing yet. Mutation: what the drawing was not yet known to.
-TYPED_TEST(Reports, ExpectationsAreThoseOfThePosesDrawn) {
+TEST_P(Reports, ExpectationsAreThoseOfThePosesDrawn) {
   FilterConfig config{.particles = 1, .odometry_noise = {1e-3, 0.0, 0.0, 1e-3, 0.0, 0.0}};
   config.report_updates = true;
   RangeBearing seen = sighting({3.0, 0.2}, 1e-3, 1e-3);
   seen.landmark_id = 1;
   std::vector<double> lengths;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    Filter filter = make_filter(TypeParam::kName, config, {}, seed);
+    Filter filter = GetParam().make(config, {}, seed);
     update(filter, std::vector{seen});
     predict(filter, {0.0, 0.0, 1.0});
     update(filter, std::vector{seen});
     lengths.push_back(last_update(filter).innovations.at(0).squared_length);
   }
   const auto [least, greatest] = std::minmax_element(lengths.begin(), lengths.end());
-  EXPECT_EQ(*greatest > *least, TypeParam::kName == std::string("fastslam1"));
+  EXPECT_EQ(*greatest > *least, GetParam().name == "fastslam1");
 }
 
 // Mutation: the ancestors of an update before.
-TYPED_TEST(Reports, AncestorsComeWithEachResampling) {
+TEST_P(Reports, AncestorsComeWithEachResampling) {
   Drive world;
   world.side_m = 8.0;
   long resamplings = 0;
-  const Estimate last =
-      this->drive(world, reporting(world, 30), 5, [&](const auto&, const UpdateReport& report) {
-        if (report.ancestors.empty()) return;
-        ++resamplings;
-        ASSERT_EQ(report.ancestors.size(), 30u);
-        for (const int ancestor : report.ancestors) {
-          ASSERT_TRUE(ancestor >= 0 && ancestor < 30);
-          EXPECT_EQ(report.ancestors[static_cast<std::size_t>(ancestor)], ancestor);  // survivors stay
-        }
-      });
+  const Estimate last = drive(world, reporting(world, 30), 5, [&](const auto&, const UpdateReport& report) {
+    if (report.ancestors.empty()) return;
+    ++resamplings;
+    ASSERT_EQ(report.ancestors.size(), 30u);
+    for (const int ancestor : report.ancestors) {
+      ASSERT_TRUE(ancestor >= 0 && ancestor < 30);
+      EXPECT_EQ(report.ancestors[static_cast<std::size_t>(ancestor)], ancestor);  // survivors stay
+    }
+  });
   EXPECT_EQ(resamplings, last.counters.resamplings);
-  EXPECT_EQ(resamplings > 0, particle_count(make_filter(TypeParam::kName, reporting(world, 30), {}, 1)) > 1);
+  EXPECT_EQ(resamplings > 0, particle_count(GetParam().make(reporting(world, 30), {}, 1)) > 1);
 }
 
 }  // namespace

@@ -52,7 +52,10 @@ class DatasetWriter {
   virtual std::vector<DatasetFile> frame_files(const FrameEvent& event, FrameTruth& truth) const = 0;
 
   /// The files of the whole drive, asked for after its last pair. They are always written anew.
-  /// @param log the odometry, what was observed, and the true path
+  /// @param log the odometry, what was observed, and the true path: every step of the drive, also those
+  /// without
+  ///        pictures. DatasetDrive::frames says which have some; frames_csv (frames_file.h) says where the
+  ///        cameras were that looked late
   virtual std::vector<DatasetFile> drive_files(const MeasurementLog& log) const = 0;
 };
 

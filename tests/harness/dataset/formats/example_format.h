@@ -1,4 +1,4 @@
-// A small data-set format, as docs/guide/developing.md shows it: pictures by their time, and the robot's
+// A small data-set format, as docs/guide/contributing.md shows it: pictures by their time, and the robot's
 // poses as in TUM's files.
 #pragma once
 
