@@ -9,7 +9,7 @@ command -v clang++-14 >/dev/null || { echo "clang++-14 is missing: apt-get insta
 cmake --preset fuzz -Wno-dev >/dev/null
 cmake --build --preset fuzz --target stereobench_fuzz
 program=$PWD/build/fuzz/tests/stereobench_fuzz
-entries=(scene picture calibration detections palette scenario log trajectory marks mesh)
+entries=(scene picture calibration detections palette scenario log trajectory poses marks mesh)
 seconds=$((${1:-10} * 60 / ${#entries[@]}))
 mkdir -p build/fuzz/findings
 

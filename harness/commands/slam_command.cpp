@@ -8,6 +8,7 @@
 
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/evaluation_command.h"
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/file_list.h"
@@ -35,6 +36,7 @@ struct SlamArguments {
   std::optional<worlds::Identity> identity;
   slam::FilterConfig config;
   StatedNoise stated;
+  EvaluationArguments evaluation;
 };
 
 /// What is assumed of a log's odometry unless the command line says otherwise: the errors of a small robot's
@@ -200,17 +202,27 @@ void add_slam_command(CLI::App& program, Action& action) {
       program.add_subcommand("slam", "run the filters on a recorded log, score them against its truth");
   auto arguments = std::make_shared<SlamArguments>();
   arguments->config.odometry_noise = kUsualOdometry;
-  command
-      ->add_option("log", arguments->log,
-                   "folder of a measurement log (odometry.csv, observations.csv, ...) or of UTIAS MRCLAM "
-                   ".dat files; plain or .gz")
-      ->required();
+  command->add_option("log", arguments->log,
+                      "folder of a measurement log (odometry.csv, observations.csv, ...) or of UTIAS MRCLAM "
+                      ".dat files; plain or .gz");
   add_run_options(*command, arguments->run);
   add_detection_options(*command, *arguments);
   add_noise_options(*command, *arguments);
-  command->footer("Example: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4");
+  add_evaluation_options(*command, arguments->evaluation);
+  command->footer(
+      "Examples: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4\n"
+      "          stereobench slam --evaluate estimate.txt --truth groundtruth.txt --align sim3 --span 1s");
   command->callback([arguments, command, &action] {
     const auto said = [&](const char* option) { return command->count(option) > 0; };
+    if (said("--evaluate")) {
+      check_evaluation_options(*command);
+      action = [arguments] {
+        return run_evaluation(arguments->evaluation, arguments->run.out, arguments->run.gates,
+                              arguments->run.dry_run);
+      };
+      return;
+    }
+    if (!said("log")) throw CLI::RequiredError("log");
     arguments->stated.sensor = said("--noise-law") || (said("--range-sd-m") && said("--bearing-sd-rad"));
     arguments->stated.odometry = std::ranges::any_of(kOdometryOptions, said);
     action = [arguments] { return run_slam(*arguments); };

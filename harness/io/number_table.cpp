@@ -97,6 +97,11 @@ std::vector<std::string> split_at_blanks(std::string_view line) {
   }
 }
 
+/// Whether a line is a comment or empty.
+bool is_left_out(std::string_view line) {
+  return line.starts_with('#') || line.find_first_not_of(" \t") == std::string_view::npos;
+}
+
 void append_row(NumberTable& table, long line, std::vector<std::string> cells) {
   if (cells.size() != table.columns.size()) {
     fail_at(table.file, line,
@@ -178,11 +183,34 @@ NumberTable read_blank_separated_table(const fs::path& file, const std::vector<s
   NumberTable table{file, columns, {}};
   table.rows.reserve(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].starts_with('#')) continue;
-    std::vector<std::string> cells = split_at_blanks(lines[i]);
-    if (!cells.empty()) append_row(table, static_cast<long>(i) + 1, std::move(cells));
+    if (is_left_out(lines[i])) continue;
+    append_row(table, static_cast<long>(i) + 1, split_at_blanks(lines[i]));
   }
   return table;
+}
+
+NumberTable read_comma_separated_table(const fs::path& file, const std::vector<std::string>& columns) {
+  const std::string text = read_all(file);
+  const std::vector<std::string_view> lines = split_lines(text);
+  NumberTable table{file, columns, {}};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (is_left_out(lines[i])) continue;
+    std::vector<std::string> cells;
+    for (const std::string& cell : split_at_commas(lines[i])) {
+      const std::vector<std::string> words = split_at_blanks(cell);
+      cells.push_back(words.size() == 1 ? words.front() : cell);
+    }
+    if (cells.size() > columns.size()) cells.resize(columns.size());
+    append_row(table, static_cast<long>(i) + 1, std::move(cells));
+  }
+  return table;
+}
+
+std::string first_row(const fs::path& file) {
+  const std::string text = read_all(file);
+  for (const std::string_view line : split_lines(text))
+    if (!is_left_out(line)) return std::string(line);
+  return {};
 }
 
 double number_in(const NumberTable& table, const TableRow& row, std::size_t column) {
@@ -205,6 +233,15 @@ std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::siz
   const std::optional<std::int64_t> stamp = parse_stamp(row.cells[column]);
   if (!stamp) refuse(table, row, column, "expected a time in seconds within 9e9");
   return *stamp;
+}
+
+std::int64_t nanoseconds_in(const NumberTable& table, const TableRow& row, std::size_t column) {
+  const std::string& text = row.cells[column];
+  std::int64_t stamp_ns = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp_ns);
+  if (error != std::errc() || end != text.data() + text.size())
+    refuse(table, row, column, "expected a time as a whole number of nanoseconds");
+  return stamp_ns;
 }
 
 void refuse(const NumberTable& table, const TableRow& row, std::size_t column, std::string_view expectation) {

@@ -42,6 +42,15 @@ NumberTable read_csv_table(const std::filesystem::path& file, const std::vector<
 NumberTable read_blank_separated_table(const std::filesystem::path& file,
                                        const std::vector<std::string>& columns);
 
+/// Reads columns separated by commas without a header; comments and empty lines are skipped, and cells behind
+/// the columns are left out.
+/// @param columns their names, for messages
+NumberTable read_comma_separated_table(const std::filesystem::path& file,
+                                       const std::vector<std::string>& columns);
+
+/// The first line of a file, plain or gzip, that is neither empty nor a comment; empty where there is none.
+std::string first_row(const std::filesystem::path& file);
+
 /// A cell as a finite number.
 double number_in(const NumberTable& table, const TableRow& row, std::size_t column);
 
@@ -50,6 +59,9 @@ int whole_number_in(const NumberTable& table, const TableRow& row, std::size_t c
 
 /// A cell in seconds as nanoseconds, exact for decimals of up to nine places.
 std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::size_t column);
+
+/// A cell that is a whole number of nanoseconds.
+std::int64_t nanoseconds_in(const NumberTable& table, const TableRow& row, std::size_t column);
 
 /// Ends the reading: "file:line: column: what was expected".
 [[noreturn]] void refuse(const NumberTable& table, const TableRow& row, std::size_t column,

@@ -150,8 +150,8 @@ void draw_contents(Canvas& canvas, const Axes& axes, const MapPicture& picture) 
 
 MapSheet lay_out_map(const MapPicture& picture) {
   const MapExtent extent = extent_of(picture);
-  const Axis x = {"x [m]", range_of(extent.x_m)};
-  const Axis y = {"y [m]", range_of(extent.y_m)};
+  const Axis x = {picture.to_the_right + " [m]", range_of(extent.x_m)};
+  const Axis y = {picture.upwards + " [m]", range_of(extent.y_m)};
   const double legend_px = legend_width_px(Canvas(1, 1), legend_of(picture));
   const double plot_width_px = kWidth_px - kMapLeft_px - legend_px - 2.0 * kGap_px;
   const int height_px = height_for(x.range, y.range, plot_width_px);

@@ -24,6 +24,8 @@ struct MapPicture {
   std::vector<slam::Pose> true_path;     ///< empty when the truth is not known
   std::vector<LandmarkTruth> landmarks;  ///< discs in their ball's colour, crosses when it has none
   std::vector<MapEstimate> estimates;    ///< dead reckoning among them, by its name
+  std::string to_the_right = "x";        ///< what its axes are called
+  std::string upwards = "y";
 };
 
 /// A sheet of paper for a map and where metres lie on it.

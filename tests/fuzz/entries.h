@@ -39,6 +39,9 @@ std::vector<std::string> log_seeds();
 /// The text of a trajectory, TUM's or ours.
 void check_trajectory(Bytes bytes);
 std::vector<std::string> trajectory_seeds();
+/// The text of a trajectory in space, of any format.
+void check_poses(Bytes bytes);
+std::vector<std::string> pose_seeds();
 /// The text of a file of marks, beside a picture a.png.
 void check_marks(Bytes bytes);
 std::vector<std::string> mark_seeds();

@@ -11,6 +11,7 @@
 #include "harness/dataset/colour_marks.h"
 #include "harness/experiment/experiment.h"
 #include "harness/logs/measurement_log_reader.h"
+#include "harness/trajectories/trajectory_file.h"
 #include "renderer/meshes/mesh_file.h"
 #include "tests/fuzz/promises.h"
 #include "worlds/drive/smooth_path.h"
@@ -159,6 +160,25 @@ std::vector<std::string> trajectory_seeds() {
       "0.1986693 0.9800666\n",
       "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,0.5,0,0.1\n2,1,0.2,0.2\n",
       "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,0.5,0,0.1\n242009200,1,0.2,0.2\n"};  // longer than any drive may be
+}
+
+void check_poses(Bytes bytes) {
+  const OwnFile file("poses.txt", text_of(bytes));
+  read_or_complain([&] {
+    const harness::Trajectory path = harness::read_trajectory(file.path());
+    expect(path.stamps_ns.empty() || path.stamps_ns.size() == path.poses.size(),
+           "all poses have a time, or none");
+    for (const harness::PoseInSpace& pose : path.poses)
+      expect(pose.position_m.allFinite() && pose.rotation.determinant() > 0.8,
+             "a pose is somewhere, and turned");
+  });
+}
+
+std::vector<std::string> pose_seeds() {
+  return {"# timestamp tx ty tz qx qy qz qw\n1.5 0 0 0 0 0 0 1\n2 0.5 0 0 0 0 0.0998334 0.9950042\n",
+          "#timestamp [ns],x,y,z,w,x,y,z,v\n1403636579758555392,4.6,-1.7,0.7,0.5,-0.5,0.5,-0.5,9\n",
+          "1 0 0 0.5 0 1 0 1 0 0 1 2\n0 -1 0 1 1 0 0 1 0 0 1 2\n",
+          "t_s,x_m,y_m,theta_rad\n0,0,0,0\n1,0.5,0,0.1\n"};
 }
 
 void check_marks(Bytes bytes) {

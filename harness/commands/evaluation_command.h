@@ -1,0 +1,33 @@
+/// `slam --evaluate`: scores a trajectory that was made elsewhere.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/experiment/types.h"
+#include "harness/trajectories/evaluation.h"
+
+namespace stereobench::harness {
+
+struct EvaluationArguments {
+  std::filesystem::path estimate;  ///< empty: nothing is to be evaluated
+  std::filesystem::path truth;
+  EvaluationRules rules;
+};
+
+/// Adds --evaluate and the options that go with it.
+void add_evaluation_options(CLI::App& command, EvaluationArguments& arguments);
+
+/// @throws CLI::ParseError that names an option of the command that has no meaning beside --evaluate
+void check_evaluation_options(const CLI::App& command);
+
+/// @param out empty: out/<the estimate's name>
+/// @return the exit code
+int run_evaluation(const EvaluationArguments& arguments, std::filesystem::path out,
+                   const std::vector<Gate>& gates, bool dry_run);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,142 @@
+#include "harness/trajectories/evaluation.h"
+
+#include <array>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/io/text_table.h"
+#include "harness/statistics/json_numbers.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;
+
+Json statistics_json(const std::vector<double>& errors) {
+  const ErrorStatistics s = statistics_of(errors);
+  return {{"rmse", number(s.rmse)}, {"mean", number(s.mean)}, {"median", number(s.median)},
+          {"sd", number(s.sd)},     {"min", number(s.min)},   {"max", number(s.max)},
+          {"sse", number(s.sse)}};
+}
+
+Json errors_json(const PoseErrors& errors) {
+  return {{"translation_m", statistics_json(errors.translation_m)},
+          {"rotation_rad", statistics_json(errors.rotation_rad)}};
+}
+
+Json alignment_json(const Evaluation& evaluation) {
+  const auto& [rotation, shift_m, scale] = evaluation.alignment;
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < 3; ++i) rows.push_back({rotation(i, 0), rotation(i, 1), rotation(i, 2)});
+  return {{"kind", name_of(evaluation.align)},
+          {"scale", scale},
+          {"rotation", rows},
+          {"shift_m", {shift_m.x(), shift_m.y(), shift_m.z()}}};
+}
+
+Json segment_json(const SegmentErrors& segment) {
+  return {{"count", segment.count},
+          {"translation_percent", number(segment.translation_percent)},
+          {"rotation_deg_per_m", number(segment.rotation_deg_per_m)}};
+}
+
+Json segments_json(const std::vector<SegmentErrors>& segments) {
+  Json json = Json::object();
+  for (const SegmentErrors& segment : segments)
+    json[segment.length_m > 0.0 ? fmt::format("{}m", segment.length_m) : "all"] = segment_json(segment);
+  return json;
+}
+
+std::vector<std::string> row_of(const std::string& what, const std::vector<double>& errors, double unit) {
+  const ErrorStatistics s = statistics_of(errors);
+  std::vector<std::string> row{what, std::to_string(errors.size())};
+  for (const double value : {s.rmse, s.mean, s.median, s.sd, s.min, s.max})
+    row.push_back(format_number(unit * value, 4));
+  return row;
+}
+
+std::string segment_table(const std::vector<SegmentErrors>& segments) {
+  AlignedTable table{{"pieces of", "number", "translation [%]", "rotation [deg/m]"}, {}};
+  for (const SegmentErrors& segment : segments)
+    if (segment.count > 0)
+      table.rows.push_back({segment.length_m > 0.0 ? fmt::format("{} m", segment.length_m) : "all",
+                            std::to_string(segment.count), format_number(segment.translation_percent, 4),
+                            format_number(segment.rotation_deg_per_m, 4)});
+  return table.rows.empty() ? "" : "\n" + plain_text(table);
+}
+
+}  // namespace
+
+Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const EvaluationRules& rules) {
+  TrajectoryPairs pairs = pair_trajectories(estimate, truth, rules.pairing);
+  const AlignmentKind kind =
+      rules.align.value_or(pairs.is_planar ? AlignmentKind::kSe2 : AlignmentKind::kSe3);
+  pairs = in_plane(std::move(pairs), kind, rules.plane);
+  const Alignment alignment = align(pairs, kind);
+  pairs.estimate = aligned(pairs.estimate, alignment);
+  Evaluation evaluation{.estimate_poses = estimate.poses.size(),
+                        .truth_poses = truth.poses.size(),
+                        .align = kind,
+                        .alignment = alignment,
+                        .absolute = absolute_errors(pairs),
+                        .span = rules.span,
+                        .relative = relative_errors(pairs, rules.span),
+                        .segments = segment_errors(pairs, rules.segments_m)};
+  evaluation.pairs = std::move(pairs);
+  return evaluation;
+}
+
+std::string name_of(AlignmentKind kind) {
+  constexpr std::array kNames = {"none", "origin", "se2", "sim2", "se3", "sim3"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+Json evaluation_json(const Evaluation& evaluation, const std::string& estimate, const std::string& truth) {
+  const TrajectoryPairs& pairs = evaluation.pairs;
+  Json relative = {{"span", text_of(evaluation.span)},
+                   {"from_every_pose", evaluation.span.from_every_pose},
+                   {"count", evaluation.relative.translation_m.size()}};
+  relative.update(errors_json(evaluation.relative));
+  return {{"schema", kSchema},
+          {"estimate", estimate},
+          {"truth", truth},
+          {"estimate_poses", evaluation.estimate_poses},
+          {"truth_poses", evaluation.truth_poses},
+          {"pairs", pairs.truth.size()},
+          {"duration_s", pairs.has_stamps ? number(pairs.time_s.back()) : Json(nullptr)},
+          {"path_length_m", path_lengths_m(pairs.truth).back()},
+          {"alignment", alignment_json(evaluation)},
+          {"ape", errors_json(evaluation.absolute)},
+          {"rpe", relative},
+          {"segments", segments_json(evaluation.segments)}};
+}
+
+std::string errors_csv(const Evaluation& evaluation) {
+  std::string csv = evaluation.pairs.has_stamps ? "time_s" : "pose";
+  csv += ",translation_m,rotation_rad\n";
+  for (std::size_t i = 0; i < evaluation.pairs.truth.size(); ++i)
+    csv += fmt::format("{},{},{}\n", evaluation.pairs.time_s[i], evaluation.absolute.translation_m[i],
+                       evaluation.absolute.rotation_rad[i]);
+  return csv;
+}
+
+std::string evaluation_table(const Evaluation& evaluation) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  AlignedTable table{{"error", "number", "rmse", "mean", "median", "sd", "min", "max"}, {}};
+  table.rows.push_back(row_of("APE, translation [m]", evaluation.absolute.translation_m, 1.0));
+  table.rows.push_back(row_of("APE, rotation [deg]", evaluation.absolute.rotation_rad, kDegrees));
+  const std::string span = text_of(evaluation.span);
+  const bool in_poses = evaluation.span.unit == RelativeSpan::Unit::kPoses;
+  const std::string over = in_poses ? fmt::format("{} pose{}", span, span == "1" ? "" : "s") : span;
+  table.rows.push_back(
+      row_of(fmt::format("RPE over {}, translation [m]", over), evaluation.relative.translation_m, 1.0));
+  table.rows.push_back(
+      row_of(fmt::format("RPE over {}, rotation [deg]", over), evaluation.relative.rotation_rad, kDegrees));
+  return plain_text(table) + segment_table(evaluation.segments);
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,52 @@
+/// A trajectory that was made elsewhere, scored.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/trajectories/alignment.h"
+#include "harness/trajectories/pairing.h"
+#include "harness/trajectories/pose_errors.h"
+
+namespace stereobench::harness {
+
+struct EvaluationRules {
+  PairingRules pairing;
+  std::optional<AlignmentKind> align;  ///< none: kSe2 where a file has poses in the plane alone, else kSe3
+  Plane plane = Plane::kXy;
+  RelativeSpan span;
+  std::vector<double> segments_m = {100, 200, 300, 400, 500, 600, 700, 800};  ///< as KITTI has them
+};
+
+struct Evaluation {
+  TrajectoryPairs pairs;  ///< the estimate aligned
+  std::size_t estimate_poses = 0;
+  std::size_t truth_poses = 0;
+  AlignmentKind align = AlignmentKind::kNone;
+  Alignment alignment;
+  PoseErrors absolute;
+  RelativeSpan span;
+  PoseErrors relative;
+  std::vector<SegmentErrors> segments;
+};
+
+/// @throws std::runtime_error, one line, where the trajectories cannot be paired or aligned
+Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const EvaluationRules& rules);
+
+/// "se3" and so on.
+std::string name_of(AlignmentKind kind);
+
+/// @param estimate, truth what they are called
+nlohmann::ordered_json evaluation_json(const Evaluation& evaluation, const std::string& estimate,
+                                       const std::string& truth);
+
+/// A line a pair: time_s, translation_m, rotation_rad of the absolute error.
+std::string errors_csv(const Evaluation& evaluation);
+
+/// What people read: the errors in a table, and how the frames were brought together.
+std::string evaluation_table(const Evaluation& evaluation);
+
+}  // namespace stereobench::harness

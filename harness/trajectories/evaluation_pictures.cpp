@@ -1,0 +1,66 @@
+#include "harness/trajectories/evaluation_pictures.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "harness/report/error_picture.h"
+#include "harness/report/map_picture.h"
+#include "slam/math/elementary.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// Two of the axes in space.
+struct View {
+  Eigen::Index right = 0;
+  Eigen::Index up = 1;
+};
+
+/// The view in which a path extends the most.
+View widest_view(const std::vector<PoseInSpace>& poses) {
+  Eigen::Vector3d low = poses.front().position_m, high = low;
+  for (const PoseInSpace& pose : poses) {
+    low = low.cwiseMin(pose.position_m);
+    high = high.cwiseMax(pose.position_m);
+  }
+  Eigen::Index across = 0;
+  (high - low).minCoeff(&across);
+  return {across == 0 ? 1 : 0, across == 2 ? 1 : 2};
+}
+
+/// The poses look along the path.
+std::vector<slam::Pose> seen(const std::vector<PoseInSpace>& poses, const View& view) {
+  std::vector<slam::Pose> path;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Vector3d& here = poses[i].position_m;
+    const Eigen::Vector3d ahead = poses[std::min(i + 1, poses.size() - 1)].position_m - here;
+    path.push_back({here(view.right), here(view.up), slam::arc_tangent(ahead(view.up), ahead(view.right))});
+  }
+  return path;
+}
+
+}  // namespace
+
+std::string error_picture_of(const Evaluation& evaluation, const std::string& estimate) {
+  ErrorCurves curve(estimate);
+  curve.add(evaluation.absolute.translation_m);
+  ErrorPicture picture{.title = fmt::format("{}, aligned: {}", estimate, name_of(evaluation.align)),
+                       .time_s = evaluation.pairs.time_s,
+                       .filters = {curve}};
+  if (!evaluation.pairs.has_stamps) picture.title += " (over numbers of poses, not seconds)";
+  return draw_error_picture(picture);
+}
+
+std::string path_picture_of(const Evaluation& evaluation, const std::string& estimate) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  const TrajectoryPairs& pairs = evaluation.pairs;
+  const View view = widest_view(pairs.truth);
+  return draw_map_picture({.title = fmt::format("{}, aligned: {}", estimate, name_of(evaluation.align)),
+                           .true_path = seen(pairs.truth, view),
+                           .estimates = {{estimate, seen(pairs.estimate, view), {}}},
+                           .to_the_right = kAxes[view.right],
+                           .upwards = kAxes[view.up]});
+}
+
+}  // namespace stereobench::harness
