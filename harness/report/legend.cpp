@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "slam/filter_registry.h"
 #include "slam/math/angles.h"
@@ -14,9 +16,10 @@ namespace {
 constexpr Colour kVermillion = {0.835, 0.369, 0.0, 1.0};
 constexpr Colour kBlue = {0.0, 0.447, 0.698, 1.0};
 constexpr Colour kGreen = {0.0, 0.620, 0.451, 1.0};
-// For filters that are not our own; vermillion, blue and green are taken.
+// For all others; vermillion, blue and green are taken.
 constexpr std::array<Colour, 3> kOtherColours = {
     {{0.800, 0.475, 0.655, 1.0}, {0.902, 0.624, 0.0, 1.0}, {0.337, 0.706, 0.914, 1.0}}};
+constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDotted};
 constexpr double kMarkWidth_px = 30.0;
 constexpr TextStyle kText = {.size_px = 13.0};
 constexpr TextStyle kDetail = {.size_px = 11.5, .colour = {0.35, 0.35, 0.35, 1.0}};
@@ -26,6 +29,21 @@ std::uint32_t hash_of(const std::string& name) {
   std::uint32_t hash = 2166136261u;
   for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
   return hash;
+}
+
+std::optional<Stroke> own_stroke(std::string_view filter) {
+  if (filter == "dead_reckoning") return Stroke{kGrey, 1.6, Dash::kDashed};
+  if (filter == "fastslam2") return Stroke{kVermillion, 1.8};
+  if (filter == "ufastslam") return Stroke{kBlue, 1.8};
+  if (filter == "fastslam2_block") return Stroke{kVermillion, 1.8, Dash::kDashed};
+  if (filter == "ufastslam_block") return Stroke{kBlue, 1.8, Dash::kDashed};
+  if (filter == "batch") return Stroke{kGreen, 1.8};
+  return {};
+}
+
+Stroke other_stroke(std::size_t number) {
+  const std::size_t colours = kOtherColours.size();
+  return {kOtherColours[number % colours], 1.8, kDashes[number / colours % kDashes.size()]};
 }
 
 std::vector<Point> circle(const Point& centre, double radius_x_px, double radius_y_px) {
@@ -59,13 +77,13 @@ void draw_mark(Canvas& canvas, const Point& left, const LegendEntry& entry) {
 }  // namespace
 
 Stroke filter_stroke(const std::string& filter) {
-  if (filter == "dead_reckoning") return {kGrey, 1.6, Dash::kDashed};
-  if (filter == "fastslam2") return {kVermillion, 1.8};
-  if (filter == "ufastslam") return {kBlue, 1.8};
-  if (filter == "fastslam2_block") return {kVermillion, 1.8, Dash::kDashed};
-  if (filter == "ufastslam_block") return {kBlue, 1.8, Dash::kDashed};
-  if (filter == "batch") return {kGreen, 1.8};
-  return {kOtherColours[hash_of(filter) % kOtherColours.size()], 1.8};
+  if (const auto own = own_stroke(filter)) return *own;
+  std::size_t number = 0;  // among the filters without a look of their own
+  for (const slam::FilterKind& kind : slam::filter_kinds()) {
+    if (kind.name == filter) return other_stroke(number);
+    if (!own_stroke(kind.name)) ++number;
+  }
+  return other_stroke(hash_of(filter));
 }
 
 std::string filter_title(const std::string& filter) {

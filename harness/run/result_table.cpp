@@ -74,6 +74,26 @@ std::string error_table(const RunResult& result) {
   return plain_text(table);
 }
 
+/// ANEES from which on a filter's covariance is that many times too small, and is not to be believed.
+constexpr double kOverconfident = 10.0;
+
+/// A line for each estimator that claims far smaller or larger errors than it makes.
+std::string claim_warnings(const RunResult& result) {
+  std::string lines;
+  const auto warn_of = [&lines](const FilterResult& filter) {
+    const double anees = filter.summary.anees.mean;
+    if (anees > kOverconfident)
+      lines += fmt::format("warning: {} makes errors {} times as large as it claims (ANEES {})\n",
+                           filter.filter, format_number(std::sqrt(anees), 2), format_number(anees));
+    if (anees < 1.0 / kOverconfident)
+      lines += fmt::format("warning: {} claims errors {} times as large as it makes (ANEES {})\n",
+                           filter.filter, format_number(1.0 / std::sqrt(anees), 2), format_number(anees));
+  };
+  for (const FilterResult& filter : result.filters) warn_of(filter);
+  warn_of(result.batch);
+  return lines.empty() ? lines : "\n" + lines;
+}
+
 /// What filters repaired or refused, as sums over the seeds; nothing for filters that did neither.
 std::string counters_table(const std::vector<FilterResult>& filters) {
   AlignedTable table{.header = {"repaired or refused", "refused, by particle", "inputs", "covariances",
@@ -108,7 +128,8 @@ std::string association_table(const std::vector<FilterResult>& filters) {
 std::string result_table(const RunResult& result) {
   std::string text = fmt::format("{}\n", kIntervalNote);
   if (result.vision) text += vision_line(*result.vision);
-  text += error_table(result) + "\n" + consistency_table(result) + counters_table(result.filters);
+  text += error_table(result) + claim_warnings(result) + "\n" + consistency_table(result) +
+          counters_table(result.filters);
   return result.identities_known ? text : text + association_table(result.filters);
 }
 

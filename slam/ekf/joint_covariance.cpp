@@ -16,6 +16,9 @@ bool is_semidefinite(const Eigen::Matrix3d& p) {
   const double square = p(0, 0) * p(1, 1);
   const double minor = square - p(1, 0) * p(1, 0);
   if (!(p(0, 0) > 0.0 && minor > 0.0)) return false;
+  // The determinant is rounding where x and y hang together: no correlation is beyond one either.
+  for (int i = 0; i < 2; ++i)
+    if (p(2, i) * p(2, i) > p(i, i) * p(2, 2) * (1.0 + kRounding)) return false;
   const double slack = minor > kClear * square ? kRounding * minor * p(2, 2) : 0.0;
   return p.determinant() > -slack;
 }

@@ -35,7 +35,7 @@ struct DatasetDrive {
   const worlds::Scenario& scenario;
   const worlds::World& world;  ///< of the seed
   std::uint64_t seed = 0;
-  FrameChoice frames;  ///< that are to have pictures
+  FrameChoice frames;  ///< that are asked for; the shutter may drop some
   TruthRequest truth;  ///< what was asked for beside them
 };
 
@@ -52,10 +52,9 @@ class DatasetWriter {
   virtual std::vector<DatasetFile> frame_files(const FrameEvent& event, FrameTruth& truth) const = 0;
 
   /// The files of the whole drive, asked for after its last pair. They are always written anew.
-  /// @param log the odometry, what was observed, and the true path: every step of the drive, also those
-  /// without
-  ///        pictures. DatasetDrive::frames says which have some; frames_csv (frames_file.h) says where the
-  ///        cameras were that looked late
+  /// @param log the odometry, what was observed, and the true path: every step of the drive. Which of them
+  /// have
+  ///        pictures, and from where these are taken, says pictures_of (frames_file.h)
   virtual std::vector<DatasetFile> drive_files(const MeasurementLog& log) const = 0;
 };
 

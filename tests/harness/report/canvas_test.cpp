@@ -1,12 +1,15 @@
 #include "harness/report/canvas.h"
 
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "harness/report/legend.h"
+#include "slam/filter_registry.h"
 #include "tests/harness/report/pixels.h"
 
 namespace stereobench::harness {
@@ -86,7 +89,7 @@ TEST(ReportCanvas, APictureComesBackAsItWas) {
 TEST(ReportCanvas, RefusesWhatIsNoSheet) {
   EXPECT_THROW(Canvas(0, 10), std::invalid_argument);
   EXPECT_THROW(Canvas(10, 20000), std::invalid_argument);
-  EXPECT_THROW(Canvas(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(Canvas(cv::Mat{}), std::invalid_argument);
   EXPECT_THROW(Canvas(cv::Mat(4, 4, CV_8UC1)), std::invalid_argument);
 }
 
@@ -105,6 +108,15 @@ TEST(ReportLegend, FiltersHaveALookOfTheirOwn) {
   EXPECT_EQ(filter_title("ufastslam_block"), "UFastSLAM in blocks");
   EXPECT_NE(filter_stroke("ufastslam_block").dash, filter_stroke("ufastslam").dash);
   EXPECT_EQ(filter_title("mine"), "mine");
+}
+
+// Mutation: colours alone, of which there are three for five filters.
+TEST(ReportLegend, NoTwoFiltersLookAlike) {
+  std::set<std::tuple<double, double, Dash>> looks;
+  for (const std::string& filter : slam::filter_names()) {
+    const Stroke stroke = filter_stroke(filter);
+    EXPECT_TRUE(looks.insert({stroke.colour.red, stroke.colour.green, stroke.dash}).second) << filter;
+  }
 }
 
 TEST(ReportLegend, IsAsWideAsItSays) {

@@ -71,6 +71,23 @@ TEST(RunResult, JsonSaysHowCoarseTheBlurOfAllSeedsIs) {
   for (const auto& value : without) EXPECT_TRUE(value.is_null());
 }
 
+// Errors of 0.8 and 0.2 m, of which 0.2 m is claimed: the first is four times as large. Mutations: the
+// variance's ratio in place of the deviation's; a warning for all.
+TEST(RunResult, WarnsOfFiltersThatClaimFarTooLittleOrTooMuch) {
+  SeedDrive drive = drive_of(3, 4, 0.8);
+  for (FilterRun& run : drive.runs)
+    for (Eigen::Matrix3d& covariance : run.covariances) covariance *= 0.04 / 3.0;
+  const std::string table = result_table(assemble("name", "none", std::vector{drive}));
+  EXPECT_NE(table.find("warning: dead_reckoning makes errors 4.0 times as large as it claims (ANEES 16"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(table.find("warning: ufastslam"), std::string::npos);
+  for (Eigen::Matrix3d& covariance : drive.runs[1].covariances) covariance *= 25.0;
+  EXPECT_NE(result_table(assemble("name", "none", std::vector{drive}))
+                .find("warning: ufastslam claims errors 5.0 times"),
+            std::string::npos);
+}
+
 // Mutation: the ratio upside down.
 TEST(RunResult, FiltersAreComparedWithDeadReckoning) {
   const std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};

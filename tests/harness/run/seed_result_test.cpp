@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -128,6 +129,26 @@ TEST(SeedResult, NoScoreDependsOnAFrameOfTheFiltersOwn) {
     } else {
       EXPECT_NEAR(number, there.at(key).get<double>(), 1e-9) << key;
     }
+  }
+}
+
+// Law: each number of a path's score is in run.json under its own name. Mutations: a row of kMetrics
+// (score.cpp) or a key (run_result.cpp) with another's number; a number without a key.
+TEST(SeedResult, HasEachNumberOfAPathsScoreUnderItsName) {
+  nlohmann::json bytes = json_of(to_bytes({.runs = {{.filter = "ekf"}}}));
+  nlohmann::json& path = bytes["runs"][0]["score"]["trajectory"];
+  double value = 1.0;
+  for (nlohmann::json& number : path)
+    if (number.is_number_float()) number = value += 0.125;
+  RunTally tally("name", kNoBackend);
+  tally.add(seed_result_from_bytes(bytes_of(bytes)));
+  const nlohmann::ordered_json all = run_json(tally.result());
+  const nlohmann::ordered_json& told = all["filters"]["ekf"];
+  const std::set<std::string> kept_back = {"ate_aligned_max_m", "rpe_heading_rms_rad"};
+  for (const auto& [key, number] : path.items()) {
+    if (!number.is_number_float() || kept_back.contains(key)) continue;
+    ASSERT_TRUE(told.contains(key)) << key;
+    EXPECT_EQ(told[key]["mean"].get<double>(), number.get<double>()) << key;
   }
 }
 

@@ -105,6 +105,27 @@ TEST_P(EveryFilter, NeverLooksAtTheTruth) {
     EXPECT_EQ(run.last.landmarks[i].position_m, blind.last.landmarks[i].position_m);
 }
 
+// What is believed at a step does not depend on what comes later: of a log that ends there it is the same, to
+// the bit. Mutation: a smoother that hands back the path that it ends with.
+TEST_P(EveryFilter, OfTheBeginningOfALogBelievesTheSame) {
+  const MeasurementLog log = exact_log();
+  slam::FilterConfig config;
+  config.particles = 5;
+  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const FilterRun whole = replay(log, GetParam(), config, 3);
+  for (std::size_t steps = 1; steps < log.steps.size(); steps += 3) {
+    MeasurementLog beginning = log;
+    beginning.steps.resize(steps);
+    const FilterRun run = replay(beginning, GetParam(), config, 3);
+    ASSERT_EQ(run.poses.size(), steps);
+    for (std::size_t i = 0; i < steps; ++i) {
+      ASSERT_EQ(run.poses[i].x_m, whole.poses[i].x_m) << "step " << i << " of " << steps;
+      ASSERT_EQ(run.poses[i].heading_rad, whole.poses[i].heading_rad);
+      ASSERT_EQ(run.covariances[i], whole.covariances[i]);
+    }
+  }
+}
+
 // Mutation: one seed for all.
 TEST_P(EveryFilter, AnotherSeedIsAnotherRunWhereThereAreParticles) {
   slam::FilterConfig config;
