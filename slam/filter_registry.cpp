@@ -74,7 +74,7 @@ constexpr auto kKinds = std::to_array<FilterKind>({
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(without_floor(config), start, Linearisation::kIterated);
      }},
-    {"smoother", "incremental smoothing", true, false, false,
+    {"smoother", "incremental smoothing", true, false, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return Smoother(without_floor(config), start);
      }},

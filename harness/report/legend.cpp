@@ -16,9 +16,10 @@ namespace {
 constexpr Colour kVermillion = {0.835, 0.369, 0.0, 1.0};
 constexpr Colour kBlue = {0.0, 0.447, 0.698, 1.0};
 constexpr Colour kGreen = {0.0, 0.620, 0.451, 1.0};
-// For all others; vermillion, blue and green are taken.
+constexpr Colour kPurple = {0.800, 0.475, 0.655, 1.0};
+// For all others.
 constexpr std::array<Colour, 3> kOtherColours = {
-    {{0.800, 0.475, 0.655, 1.0}, {0.902, 0.624, 0.0, 1.0}, {0.337, 0.706, 0.914, 1.0}}};
+    {{0.902, 0.624, 0.0, 1.0}, {0.337, 0.706, 0.914, 1.0}, {0.400, 0.400, 0.0, 1.0}}};
 constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDotted};
 constexpr double kMarkWidth_px = 30.0;
 constexpr TextStyle kText = {.size_px = 13.0};
@@ -33,6 +34,7 @@ std::uint32_t hash_of(const std::string& name) {
 
 std::optional<Stroke> own_stroke(std::string_view filter) {
   if (filter == "dead_reckoning") return Stroke{kGrey, 1.6, Dash::kDashed};
+  if (filter == "smoother") return Stroke{kPurple, 1.8};
   if (filter == "fastslam2") return Stroke{kVermillion, 1.8};
   if (filter == "ufastslam") return Stroke{kBlue, 1.8};
   if (filter == "fastslam2_block") return Stroke{kVermillion, 1.8, Dash::kDashed};

@@ -31,19 +31,19 @@ double row_of(const cv::Mat& image, const std::string& filter) {
 // Catches: a logarithmic axis for errors of one size, an axis that does not begin at zero upside down.
 TEST(ReportErrors, EqualDifferencesAreEqualDistances) {
   const ErrorPicture picture = {
-      "", kTime_s, {constant("mine", 1.0), constant("fastslam2", 2.0), constant("ufastslam", 3.0)}};
+      "", kTime_s, {constant("smoother", 1.0), constant("fastslam2", 2.0), constant("ufastslam", 3.0)}};
   const cv::Mat image = decoded(draw_error_picture(picture));
-  EXPECT_GT(row_of(image, "mine"), row_of(image, "ufastslam") + 50.0);
-  EXPECT_NEAR(row_of(image, "mine") - row_of(image, "fastslam2"),
+  EXPECT_GT(row_of(image, "smoother"), row_of(image, "ufastslam") + 50.0);
+  EXPECT_NEAR(row_of(image, "smoother") - row_of(image, "fastslam2"),
               row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
 }
 
 TEST(ReportErrors, EqualRatiosAreEqualDistancesWhenSizesDiffer) {
   const ErrorPicture picture = {
-      "", kTime_s, {constant("mine", 0.01), constant("fastslam2", 0.1), constant("ufastslam", 1.0)}};
+      "", kTime_s, {constant("smoother", 0.01), constant("fastslam2", 0.1), constant("ufastslam", 1.0)}};
   const cv::Mat image = decoded(draw_error_picture(picture));
-  EXPECT_GT(row_of(image, "mine"), row_of(image, "ufastslam") + 50.0);
-  EXPECT_NEAR(row_of(image, "mine") - row_of(image, "fastslam2"),
+  EXPECT_GT(row_of(image, "smoother"), row_of(image, "ufastslam") + 50.0);
+  EXPECT_NEAR(row_of(image, "smoother") - row_of(image, "fastslam2"),
               row_of(image, "fastslam2") - row_of(image, "ufastslam"), 1.5);
 }
 
@@ -53,10 +53,10 @@ TEST(ReportErrors, RmsAndBandAreThoseOfTheRuns) {
   ErrorCurves runs = constant("ufastslam", 1.0);
   runs.add(std::vector<double>(kTime_s.size(), 3.0));
   runs.add(std::vector<double>(kTime_s.size(), kNaN));
-  const ErrorPicture picture = {"", kTime_s, {runs, constant("fastslam2", 2.0), constant("mine", 3.0)}};
+  const ErrorPicture picture = {"", kTime_s, {runs, constant("fastslam2", 2.0), constant("smoother", 3.0)}};
   const cv::Mat image = decoded(draw_error_picture(picture));
   const double row_of_2 = row_of(image, "fastslam2");
-  const double row_of_3 = row_of(image, "mine");
+  const double row_of_3 = row_of(image, "smoother");
   EXPECT_NEAR(row_of(image, "ufastslam"), row_of_2 + (std::sqrt(5.0) - 2.0) * (row_of_3 - row_of_2), 1.5);
   const auto is_white = [&](double row) { return image.at<cv::Vec3b>(static_cast<int>(row), 330)[2] > 250; };
   EXPECT_FALSE(is_white(row_of_3 + 6.0));
@@ -113,14 +113,14 @@ TEST(ReportErrors, NormalisedErrorsAreAPanelBelow) {
   const int without = decoded(draw_error_picture(picture)).rows;
   picture.anees.filters = {{"fastslam2", {kNaN, 10.0, 10.0, 10.0, 10.0}},
                            {"ufastslam", {kNaN, 100.0, 100.0, 100.0, 100.0}},
-                           {"mine", std::vector<double>(5, 1000.0)}};
+                           {"smoother", std::vector<double>(5, 1000.0)}};
   picture.anees.low = {kNaN, 0.5, 0.5, 0.5, 0.5};
   picture.anees.high = {kNaN, 1.5, 1.5, 1.5, 1.5};
   const cv::Mat image = decoded(draw_error_picture(picture));
   EXPECT_GT(image.rows, without);
   const double decade = row_in_panel(image, "fastslam2") - row_in_panel(image, "ufastslam");
   EXPECT_GT(decade, 10.0);
-  EXPECT_NEAR(row_in_panel(image, "ufastslam") - row_in_panel(image, "mine"), decade, 1.5);
+  EXPECT_NEAR(row_in_panel(image, "ufastslam") - row_in_panel(image, "smoother"), decade, 1.5);
   const auto is_white = [&](double row) {
     return image.at<cv::Vec3b>(490 + static_cast<int>(row), 485)[2] > 250;
   };
