@@ -96,6 +96,16 @@ void add_seed_options(CLI::App& command, RunArguments& arguments) {
   add_quiet_option(command);
 }
 
+CLI::Validator real_between(double least, double greatest) {
+  const auto complaint = [least, greatest](const std::string& text) {
+    double value = 0.0;
+    if (CLI::detail::lexical_cast(text, value) && value >= least && value <= greatest) return std::string();
+    return fmt::format("expected a number from {} to {} (got '{}')", least, greatest, text);
+  };
+  return {[complaint](std::string& text) { return complaint(text); },
+          fmt::format("FLOAT in [{} - {}]", least, greatest)};
+}
+
 void add_gate_option(CLI::App& command, std::vector<Gate>& gates) {
   command
       .add_option_function<std::vector<std::string>>(

@@ -47,6 +47,9 @@ void add_seed_options(CLI::App& command, RunArguments& arguments);
 /// Adds --filters, --particles, --refit and --gate, and the options above.
 void add_run_options(CLI::App& command, RunArguments& arguments);
 
+/// A finite number within limits, both included. CLI::Range lets NaN through.
+CLI::Validator real_between(double least, double greatest);
+
 /// Adds --gate, a limit on the result; may be repeated.
 void add_gate_option(CLI::App& command, std::vector<Gate>& gates);
 

@@ -115,7 +115,7 @@ void add_calibrate_rig_command(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_option("--square-m", arguments->settings.board.square_m, "side of a square, metres")
       ->required()
-      ->check(CLI::Range(1e-6, 1e3));
+      ->check(real_between(1e-6, 1e3));
   command->add_option("--left", arguments->patterns[0],
                       "names of the left pictures, with a * for what a pair has in common, e.g. 'left*.jpg' "
                       "(default: left/* where there is such a folder, else left*)");

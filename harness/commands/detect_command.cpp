@@ -251,17 +251,17 @@ void add_what_is_known(CLI::App& command, DetectArguments& arguments) {
   command
       .add_option("--ball-radius-m", arguments.ball_radius_m,
                   "that balls are made to (default: as the folder's data set says, or 0.05)")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(real_between(1e-6, 1e6));
   command
       .add_option("--ball-radius-sd-m", arguments.ball_radius_sd_m,
                   "how exactly they are (default: as the folder's data set says, or a tenth of the radius)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(real_between(0.0, 1e6));
   command
       .add_option(
           "--rows-within-px", arguments.rows_within_px,
           "that the rig may be off by: balls are matched within so many rows, at most half a picture\n"
           "(default: as the folder's data set says, or 10)")
-      ->check(CLI::Range(0.1, 1e4));
+      ->check(real_between(0.1, 1e4));
 }
 
 }  // namespace
@@ -275,7 +275,7 @@ void add_detect_command(CLI::App& program, Action& action) {
       ->expected(0, 2);
   add_what_is_known(*command, *arguments);
   command->add_option("--noise-sd-levels", arguments->noise_sd_levels, "of the pictures, in levels of 255")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(real_between(0.0, 255.0))
       ->capture_default_str();
   CLI::Option* encoding = command
                               ->add_option("--encoding", arguments->encoding,

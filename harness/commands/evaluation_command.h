@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,7 +12,7 @@
 namespace stereobench::harness {
 
 struct EvaluationArguments {
-  std::filesystem::path estimate;  ///< empty: nothing is to be evaluated
+  std::filesystem::path estimate;
   std::filesystem::path truth;
   EvaluationRules rules;
 };
@@ -25,7 +23,7 @@ void add_evaluation_options(CLI::App& command, EvaluationArguments& arguments);
 /// @throws CLI::ParseError that names an option of the command that has no meaning beside --evaluate
 void check_evaluation_options(const CLI::App& command);
 
-/// @param out empty: out/<the estimate's name>
+/// @param out empty: out/<the estimate's name>_evaluation
 /// @return the exit code
 int run_evaluation(const EvaluationArguments& arguments, std::filesystem::path out,
                    const std::vector<Gate>& gates, bool dry_run);

@@ -31,13 +31,13 @@ void add_camera_options(CLI::App& command, ScenarioArguments& arguments) {
   command
       .add_option("--detector-timeout-s", arguments.detector_timeout_s,
                   "how long it may think about a frame (default: 30, or as the scenario says)")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(real_between(1e-3, 1e6));
   command
       .add_option(
           "--detector-start-s", arguments.detector_start_s,
           "how much longer it may take for its first answer, since it has to start (default: 90, or as "
           "the scenario says)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(real_between(0.0, 1e6));
 }
 
 Experiment read_experiment(const ScenarioArguments& arguments,

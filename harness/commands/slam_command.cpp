@@ -140,7 +140,7 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
   slam::OdometryNoise& noise = arguments.config.odometry_noise;
   const auto add = [&](const char* name, double& value, double least, const char* text) {
     command.add_option(name, value, text)
-        ->check(CLI::Range(least, 1e6))
+        ->check(real_between(least, 1e6))
         ->capture_default_str()
         ->group("Noise (standard deviations)");
   };
@@ -157,7 +157,7 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
           "(rad)")
       ->expected(3)
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(real_between(0.0, 1e6))
       ->type_name("A,B,C")
       ->group("Noise (standard deviations)");
   add("--v-constant-mps", noise.v_constant_mps, 0.0, "of the forward speed, constant part");
@@ -171,7 +171,7 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
           "--odometry-delay-s", arguments.log_says.odometry_delay_s,
           "by how much the motion follows the odometry's stamps (default: estimated from how bearings "
           "change; 0 = trust the stamps)")
-      ->check(CLI::Range(-60.0, 60.0))
+      ->check(real_between(-60.0, 60.0))
       ->group("Noise (standard deviations)");
   add("--correlation-s", noise.correlation_s, 0.0,
       "how long an odometry error lasts (slip outlives fast readings)");

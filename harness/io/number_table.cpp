@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -60,6 +61,8 @@ std::string read_all(const fs::path& file) {
   int error = Z_OK;
   gzerror(stream.get(), &error);
   if (error != Z_OK || count < 0) fail(file, "gzip data are damaged or end too early; copy the file again");
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return text;
 }
 
@@ -195,6 +198,8 @@ NumberTable read_comma_separated_table(const fs::path& file, const std::vector<s
   NumberTable table{file, columns, {}};
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (is_left_out(lines[i])) continue;
+    if (table.rows.empty() && std::isalpha(static_cast<unsigned char>(lines[i][0])) != 0)
+      continue;  // a header
     std::vector<std::string> cells;
     for (const std::string& cell : split_at_commas(lines[i])) {
       const std::vector<std::string> words = split_at_blanks(cell);

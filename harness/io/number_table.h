@@ -42,8 +42,8 @@ NumberTable read_csv_table(const std::filesystem::path& file, const std::vector<
 NumberTable read_blank_separated_table(const std::filesystem::path& file,
                                        const std::vector<std::string>& columns);
 
-/// Reads columns separated by commas without a header; comments and empty lines are skipped, and cells behind
-/// the columns are left out.
+/// Reads columns separated by commas; comments, empty lines and a header are skipped, and cells behind the
+/// columns are left out.
 /// @param columns their names, for messages
 NumberTable read_comma_separated_table(const std::filesystem::path& file,
                                        const std::vector<std::string>& columns);

@@ -17,17 +17,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The number (or null) at a dotted path such as "filters.ufastslam.ate_rms_m.mean"; nothing when there is
-/// none.
-const Json* find_metric(const Json& json, const std::string& path) {
-  const Json* node = &json;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    const auto child = node->is_object() ? node->find(path.substr(begin, end - begin)) : node->end();
-    if (!node->is_object() || child == node->end()) return nullptr;
-    node = &*child;
-    begin = end + 1;
+/// none. A key may have dots itself.
+const Json* find_metric(const Json& json, std::string_view path) {
+  if (!json.is_object()) return nullptr;
+  for (const auto& [key, child] : json.items()) {
+    if (path == key) return child.is_number() || child.is_null() ? &child : nullptr;
+    if (!path.starts_with(key) || path.size() <= key.size() || path[key.size()] != '.') continue;
+    if (const Json* const found = find_metric(child, path.substr(key.size() + 1))) return found;
   }
-  return node->is_number() || node->is_null() ? node : nullptr;
+  return nullptr;
 }
 
 /// "ufastslam" of "filters.ufastslam.ate_rms_m.mean"; empty for other metrics.

@@ -152,7 +152,7 @@ std::string draw_error_picture(const ErrorPicture& picture) {
   }
   const Axis vertical = error_axis(summaries, picture.bound_m);
   for (Summary& summary : summaries) lift(summary, 0.9 * vertical.range.low);
-  const Axis time = {"time [s]", range_of(picture.time_s, Scale::kLinear, 0.0)};
+  const Axis time = {picture.time_axis, range_of(picture.time_s, Scale::kLinear, 0.0)};
   const Axes axes(time, vertical, kPlot);
 
   const std::vector<LegendEntry> legend = legend_of(picture, summaries);

@@ -49,6 +49,7 @@ struct ErrorPicture {
   std::vector<ErrorCurves> filters;
   std::vector<double> bound_m;  ///< the least rms error at each instant; empty when it is not known
   AneesPanel anees;             ///< below it; may be empty
+  std::string time_axis = "time [s]";
 };
 
 /// Draws each filter's rms error over its runs, a band from the least to the greatest, the least rms that is

@@ -1,9 +1,11 @@
 #include "harness/trajectories/alignment.h"
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "slam/math/elementary.h"
 
@@ -14,10 +16,6 @@ using slam::arc_tangent;
 
 /// Singular values below this share of the largest say nothing.
 constexpr double kDegenerate = 1e-9;
-
-bool is_planar(AlignmentKind kind) {
-  return kind == AlignmentKind::kSe2 || kind == AlignmentKind::kSim2;
-}
 
 bool has_scale(AlignmentKind kind) {
   return kind == AlignmentKind::kSim2 || kind == AlignmentKind::kSim3;
@@ -48,33 +46,49 @@ Eigen::Matrix3Xd positions_of(const std::vector<PoseInSpace>& poses) {
   return positions;
 }
 
+/// @param positions of a path @param centred the same without their mean
+void require_spread(const char* path, const Eigen::Matrix3Xd& positions, const Eigen::MatrixXd& centred) {
+  if (centred.cwiseAbs().maxCoeff() > kDegenerate * positions.cwiseAbs().maxCoeff()) return;
+  throw std::runtime_error(fmt::format(
+      "--align: the {} positions of {} coincide and do not say how to turn; expected origin or none",
+      positions.cols(), path));
+}
+
 /// @param d how many dimensions the positions have: 2 or 3
 Alignment umeyama(const TrajectoryPairs& pairs, Eigen::Index d, bool scales) {
   const Eigen::Matrix3Xd estimate = positions_of(pairs.estimate), truth = positions_of(pairs.truth);
   const Eigen::Vector3d estimate_mean = estimate.rowwise().mean(), truth_mean = truth.rowwise().mean();
   const Eigen::MatrixXd from = (estimate.colwise() - estimate_mean).topRows(d);
   const Eigen::MatrixXd to = (truth.colwise() - truth_mean).topRows(d);
+  require_spread("the estimate", estimate, from);
+  require_spread("the truth", truth, to);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(to * from.transpose(),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::VectorXd& values = svd.singularValues();
-  if (!(values(0) > 0.0) || !(values(d - 2) > kDegenerate * values(0)))
+  if (d == 3 && !(values(1) > kDegenerate * values(0)))
     throw std::runtime_error(
-        d == 3
-            ? "--align: the positions lie on a line and do not say how to turn; --align origin does without"
-            : "--align: the positions coincide and do not say how to turn; --align origin does without");
+        "--align: the positions lie on a line and do not say how to roll; expected se2, origin or none");
   Eigen::VectorXd signs = Eigen::VectorXd::Ones(d);
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs(d - 1) = -1.0;
   Alignment alignment;
   alignment.rotation.topLeftCorner(d, d) = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  if (scales) alignment.scale = values.dot(signs) / from.squaredNorm();
+  if (scales) {
+    alignment.scale = values.dot(signs) / from.squaredNorm();
+    const bool fits = values.dot(signs) > kDegenerate * values(0);
+    if (!fits || !std::isfinite(alignment.scale) || !(alignment.scale > 0.0))
+      throw std::runtime_error("--align: the positions do not say how to scale; expected se2, se3 or origin");
+  }
   alignment.shift_m = truth_mean - alignment.scale * alignment.rotation * estimate_mean;
   return alignment;
 }
 
 }  // namespace
 
-TrajectoryPairs in_plane(TrajectoryPairs pairs, AlignmentKind kind, Plane plane) {
-  if (!is_planar(kind)) return pairs;
+bool is_in_plane(AlignmentKind kind) {
+  return kind == AlignmentKind::kSe2 || kind == AlignmentKind::kSim2;
+}
+
+TrajectoryPairs in_plane(TrajectoryPairs pairs, Plane plane) {
   for (PoseInSpace& pose : pairs.estimate) pose = projected(pose, axes_of(plane));
   for (PoseInSpace& pose : pairs.truth) pose = projected(pose, axes_of(plane));
   return pairs;
@@ -88,7 +102,7 @@ Alignment align(const TrajectoryPairs& pairs, AlignmentKind kind) {
     const Eigen::Matrix3d rotation = to.rotation * from.rotation.transpose();
     return {rotation, to.position_m - rotation * from.position_m};
   }
-  return umeyama(pairs, is_planar(kind) ? 2 : 3, has_scale(kind));
+  return umeyama(pairs, is_in_plane(kind) ? 2 : 3, has_scale(kind));
 }
 
 std::vector<PoseInSpace> aligned(const std::vector<PoseInSpace>& estimate, const Alignment& alignment) {

@@ -26,9 +26,12 @@ struct Alignment {
   double scale = 1.0;
 };
 
-/// Projects both paths to the plane, where the kind asks for that: the coordinate across it is 0, and of a
+/// Whether a kind is of two dimensions.
+bool is_in_plane(AlignmentKind kind);
+
+/// Projects both paths to a plane, whose axes become x and y. The coordinate across it is 0, and of a
 /// rotation that about its normal is kept which is nearest.
-TrajectoryPairs in_plane(TrajectoryPairs pairs, AlignmentKind kind, Plane plane);
+TrajectoryPairs in_plane(TrajectoryPairs pairs, Plane plane);
 
 /// The alignment that fits the positions best in least squares (Umeyama, PAMI 13(4) 1991); that of the first
 /// poses for kOrigin.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ Json alignment_json(const Evaluation& evaluation) {
   const auto& [rotation, shift_m, scale] = evaluation.alignment;
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < 3; ++i) rows.push_back({rotation(i, 0), rotation(i, 1), rotation(i, 2)});
-  return {{"kind", name_of(evaluation.align)},
+  return {{"kind", text_of(evaluation.align)},
+          {"plane", evaluation.plane ? Json(text_of(*evaluation.plane)) : Json(nullptr)},
           {"scale", scale},
           {"rotation", rows},
           {"shift_m", {shift_m.x(), shift_m.y(), shift_m.z()}}};
@@ -75,12 +77,20 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   TrajectoryPairs pairs = pair_trajectories(estimate, truth, rules.pairing);
   const AlignmentKind kind =
       rules.align.value_or(pairs.is_planar ? AlignmentKind::kSe2 : AlignmentKind::kSe3);
-  pairs = in_plane(std::move(pairs), kind, rules.plane);
+  std::optional<Plane> plane = rules.plane;
+  if (plane && !is_in_plane(kind))
+    throw std::runtime_error("--plane: expected --align se2 or sim2 beside it");
+  if (is_in_plane(kind) && !plane) plane = Plane::kXy;
+  if (pairs.is_planar && plane && *plane != Plane::kXy)
+    throw std::runtime_error("--plane: a file has x, y and a heading alone; expected xy");
+  if (plane) pairs = in_plane(std::move(pairs), *plane);
   const Alignment alignment = align(pairs, kind);
   pairs.estimate = aligned(pairs.estimate, alignment);
   Evaluation evaluation{.estimate_poses = estimate.poses.size(),
                         .truth_poses = truth.poses.size(),
+                        .pairing = rules.pairing,
                         .align = kind,
+                        .plane = plane,
                         .alignment = alignment,
                         .absolute = absolute_errors(pairs),
                         .span = rules.span,
@@ -90,13 +100,18 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   return evaluation;
 }
 
-std::string name_of(AlignmentKind kind) {
+std::string text_of(AlignmentKind kind) {
   constexpr std::array kNames = {"none", "origin", "se2", "sim2", "se3", "sim3"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+std::string text_of(Plane plane) {
+  return plane == Plane::kXy ? "xy" : plane == Plane::kXz ? "xz" : "yz";
+}
+
 Json evaluation_json(const Evaluation& evaluation, const std::string& estimate, const std::string& truth) {
   const TrajectoryPairs& pairs = evaluation.pairs;
+  const bool timed = !pairs.stamps_ns.empty();
   Json relative = {{"span", text_of(evaluation.span)},
                    {"from_every_pose", evaluation.span.from_every_pose},
                    {"count", evaluation.relative.translation_m.size()}};
@@ -107,7 +122,10 @@ Json evaluation_json(const Evaluation& evaluation, const std::string& estimate, 
           {"estimate_poses", evaluation.estimate_poses},
           {"truth_poses", evaluation.truth_poses},
           {"pairs", pairs.truth.size()},
-          {"duration_s", pairs.has_stamps ? number(pairs.time_s.back()) : Json(nullptr)},
+          {"repeated_pairs", pairs.repeated},
+          {"most_dt_s", timed ? Json(evaluation.pairing.most_dt_s) : Json(nullptr)},
+          {"offset_s", timed ? Json(evaluation.pairing.offset_s) : Json(nullptr)},
+          {"duration_s", timed ? Json(times_of(pairs).back()) : Json(nullptr)},
           {"path_length_m", path_lengths_m(pairs.truth).back()},
           {"alignment", alignment_json(evaluation)},
           {"ape", errors_json(evaluation.absolute)},
@@ -116,10 +134,11 @@ Json evaluation_json(const Evaluation& evaluation, const std::string& estimate, 
 }
 
 std::string errors_csv(const Evaluation& evaluation) {
-  std::string csv = evaluation.pairs.has_stamps ? "time_s" : "pose";
+  std::string csv = evaluation.pairs.stamps_ns.empty() ? "pose" : "time_s";
   csv += ",translation_m,rotation_rad\n";
+  const std::vector<double> times = times_of(evaluation.pairs);
   for (std::size_t i = 0; i < evaluation.pairs.truth.size(); ++i)
-    csv += fmt::format("{},{},{}\n", evaluation.pairs.time_s[i], evaluation.absolute.translation_m[i],
+    csv += fmt::format("{},{},{}\n", times[i], evaluation.absolute.translation_m[i],
                        evaluation.absolute.rotation_rad[i]);
   return csv;
 }

@@ -40,27 +40,33 @@ std::vector<slam::Pose> seen(const std::vector<PoseInSpace>& poses, const View& 
   return path;
 }
 
+std::string title_of(const Evaluation& evaluation, const std::string& estimate) {
+  constexpr std::size_t kMost = 60;
+  const std::string name =
+      estimate.size() > kMost ? "..." + estimate.substr(estimate.size() - kMost) : estimate;
+  return fmt::format("{}, aligned: {}", name, text_of(evaluation.align));
+}
+
 }  // namespace
 
 std::string error_picture_of(const Evaluation& evaluation, const std::string& estimate) {
-  ErrorCurves curve(estimate);
+  ErrorCurves curve("estimate");
   curve.add(evaluation.absolute.translation_m);
-  ErrorPicture picture{.title = fmt::format("{}, aligned: {}", estimate, name_of(evaluation.align)),
-                       .time_s = evaluation.pairs.time_s,
-                       .filters = {curve}};
-  if (!evaluation.pairs.has_stamps) picture.title += " (over numbers of poses, not seconds)";
-  return draw_error_picture(picture);
+  return draw_error_picture({.title = title_of(evaluation, estimate),
+                             .time_s = times_of(evaluation.pairs),
+                             .filters = {curve},
+                             .time_axis = evaluation.pairs.stamps_ns.empty() ? "pose" : "time [s]"});
 }
 
 std::string path_picture_of(const Evaluation& evaluation, const std::string& estimate) {
-  constexpr const char* kAxes[] = {"x", "y", "z"};
+  const std::string axes = evaluation.plane ? text_of(*evaluation.plane) + " " : "xyz";
   const TrajectoryPairs& pairs = evaluation.pairs;
-  const View view = widest_view(pairs.truth);
-  return draw_map_picture({.title = fmt::format("{}, aligned: {}", estimate, name_of(evaluation.align)),
+  const View view = evaluation.plane ? View{} : widest_view(pairs.truth);
+  return draw_map_picture({.title = title_of(evaluation, estimate),
                            .true_path = seen(pairs.truth, view),
-                           .estimates = {{estimate, seen(pairs.estimate, view), {}}},
-                           .to_the_right = kAxes[view.right],
-                           .upwards = kAxes[view.up]});
+                           .estimates = {{"estimate", seen(pairs.estimate, view), {}}},
+                           .to_the_right = axes.substr(static_cast<std::size_t>(view.right), 1),
+                           .upwards = axes.substr(static_cast<std::size_t>(view.up), 1)});
 }
 
 }  // namespace stereobench::harness

@@ -10,11 +10,12 @@ struct PairingRules {
   double offset_s = 0.0;    ///< is added to the stamps of the estimate
 };
 
-/// Gives each pose of the trajectory that has fewer the pose of the other that is nearest in time. Without
-/// stamps the n-th poses of both belong together.
+/// Gives each pose of the trajectory that has fewer (the estimate, of equals) the pose of the other that is
+/// nearest in time, the earlier of two. Without stamps the n-th poses of both belong together.
 ///
-/// @throws std::runtime_error, one line, when no two stamps are near, or there are no stamps and the
-///         trajectories have not as many poses
+/// @param estimate, truth with at least one pose each
+/// @throws std::runtime_error, one line, where no two stamps are near; without stamps, where the numbers of
+/// poses differ or there is an offset
 TrajectoryPairs pair_trajectories(const Trajectory& estimate, const Trajectory& truth,
                                   const PairingRules& rules = {});
 

@@ -29,13 +29,21 @@ PoseInSpace motion_error(const TrajectoryPairs& pairs, std::size_t from, std::si
                  between(pairs.estimate[from], pairs.estimate[to]));
 }
 
-/// How far along each pose is, in the unit of a span.
+constexpr double kPerSecond_ns = 1e9;
+
+/// How far along each pose is: numbers of poses, metres, or nanoseconds, which are exact.
 std::vector<double> progress(const TrajectoryPairs& pairs, RelativeSpan::Unit unit) {
-  if (unit == RelativeSpan::Unit::kSeconds) return pairs.time_s;
   if (unit == RelativeSpan::Unit::kMetres) return path_lengths_m(pairs.estimate);
-  std::vector<double> number(pairs.truth.size());
-  std::iota(number.begin(), number.end(), 0.0);
-  return number;
+  std::vector<double> length(pairs.truth.size());
+  if (unit == RelativeSpan::Unit::kPoses) {
+    std::iota(length.begin(), length.end(), 0.0);
+    return length;
+  }
+  if (pairs.stamps_ns.empty())
+    throw std::runtime_error("--span: a file has no times; expected a number of poses or of metres");
+  for (std::size_t i = 0; i < length.size(); ++i)
+    length[i] = static_cast<double>(pairs.stamps_ns[i] - pairs.stamps_ns.front());
+  return length;
 }
 
 /// @param length rising
@@ -114,18 +122,19 @@ PoseErrors relative_errors(const TrajectoryPairs& aligned, const RelativeSpan& s
   PoseErrors errors;
   const std::vector<double> length = progress(aligned, span.unit);
   const bool in_metres = span.unit == RelativeSpan::Unit::kMetres;
+  const bool in_seconds = span.unit == RelativeSpan::Unit::kSeconds;
+  const double delta = in_seconds ? std::round(span.delta * kPerSecond_ns) : span.delta;
   if (span.from_every_pose) {
     for (std::size_t from = 0; from + 1 < length.size(); ++from) {
-      const auto to =
-          in_metres ? nearest_to(length, from, span.delta) : first_beyond(length, from, span.delta);
+      const auto to = in_metres ? nearest_to(length, from, delta) : first_beyond(length, from, delta);
       if (to) add(errors, motion_error(aligned, from, *to));
     }
     return errors;
   }
   // In metres the first span begins where one could end, as evo has it.
-  std::optional<std::size_t> from = in_metres ? first_beyond(length, 0, span.delta) : 0;
+  std::optional<std::size_t> from = in_metres ? first_beyond(length, 0, delta) : 0;
   while (from) {
-    const std::optional<std::size_t> to = first_beyond(length, *from, span.delta);
+    const std::optional<std::size_t> to = first_beyond(length, *from, delta);
     if (to) add(errors, motion_error(aligned, *from, *to));
     from = to;
   }

@@ -13,10 +13,9 @@ namespace stereobench::harness {
 /// - KITTI: the first three rows of the pose's matrix, 12 numbers separated by blanks, without a time;
 /// - ours: `t_s,x_m,y_m,theta_rad` below that header, as in groundtruth.csv: poses in the plane.
 ///
-/// Lines that begin with `#` are comments.
+/// But for ours, lines that begin with `#` are comments.
 /// @throws std::runtime_error, one line with file and line, for anything else, for a rotation that is none,
-/// and
-///         where time does not rise
+/// where time does not rise, and for a file without poses
 Trajectory read_trajectory(const std::filesystem::path& file);
 
 }  // namespace stereobench::harness

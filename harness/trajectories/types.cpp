@@ -19,4 +19,13 @@ double angle_of(const Eigen::Matrix3d& rotation) {
   return slam::arc_tangent(axis.norm(), rotation.trace() - 1.0);
 }
 
+std::vector<double> times_of(const TrajectoryPairs& pairs) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < pairs.truth.size(); ++i)
+    times.push_back(pairs.stamps_ns.empty()
+                        ? static_cast<double>(i)
+                        : static_cast<double>(pairs.stamps_ns[i] - pairs.stamps_ns.front()) / 1e9);
+  return times;
+}
+
 }  // namespace stereobench::harness

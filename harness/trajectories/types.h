@@ -25,7 +25,7 @@ double angle_of(const Eigen::Matrix3d& rotation);
 /// Poses in order of time.
 struct Trajectory {
   std::vector<PoseInSpace> poses;
-  std::vector<std::int64_t> stamps_ns;  ///< one a pose; empty where the file has none
+  std::vector<std::int64_t> stamps_ns;  ///< one a pose, rising; empty where the file has none
   bool is_planar = false;               ///< the file has x, y and a heading alone
 };
 
@@ -33,10 +33,12 @@ struct Trajectory {
 struct TrajectoryPairs {
   std::vector<PoseInSpace> estimate;
   std::vector<PoseInSpace> truth;
-  std::vector<double>
-      time_s;  ///< of the truth, from the first pair; numbers of poses where there are no stamps
-  bool has_stamps = true;
-  bool is_planar = false;
+  std::vector<std::int64_t> stamps_ns;  ///< of the truth; empty where there are none
+  long repeated = 0;                    ///< pairs that share a pose with the pair before
+  bool is_planar = false;               ///< of either
 };
+
+/// When each pair is: seconds from the first one; its number where there are no stamps.
+std::vector<double> times_of(const TrajectoryPairs& pairs);
 
 }  // namespace stereobench::harness

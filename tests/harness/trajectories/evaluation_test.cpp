@@ -50,6 +50,25 @@ TEST(Evaluation, HasTheFiguresOfOthers) {
   EXPECT_NEAR(statistics_of(metres.translation_m).max, 0.03411456190510003, 1e-12);
 }
 
+// A helix, and an estimate of it that is off in waves, aligned in a plane: the figures of a program of a few
+// lines of numpy. Mutation: the rotation of the plane's normal instead of that about it.
+TEST(Evaluation, InAPlaneHasTheFiguresOfAnotherProgram) {
+  Trajectory truth, estimate;
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.1 * i;
+    const Eigen::Vector3d place(3.0 * std::cos(t), 0.2 * t, 3.0 * std::sin(t));
+    truth.poses.push_back({turned(-t, {0.0, 1.0, 0.0}), place});
+    estimate.poses.push_back({turned(0.05 * std::sin(3.0 * t) - t, {0.0, 1.0, 0.0}),
+                              0.8 * place + 0.1 * Eigen::Vector3d(std::sin(2.0 * t), t, std::cos(3.0 * t))});
+  }
+  const Evaluation evaluation = evaluate(
+      estimate, truth, {.align = AlignmentKind::kSim2, .plane = Plane::kXz, .span = parse_span("10")});
+  EXPECT_NEAR(evaluation.alignment.scale, 1.246182861811454, 1e-12);
+  EXPECT_NEAR(statistics_of(evaluation.absolute.translation_m).rmse, 0.1252173746063724, 1e-12);
+  EXPECT_NEAR(statistics_of(evaluation.absolute.rotation_rad).rmse, 0.035127928030137916, 1e-9);
+  EXPECT_NEAR(statistics_of(evaluation.relative.translation_m).rmse, 0.2763028486570911, 1e-12);
+}
+
 // Law: aligned errors do not depend on the frame, nor on the scale where that is fitted.
 TEST(Evaluation, DoesNotDependOnTheFrameOfTheEstimate) {
   const Trajectory truth = winding_path();

@@ -33,7 +33,8 @@ TEST(PairTrajectories, TakesTheNearestInTimeWithinALimit) {
   const TrajectoryPairs pairs = pair_trajectories(at_ms({98, 206, 340, 404}), at_ms({0, 100, 200, 300, 400}));
   EXPECT_THAT(when(pairs.estimate), ElementsAre(98, 206, 404));
   EXPECT_THAT(when(pairs.truth), ElementsAre(100, 200, 400));
-  EXPECT_THAT(pairs.time_s, ElementsAre(0.0, 0.1, 0.3));
+  EXPECT_THAT(times_of(pairs), ElementsAre(0.0, 0.1, 0.3));
+  EXPECT_EQ(pairs.repeated, 0);
 }
 
 // Mutation: the offset's sign, where the truth is the shorter one.
@@ -44,12 +45,25 @@ TEST(PairTrajectories, ShiftsTheEstimateWhicheverIsLonger) {
   EXPECT_THAT(when(pair_trajectories(more, at_ms({100, 200}), rules).estimate), ElementsAre(5100, 5200));
 }
 
+// An estimate that is denser for a while shares true poses; of two that are as near the earlier one counts.
+// Mutations: not counted; the later one.
+TEST(PairTrajectories, CountsPosesThatAreShared) {
+  const TrajectoryPairs pairs =
+      pair_trajectories(at_ms({98, 99, 101}), at_ms({100, 200, 300, 400}), {.most_dt_s = 0.005});
+  EXPECT_THAT(when(pairs.truth), ElementsAre(100, 100, 100));
+  EXPECT_EQ(pairs.repeated, 2);
+  EXPECT_THAT(when(pair_trajectories(at_ms({150}), at_ms({100, 200}), {.most_dt_s = 1.0}).truth),
+              ElementsAre(100));
+}
+
 TEST(PairTrajectories, WithoutTimesGoesByNumber) {
   Trajectory estimate = at_ms({1, 2, 3});
   estimate.stamps_ns.clear();
   const TrajectoryPairs pairs = pair_trajectories(estimate, at_ms({7, 8, 9}));
   EXPECT_THAT(when(pairs.truth), ElementsAre(7, 8, 9));
-  EXPECT_FALSE(pairs.has_stamps);
+  EXPECT_TRUE(pairs.stamps_ns.empty());
+  EXPECT_THAT(times_of(pairs), ElementsAre(0, 1, 2));
+  EXPECT_THROW(pair_trajectories(estimate, at_ms({7, 8, 9}), {.offset_s = 1.0}), std::runtime_error);
   EXPECT_THAT(
       [&] {
         pair_trajectories(estimate, at_ms({7, 8}));

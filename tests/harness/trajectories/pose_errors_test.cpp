@@ -22,7 +22,7 @@ TrajectoryPairs drifting(int poses, double stretch, double turn_rad) {
   TrajectoryPairs pairs;
   PoseInSpace estimate;
   for (int i = 0; i < poses; ++i) {
-    pairs.time_s.push_back(i);
+    pairs.stamps_ns.push_back(1'000'000'000LL * i);
     pairs.truth.push_back({Eigen::Matrix3d::Identity(), {1.0 * i, 0.0, 0.0}});
     pairs.estimate.push_back(estimate);
     estimate = compose(estimate, {turned(turn_rad, kUp), {stretch, 0.0, 0.0}});
@@ -71,6 +71,24 @@ TEST(RelativeErrors, AreThoseOfTheSpan) {
   EXPECT_TRUE(relative_errors(pairs, parse_span("500s")).translation_m.empty());
 }
 
+// At 10 Hz a span of 0.2 s is two poses, to the nanosecond. Mutation: differences of seconds as
+// floating-point numbers, of which 0.3 - 0.1 is less than 0.2.
+TEST(RelativeErrors, InSecondsCountNanoseconds) {
+  TrajectoryPairs pairs = drifting(201, 1.0, 0.0);
+  for (std::int64_t& stamp_ns : pairs.stamps_ns) stamp_ns /= 10;
+  for (const char* seconds : {"0.1s", "0.2s", "0.3s", "0.7s"}) {
+    RelativeSpan in_poses = parse_span(seconds);
+    in_poses.delta = std::round(10.0 * in_poses.delta);
+    in_poses.unit = RelativeSpan::Unit::kPoses;
+    EXPECT_EQ(relative_errors(pairs, parse_span(seconds)).translation_m.size(),
+              relative_errors(pairs, in_poses).translation_m.size())
+        << seconds;
+  }
+  pairs.stamps_ns.clear();
+  EXPECT_THAT([&] { relative_errors(pairs, parse_span("1s")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--span: a file has no times")));
+}
+
 TEST(ParseSpan, ReadsWhatItWritesAndRefusesTheRest) {
   for (const char* text : {"1", "10m", "0.5s", "2.5m"}) EXPECT_EQ(text_of(parse_span(text)), text);
   for (const char* text : {"", "m", "1.5", "-1", "0", "1km", "1 m", "nan", "inf"})
@@ -91,6 +109,8 @@ TEST(SegmentErrors, AreADriftPerMetre) {
   EXPECT_EQ(turns[2].count, 110);
   // A piece ends at the first pose beyond its length, a metre further.
   EXPECT_NEAR(turns[0].rotation_deg_per_m, kTurn_deg * 101.0 / 100.0, 1e-9);
+  // An arc's end lies half its turn off the straight line.
+  EXPECT_NEAR(turns[0].translation_percent, 101.0 * (0.5 * kTurn_deg * 100.0) * M_PI / 180.0, 0.05);
   const std::vector<SegmentErrors> stretches = segment_errors(drifting(1001, 1.01, 0.0), {100.0, 2000.0});
   EXPECT_NEAR(stretches[0].translation_percent, 1.01, 1e-9);
   EXPECT_EQ(stretches[1].count, 0);

@@ -37,7 +37,7 @@ class EvaluationCommand : public testing::Test {
 };
 
 TEST_F(EvaluationCommand, WritesWhatItPrints) {
-  const Outcome outcome = evaluate({"--align", "none", "--span", "5", "--segments-m", "10,20"});
+  const Outcome outcome = evaluate({"--align", "none", "--span", "5", "--segments-m", "10,20.5"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("estimate.txt: 50 poses, 50 of them paired with the 50 of truth.txt"));
   EXPECT_THAT(outcome.out, HasSubstr("RPE over 5 poses, translation [m]"));
@@ -45,7 +45,7 @@ TEST_F(EvaluationCommand, WritesWhatItPrints) {
   const auto json = nlohmann::json::parse(bytes_of(scratch_.path() / "out/evaluation.json"));
   EXPECT_DOUBLE_EQ(json["ape"]["translation_m"]["max"].get<double>(), 0.5);
   EXPECT_EQ(json["rpe"]["count"], 9);
-  EXPECT_EQ(json["segments"]["20m"]["count"], 5);
+  EXPECT_EQ(json["segments"]["20.5m"]["count"], 5);
   EXPECT_EQ(json["estimate"], "estimate.txt");
   EXPECT_THAT(bytes_of(scratch_.path() / "out/errors.csv"), HasSubstr("\n20,0.5,0\n"));
   for (const char* picture : {"out/error.png", "out/path.png"})
@@ -55,6 +55,7 @@ TEST_F(EvaluationCommand, WritesWhatItPrints) {
 // Mutation: a broken gate that ends with 0.
 TEST_F(EvaluationCommand, HoldsTheResultAgainstGates) {
   EXPECT_EQ(evaluate({"--gate", "ape.translation_m.max<=0.6"}).exit_code, 0);
+  EXPECT_EQ(evaluate({"--segments-m", "2.5", "--gate", "segments.2.5m.count>=1"}).exit_code, 0);
   const Outcome broken = evaluate({"--gate", "ape.translation_m.max<=0.1"});
   EXPECT_EQ(broken.exit_code, 1);
   EXPECT_THAT(broken.out, HasSubstr("gate broken: ape.translation_m.max is 0.4"));
@@ -72,11 +73,23 @@ TEST_F(EvaluationCommand, RefusesOptionsThatHaveNoMeaning) {
   expect_refused(evaluate({"--filters", "ekf"}), "--filters has no meaning beside --evaluate");
   expect_refused(evaluate({path("log")}), "log has no meaning beside --evaluate");
   expect_refused(evaluate({"--span", "1km"}), "--span: expected a number of poses, metres or seconds");
-  expect_refused(evaluate({"--align", "icp"}), "--align");
+  expect_refused(evaluate({"--align", "4"}),
+                 "--align: expected one of none, origin, se2, sim2, se3, sim3 (got '4')");
+  expect_refused(evaluate({"--plane", "xz"}), "--plane: expected --align se2 or sim2 beside it");
+  expect_refused(evaluate({"--most-dt-s", "nan"}), "expected a number from 0 to 1000000 (got 'nan')");
+  expect_refused(evaluate({"--segments-m", "5,5"}), "--segments-m: expected each length once");
   expect_refused(evaluate({"--offset-s", "50"}), "no two times of estimate and truth lie within 0.01 s");
   expect_refused(run_stereobench({"slam", path("log"), "--align", "se3"}), "--evaluate");
   expect_refused(run_stereobench({"slam", "--evaluate", path("estimate.txt")}), "--truth");
   expect_refused(run_stereobench({"slam"}), "log is required");
+}
+
+// Mutation: the axes of another plane in the result.
+TEST_F(EvaluationCommand, SaysInWhichPlaneItIs) {
+  ASSERT_EQ(evaluate({"--align", "sim2", "--plane", "xz"}).exit_code, 0);
+  const auto json = nlohmann::json::parse(bytes_of(scratch_.path() / "out/evaluation.json"));
+  EXPECT_EQ(json["alignment"]["plane"], "xz");
+  EXPECT_LT(json["path_length_m"].get<double>(), 120.0);  // without y, which goes up and down by six
 }
 
 TEST_F(EvaluationCommand, WritesNothingInADryRun) {

@@ -49,6 +49,14 @@ TEST_F(TrajectoryFile, ReadsTheSamePoseOfEveryFormat) {
   EXPECT_TRUE(read(kitti).stamps_ns.empty());
 }
 
+TEST_F(TrajectoryFile, PassesOverAMarkOfByteOrderAndAHeader) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "1 0 0 0 0 0 0 1\n")
+                .poses.size(),
+            1U);
+  EXPECT_EQ(read("timestamp,x,y,z,qw,qx,qy,qz\n5,0,0,0,1,0,0,0\n").stamps_ns, std::vector<std::int64_t>{5});
+}
+
 TEST_F(TrajectoryFile, ReadsPosesInThePlane) {
   const Trajectory path = read("t_s,x_m,y_m,theta_rad\n0.5,1,2,1.5707963267948966\n");
   EXPECT_TRUE(path.is_planar);
@@ -60,6 +68,9 @@ TEST_F(TrajectoryFile, ReadsPosesInThePlane) {
 TEST_F(TrajectoryFile, RefusesInOneLine) {
   expect_refused("", "expected a trajectory: 8 numbers a line (TUM), 12 (KITTI)");
   expect_refused("1 2 3\n", "expected a trajectory");
+  expect_refused("t_s,x_m,y_m,theta_rad\n", "expected at least one pose");
+  expect_refused("5e9 0 0 0 0 0 0 1\n", "path.txt:1: time: expected a time within 4e9 seconds");
+  expect_refused("1,0,0,0,1,0,0,0\n2,0,0,0,1,0,0,0\n", "path.txt:2: time: expected nanoseconds (EuRoC)");
   expect_refused("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n",
                  "path.txt:2: expected 8 fields (time, x, y, z, qx, qy, qz, qw), found 7");
   expect_refused("1 0 0 0 0 0 0 nan\n", "path.txt:1: qw: expected a finite number, found 'nan'");
@@ -69,6 +80,8 @@ TEST_F(TrajectoryFile, RefusesInOneLine) {
   expect_refused("1.5,0,0,0,1,0,0,0\n", "expected a time as a whole number of nanoseconds, found '1.5'");
   expect_refused("1 0 0 0 0 2 0 0 0 0 1 0\n", "path.txt:1: r11: expected a rotation");
   expect_refused("-1 0 0 0 0 1 0 0 0 0 1 0\n", "expected a rotation");
+  EXPECT_THAT([&] { read_trajectory(folder_.path()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("expected a file, not a folder or a pipe")));
   EXPECT_THAT([&] { read_trajectory(folder_.path() / "none.txt"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("none.txt[.gz]: no such file")));
 }
