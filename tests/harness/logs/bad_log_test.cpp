@@ -77,7 +77,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadLog{"other header", kOdo, "time,v,w\n0,1,0\n",
                "1: expected the header 't_s,v_mps,w_radps', found 'time,v,w'"},
         BadLog{"no header", kOdo, "0,1,0\n", "1: expected the header"},
-        BadLog{"byte order mark", kOdo, "\xef\xbb\xbft_s,v_mps,w_radps\n0,1,0\n", "1: expected the header"},
         BadLog{"binary", kOdo,
                "\x7f"
                "ELF\x01\x02",

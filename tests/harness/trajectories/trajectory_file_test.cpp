@@ -54,6 +54,10 @@ TEST_F(TrajectoryFile, PassesOverAMarkOfByteOrderAndAHeader) {
                  "1 0 0 0 0 0 0 1\n")
                 .poses.size(),
             1U);
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "t_s,x_m,y_m,theta_rad\n0,1,2,0\n")
+                .poses.size(),
+            1U);
   EXPECT_EQ(read("timestamp,x,y,z,qw,qx,qy,qz\n5,0,0,0,1,0,0,0\n").stamps_ns, std::vector<std::int64_t>{5});
 }
 
