@@ -12,13 +12,13 @@ namespace stereobench::harness {
 namespace {
 
 /// Two of the axes in space.
-struct View {
+struct ViewAxes {
   Eigen::Index right = 0;
   Eigen::Index up = 1;
 };
 
 /// The view in which a path extends the most.
-View widest_view(const std::vector<PoseInSpace>& poses) {
+ViewAxes widest_view(const std::vector<PoseInSpace>& poses) {
   Eigen::Vector3d low = poses.front().position_m, high = low;
   for (const PoseInSpace& pose : poses) {
     low = low.cwiseMin(pose.position_m);
@@ -30,7 +30,7 @@ View widest_view(const std::vector<PoseInSpace>& poses) {
 }
 
 /// The poses look along the path.
-std::vector<slam::Pose> seen(const std::vector<PoseInSpace>& poses, const View& view) {
+std::vector<slam::Pose> seen(const std::vector<PoseInSpace>& poses, const ViewAxes& view) {
   std::vector<slam::Pose> path;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector3d& here = poses[i].position_m;
@@ -61,7 +61,7 @@ std::string error_picture_of(const Evaluation& evaluation, const std::string& es
 std::string path_picture_of(const Evaluation& evaluation, const std::string& estimate) {
   const std::string axes = evaluation.plane ? text_of(*evaluation.plane) + " " : "xyz";
   const TrajectoryPairs& pairs = evaluation.pairs;
-  const View view = evaluation.plane ? View{} : widest_view(pairs.truth);
+  const ViewAxes view = evaluation.plane ? ViewAxes{} : widest_view(pairs.truth);
   return draw_map_picture({.title = title_of(evaluation, estimate),
                            .true_path = seen(pairs.truth, view),
                            .estimates = {{"estimate", seen(pairs.estimate, view), {}}},
