@@ -11,6 +11,8 @@
 
 namespace stereobench::harness {
 
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
 /// One instant at which the robot looked: the odometry since the instant before, and what it saw.
 struct LogStep {
   std::int64_t stamp_ns = 0;

@@ -90,15 +90,15 @@ std::vector<CLI::Option*> add_rules(CLI::App& command, EvaluationRules& rules) {
           [&rules](const std::string& name) { rules.plane = named("--plane", kPlanes, name); },
           "plane of se2 and sim2: xy, xz or yz (default: xy)"),
       text_option(
-          "--span", "SPAN",
+          "--delta", "DELTA",
           [&rules](const std::string& text) {
-            const bool every = rules.span.from_every_pose;
-            rules.span = parse_span(text);
-            rules.span.from_every_pose = every;
+            const bool every = rules.delta.all_pairs;
+            rules.delta = parse_delta(text);
+            rules.delta.all_pairs = every;
           },
           "length of the relative error: poses, metres or seconds, e.g. 1, 10m, 0.5s (default: 1)"),
-      command.add_flag("--spans-from-every-pose", rules.span.from_every_pose,
-                       "start a span at every pose, not where the last one ended"),
+      command.add_flag("--all-pairs", rules.delta.all_pairs,
+                       "pairs for the relative error from every pose on, not from where the last one ended"),
       command
           .add_option("--segments-m", rules.segments_m,
                       "lengths of KITTI's errors by length, m (default: 100,200,...,800)")

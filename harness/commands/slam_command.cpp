@@ -211,7 +211,7 @@ void add_slam_command(CLI::App& program, Action& action) {
   add_evaluation_options(*command, arguments->evaluation);
   command->footer(
       "Examples: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4\n"
-      "          stereobench slam --evaluate estimate.txt --truth groundtruth.txt --align sim3 --span 1s");
+      "          stereobench slam --evaluate estimate.txt --truth groundtruth.txt --align sim3 --delta 1s");
   command->callback([arguments, command, &action] {
     const auto said = [&](const char* option) { return command->count(option) > 0; };
     if (said("--evaluate")) {

@@ -11,8 +11,6 @@
 
 namespace stereobench::harness {
 
-inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 /// Of MRCLAM's data: subjects 1 to 5 drive, the others are landmarks.
 inline constexpr int kMrclamRobots = 5;
 

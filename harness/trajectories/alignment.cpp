@@ -78,7 +78,7 @@ Alignment umeyama(const TrajectoryPairs& pairs, Eigen::Index d, bool scales) {
     if (!fits || !std::isfinite(alignment.scale) || !(alignment.scale > 0.0))
       throw std::runtime_error("--align: the positions do not say how to scale; expected se2, se3 or origin");
   }
-  alignment.shift_m = truth_mean - alignment.scale * alignment.rotation * estimate_mean;
+  alignment.translation_m = truth_mean - alignment.scale * alignment.rotation * estimate_mean;
   return alignment;
 }
 
@@ -109,7 +109,7 @@ std::vector<PoseInSpace> aligned(const std::vector<PoseInSpace>& estimate, const
   std::vector<PoseInSpace> there;
   for (const PoseInSpace& pose : estimate)
     there.push_back({alignment.rotation * pose.rotation,
-                     alignment.scale * (alignment.rotation * pose.position_m) + alignment.shift_m});
+                     alignment.scale * (alignment.rotation * pose.position_m) + alignment.translation_m});
   return there;
 }
 

@@ -22,7 +22,7 @@ enum class Plane { kXy, kXz, kYz };
 /// truth = scale * rotation * estimate + shift
 struct Alignment {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
   double scale = 1.0;
 };
 

@@ -30,14 +30,14 @@ Json errors_json(const PoseErrors& errors) {
 }
 
 Json alignment_json(const Evaluation& evaluation) {
-  const auto& [rotation, shift_m, scale] = evaluation.alignment;
+  const auto& [rotation, translation_m, scale] = evaluation.alignment;
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < 3; ++i) rows.push_back({rotation(i, 0), rotation(i, 1), rotation(i, 2)});
   return {{"kind", text_of(evaluation.align)},
           {"plane", evaluation.plane ? Json(text_of(*evaluation.plane)) : Json(nullptr)},
           {"scale", scale},
           {"rotation", rows},
-          {"shift_m", {shift_m.x(), shift_m.y(), shift_m.z()}}};
+          {"translation_m", {translation_m.x(), translation_m.y(), translation_m.z()}}};
 }
 
 Json segment_json(const SegmentErrors& segment) {
@@ -93,8 +93,8 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
                         .plane = plane,
                         .alignment = alignment,
                         .absolute = absolute_errors(pairs),
-                        .span = rules.span,
-                        .relative = relative_errors(pairs, rules.span),
+                        .delta = rules.delta,
+                        .relative = relative_errors(pairs, rules.delta),
                         .segments = segment_errors(pairs, rules.segments_m)};
   evaluation.pairs = std::move(pairs);
   return evaluation;
@@ -112,8 +112,8 @@ std::string text_of(Plane plane) {
 Json evaluation_json(const Evaluation& evaluation, const std::string& estimate, const std::string& truth) {
   const TrajectoryPairs& pairs = evaluation.pairs;
   const bool timed = !pairs.stamps_ns.empty();
-  Json relative = {{"span", text_of(evaluation.span)},
-                   {"from_every_pose", evaluation.span.from_every_pose},
+  Json relative = {{"delta", text_of(evaluation.delta)},
+                   {"all_pairs", evaluation.delta.all_pairs},
                    {"count", evaluation.relative.translation_m.size()}};
   relative.update(errors_json(evaluation.relative));
   return {{"schema", kSchema},
@@ -148,9 +148,9 @@ std::string evaluation_table(const Evaluation& evaluation) {
   AlignedTable table{{"error", "number", "rmse", "mean", "median", "sd", "min", "max"}, {}};
   table.rows.push_back(row_of("APE, translation [m]", evaluation.absolute.translation_m, 1.0));
   table.rows.push_back(row_of("APE, rotation [deg]", evaluation.absolute.rotation_rad, kDegrees));
-  const std::string span = text_of(evaluation.span);
-  const bool in_poses = evaluation.span.unit == RelativeSpan::Unit::kPoses;
-  const std::string over = in_poses ? fmt::format("{} pose{}", span, span == "1" ? "" : "s") : span;
+  const std::string delta = text_of(evaluation.delta);
+  const bool in_poses = evaluation.delta.unit == Delta::Unit::kPoses;
+  const std::string over = in_poses ? fmt::format("{} pose{}", delta, delta == "1" ? "" : "s") : delta;
   table.rows.push_back(
       row_of(fmt::format("RPE over {}, translation [m]", over), evaluation.relative.translation_m, 1.0));
   table.rows.push_back(

@@ -17,7 +17,7 @@ struct EvaluationRules {
   PairingRules pairing;
   std::optional<AlignmentKind> align;  ///< none: kSe2 where a file has poses in the plane alone, else kSe3
   std::optional<Plane> plane;          ///< of kSe2 and kSim2; none: kXy
-  RelativeSpan span;
+  Delta delta;
   std::vector<double> segments_m = {100, 200, 300, 400, 500, 600, 700, 800};  ///< as KITTI has them
 };
 
@@ -30,7 +30,7 @@ struct Evaluation {
   std::optional<Plane> plane;  ///< that all is in; none: space
   Alignment alignment;
   PoseErrors absolute;
-  RelativeSpan span;
+  Delta delta;
   PoseErrors relative;
   std::vector<SegmentErrors> segments;
 };

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "harness/types.h"
+
 namespace stereobench::harness {
 namespace {
-
-constexpr double kSecond_ns = 1e9;
 
 /// @param stamps_ns rising, at least one
 /// @return the index of the one that is nearest; the earlier of two
@@ -32,8 +32,8 @@ TrajectoryPairs pair_by_number(const Trajectory& estimate, const Trajectory& tru
 
 TrajectoryPairs pair_by_time(const Trajectory& estimate, const Trajectory& truth, const PairingRules& rules) {
   TrajectoryPairs pairs;
-  const std::int64_t offset_ns = std::llround(rules.offset_s * kSecond_ns);
-  const double most_ns = rules.most_dt_s * kSecond_ns;
+  const std::int64_t offset_ns = std::llround(rules.offset_s * static_cast<double>(kSecond_ns));
+  const double most_ns = rules.most_dt_s * static_cast<double>(kSecond_ns);
   const bool truth_is_longer = truth.poses.size() >= estimate.poses.size();
   const Trajectory& shorter = truth_is_longer ? estimate : truth;
   const Trajectory& longer = truth_is_longer ? truth : estimate;

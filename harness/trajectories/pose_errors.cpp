@@ -11,11 +11,13 @@
 
 #include <fmt/format.h>
 
+#include "harness/types.h"
+
 namespace stereobench::harness {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSpanTolerance = 0.1;    // of a span in metres
+constexpr double kDeltaTolerance = 0.1;   // of a delta in metres
 constexpr std::size_t kSegmentStep = 10;  // poses, as in the benchmark's own program
 
 void add(PoseErrors& errors, const PoseInSpace& off) {
@@ -29,18 +31,16 @@ PoseInSpace motion_error(const TrajectoryPairs& pairs, std::size_t from, std::si
                  between(pairs.estimate[from], pairs.estimate[to]));
 }
 
-constexpr double kPerSecond_ns = 1e9;
-
 /// How far along each pose is: numbers of poses, metres, or nanoseconds, which are exact.
-std::vector<double> progress(const TrajectoryPairs& pairs, RelativeSpan::Unit unit) {
-  if (unit == RelativeSpan::Unit::kMetres) return path_lengths_m(pairs.estimate);
+std::vector<double> progress(const TrajectoryPairs& pairs, Delta::Unit unit) {
+  if (unit == Delta::Unit::kMetres) return path_lengths_m(pairs.estimate);
   std::vector<double> length(pairs.truth.size());
-  if (unit == RelativeSpan::Unit::kPoses) {
+  if (unit == Delta::Unit::kPoses) {
     std::iota(length.begin(), length.end(), 0.0);
     return length;
   }
   if (pairs.stamps_ns.empty())
-    throw std::runtime_error("--span: a file has no times; expected a number of poses or of metres");
+    throw std::runtime_error("--delta: a file has no times; expected a number of poses or of metres");
   for (std::size_t i = 0; i < length.size(); ++i)
     length[i] = static_cast<double>(pairs.stamps_ns[i] - pairs.stamps_ns.front());
   return length;
@@ -63,7 +63,7 @@ std::optional<std::size_t> nearest_to(const std::vector<double>& length, std::si
   const double aim = length[from] + delta;
   std::size_t to = first_beyond(length, from, delta).value_or(length.size() - 1);
   if (to > from + 1 && aim - length[to - 1] <= std::abs(length[to] - aim)) --to;
-  if (std::abs(length[to] - aim) > kSpanTolerance * delta) return {};
+  if (std::abs(length[to] - aim) > kDeltaTolerance * delta) return {};
   return to;
 }
 
@@ -98,43 +98,43 @@ PoseErrors absolute_errors(const TrajectoryPairs& aligned) {
   return errors;
 }
 
-RelativeSpan parse_span(const std::string& text) {
-  RelativeSpan span;
+Delta parse_delta(const std::string& text) {
+  Delta delta;
   const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, span.delta);
+  const auto [rest, error] = std::from_chars(text.data(), end, delta.length);
   const std::string unit(rest, end);
   const bool known = unit.empty() || unit == "m" || unit == "s";
-  const bool whole = !unit.empty() || span.delta == std::floor(span.delta);
-  if (error != std::errc() || !known || !whole || !(span.delta > 0.0) || !std::isfinite(span.delta))
+  const bool whole = !unit.empty() || delta.length == std::floor(delta.length);
+  if (error != std::errc() || !known || !whole || !(delta.length > 0.0) || !std::isfinite(delta.length))
     throw std::runtime_error(fmt::format(
-        "--span: expected a number of poses, metres or seconds, e.g. 1, 10m or 0.5s (got '{}')", text));
-  if (unit == "m") span.unit = RelativeSpan::Unit::kMetres;
-  if (unit == "s") span.unit = RelativeSpan::Unit::kSeconds;
-  return span;
+        "--delta: expected a number of poses, metres or seconds, e.g. 1, 10m or 0.5s (got '{}')", text));
+  if (unit == "m") delta.unit = Delta::Unit::kMetres;
+  if (unit == "s") delta.unit = Delta::Unit::kSeconds;
+  return delta;
 }
 
-std::string text_of(const RelativeSpan& span) {
-  const bool metres = span.unit == RelativeSpan::Unit::kMetres;
-  return fmt::format("{}{}", span.delta, span.unit == RelativeSpan::Unit::kPoses ? "" : metres ? "m" : "s");
+std::string text_of(const Delta& delta) {
+  const bool metres = delta.unit == Delta::Unit::kMetres;
+  return fmt::format("{}{}", delta.length, delta.unit == Delta::Unit::kPoses ? "" : metres ? "m" : "s");
 }
 
-PoseErrors relative_errors(const TrajectoryPairs& aligned, const RelativeSpan& span) {
+PoseErrors relative_errors(const TrajectoryPairs& aligned, const Delta& delta) {
   PoseErrors errors;
-  const std::vector<double> length = progress(aligned, span.unit);
-  const bool in_metres = span.unit == RelativeSpan::Unit::kMetres;
-  const bool in_seconds = span.unit == RelativeSpan::Unit::kSeconds;
-  const double delta = in_seconds ? std::round(span.delta * kPerSecond_ns) : span.delta;
-  if (span.from_every_pose) {
+  const std::vector<double> length = progress(aligned, delta.unit);
+  const bool in_metres = delta.unit == Delta::Unit::kMetres;
+  const bool in_seconds = delta.unit == Delta::Unit::kSeconds;
+  const double apart = in_seconds ? std::round(delta.length * static_cast<double>(kSecond_ns)) : delta.length;
+  if (delta.all_pairs) {
     for (std::size_t from = 0; from + 1 < length.size(); ++from) {
-      const auto to = in_metres ? nearest_to(length, from, delta) : first_beyond(length, from, delta);
+      const auto to = in_metres ? nearest_to(length, from, apart) : first_beyond(length, from, apart);
       if (to) add(errors, motion_error(aligned, from, *to));
     }
     return errors;
   }
-  // In metres the first span begins where one could end, as evo has it.
-  std::optional<std::size_t> from = in_metres ? first_beyond(length, 0, delta) : 0;
+  // In metres the first pair begins where one could end, as evo has it.
+  std::optional<std::size_t> from = in_metres ? first_beyond(length, 0, apart) : 0;
   while (from) {
-    const std::optional<std::size_t> to = first_beyond(length, *from, delta);
+    const std::optional<std::size_t> to = first_beyond(length, *from, apart);
     if (to) add(errors, motion_error(aligned, *from, *to));
     from = to;
   }

@@ -32,26 +32,26 @@ ErrorStatistics statistics_of(std::vector<double> errors);
 PoseErrors absolute_errors(const TrajectoryPairs& aligned);
 
 /// Between which poses a relative error is.
-struct RelativeSpan {
+struct Delta {
   enum class Unit { kPoses, kMetres, kSeconds };
 
-  double delta = 1.0;
+  double length = 1.0;
   Unit unit = Unit::kPoses;
-  /// From every pose on, instead of from where the last span ended. In metres a span then ends at the pose
+  /// From every pose on, instead of from where the last pair ended. In metres a pair then ends at the pose
   /// that is nearest to its length, and there is none where that misses it by more than a tenth.
-  bool from_every_pose = false;
+  bool all_pairs = false;
 };
 
 /// Reads "1", "10m" or "0.5s". @throws std::runtime_error that says what was expected
-RelativeSpan parse_span(const std::string& text);
+Delta parse_delta(const std::string& text);
 
-/// The form that parse_span reads.
-std::string text_of(const RelativeSpan& span);
+/// The form that parse_delta reads.
+std::string text_of(const Delta& delta);
 
 /// The relative pose error: inverse(inverse(Q_i) Q_j) inverse(P_i) P_j of truth Q and estimate P (Sturm et
-/// al., eq. 1). A span ends at the first pose that is as far from its start as asked for, or further: in
+/// al., eq. 1). A pair ends at the first pose that is as far from its start as asked for, or further: in
 /// poses, in seconds, or in metres along the estimate's path. Spans are chosen as in the program evo.
-PoseErrors relative_errors(const TrajectoryPairs& aligned, const RelativeSpan& span);
+PoseErrors relative_errors(const TrajectoryPairs& aligned, const Delta& delta);
 
 /// The error over pieces of one length, per metre of them (Geiger, Lenz and Urtasun, CVPR 2012).
 struct SegmentErrors {

@@ -1,5 +1,6 @@
 #include "harness/trajectories/types.h"
 
+#include "harness/types.h"
 #include "slam/math/elementary.h"
 
 namespace stereobench::harness {
@@ -24,7 +25,8 @@ std::vector<double> times_of(const TrajectoryPairs& pairs) {
   for (std::size_t i = 0; i < pairs.truth.size(); ++i)
     times.push_back(pairs.stamps_ns.empty()
                         ? static_cast<double>(i)
-                        : static_cast<double>(pairs.stamps_ns[i] - pairs.stamps_ns.front()) / 1e9);
+                        : static_cast<double>(pairs.stamps_ns[i] - pairs.stamps_ns.front()) /
+                              static_cast<double>(kSecond_ns));
   return times;
 }
 

@@ -45,6 +45,13 @@ MeasurementLog exact_log() {
   return log;
 }
 
+slam::FilterConfig noisy_config() {
+  slam::FilterConfig config;
+  config.particles = 5;
+  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  return config;
+}
+
 class EveryFilter : public testing::TestWithParam<std::string> {};
 
 // Without noise there is no error. Mutations: updating before predicting, leaving out a control, starting at
@@ -70,9 +77,7 @@ TEST_P(EveryFilter, IsExactWithoutNoise) {
 
 TEST_P(EveryFilter, TheSameSeedIsTheSameRun) {
   const MeasurementLog log = exact_log();
-  slam::FilterConfig config;
-  config.particles = 5;
-  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const slam::FilterConfig config = noisy_config();
   const FilterRun once = replay(log, GetParam(), config, 3);
   const FilterRun again = replay(log, GetParam(), config, 3);
   ASSERT_EQ(once.poses.size(), log.steps.size());
@@ -109,9 +114,7 @@ TEST_P(EveryFilter, NeverLooksAtTheTruth) {
 // the bit. Mutation: a smoother that hands back the path that it ends with.
 TEST_P(EveryFilter, OfTheBeginningOfALogBelievesTheSame) {
   const MeasurementLog log = exact_log();
-  slam::FilterConfig config;
-  config.particles = 5;
-  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const slam::FilterConfig config = noisy_config();
   const FilterRun whole = replay(log, GetParam(), config, 3);
   for (std::size_t steps = 1; steps < log.steps.size(); steps += 3) {
     MeasurementLog beginning = log;
@@ -128,9 +131,7 @@ TEST_P(EveryFilter, OfTheBeginningOfALogBelievesTheSame) {
 
 // Mutation: one seed for all.
 TEST_P(EveryFilter, AnotherSeedIsAnotherRunWhereThereAreParticles) {
-  slam::FilterConfig config;
-  config.particles = 5;
-  config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
+  const slam::FilterConfig config = noisy_config();
   const FilterRun run = replay(exact_log(), GetParam(), config, 3);
   const FilterRun other = replay(exact_log(), GetParam(), config, 4);
   const bool draws = run.particles > 1;

@@ -58,7 +58,8 @@ TEST_P(AlignmentLaw, FitsBest) {
       Alignment other = best;
       const Eigen::Vector3d axis(flat ? 0.0 : random.normal(), flat ? 0.0 : random.normal(), 1.0);
       other.rotation = best.rotation * turned(1e-3 * random.normal(), axis);
-      other.shift_m += 1e-3 * Eigen::Vector3d(random.normal(), random.normal(), flat ? 0.0 : random.normal());
+      other.translation_m +=
+          1e-3 * Eigen::Vector3d(random.normal(), random.normal(), flat ? 0.0 : random.normal());
       if (scales) other.scale *= 1.0 + 1e-3 * random.normal();
       EXPECT_GE(rmse(pairs, other), least) << static_cast<int>(kind);
     }

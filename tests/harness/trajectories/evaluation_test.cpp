@@ -12,10 +12,10 @@ namespace {
 
 const std::filesystem::path kFolder = STEREOBENCH_SOURCE_DIR "/../shared/data/trajectories";
 
-Evaluation of_freiburg(const std::string& estimate, AlignmentKind align, const std::string& span,
-                       bool from_every_pose = false) {
-  EvaluationRules rules{.align = align, .span = parse_span(span)};
-  rules.span.from_every_pose = from_every_pose;
+Evaluation of_freiburg(const std::string& estimate, AlignmentKind align, const std::string& delta,
+                       bool all_pairs = false) {
+  EvaluationRules rules{.align = align, .delta = parse_delta(delta)};
+  rules.delta.all_pairs = all_pairs;
   return evaluate(read_trajectory(kFolder / ("freiburg1_xyz-" + estimate)),
                   read_trajectory(kFolder / "freiburg1_xyz-groundtruth.txt"), rules);
 }
@@ -62,7 +62,7 @@ TEST(Evaluation, InAPlaneHasTheFiguresOfAnotherProgram) {
                               0.8 * place + 0.1 * Eigen::Vector3d(std::sin(2.0 * t), t, std::cos(3.0 * t))});
   }
   const Evaluation evaluation = evaluate(
-      estimate, truth, {.align = AlignmentKind::kSim2, .plane = Plane::kXz, .span = parse_span("10")});
+      estimate, truth, {.align = AlignmentKind::kSim2, .plane = Plane::kXz, .delta = parse_delta("10")});
   EXPECT_NEAR(evaluation.alignment.scale, 1.246182861811454, 1e-12);
   EXPECT_NEAR(statistics_of(evaluation.absolute.translation_m).rmse, 0.1252173746063724, 1e-12);
   EXPECT_NEAR(statistics_of(evaluation.absolute.rotation_rad).rmse, 0.035127928030137916, 1e-9);

@@ -45,10 +45,10 @@ TEST(ErrorStatistics, ByHand) {
 // Law: relative errors do not depend on the frames of estimate and truth. Mutation: differences in the world.
 TEST(RelativeErrors, DoNotDependOnTheFrames) {
   TrajectoryPairs pairs = pair_trajectories(disturbed(winding_path(), 0.1, 0.1, 3), winding_path());
-  const PoseErrors here = relative_errors(pairs, {.delta = 3.0});
+  const PoseErrors here = relative_errors(pairs, {.length = 3.0});
   const PoseInSpace elsewhere{turned(2.0, {1.0, 2.0, 3.0}), {4.0, 5.0, -6.0}};
   for (PoseInSpace& pose : pairs.estimate) pose = compose(elsewhere, pose);
-  const PoseErrors there = relative_errors(pairs, {.delta = 3.0});
+  const PoseErrors there = relative_errors(pairs, {.length = 3.0});
   ASSERT_EQ(here.translation_m.size(), 66U);
   for (std::size_t i = 0; i < here.translation_m.size(); ++i) {
     EXPECT_NEAR(here.translation_m[i], there.translation_m[i], 1e-12);
@@ -56,44 +56,44 @@ TEST(RelativeErrors, DoNotDependOnTheFrames) {
   }
 }
 
-// A stretch of one in a hundred is a centimetre a metre, over any span of a straight path.
+// A stretch of one in a hundred is a centimetre a metre, over any delta of a straight path.
 TEST(RelativeErrors, AreThoseOfTheSpan) {
   const TrajectoryPairs pairs = drifting(101, 1.01, 0.0);
   for (const auto& [text, delta_m, count] :
        {std::tuple("1", 1.0, 100U), {"7", 7.0, 14U}, {"5s", 5.0, 20U}, {"10m", 10.0, 9U}}) {
-    const PoseErrors errors = relative_errors(pairs, parse_span(text));
+    const PoseErrors errors = relative_errors(pairs, parse_delta(text));
     EXPECT_EQ(errors.translation_m.size(), count) << text;
     EXPECT_THAT(errors.translation_m, Each(DoubleNear(0.01 * delta_m, 1e-9))) << text;
   }
-  RelativeSpan every = parse_span("10m");
-  every.from_every_pose = true;
+  Delta every = parse_delta("10m");
+  every.all_pairs = true;
   EXPECT_EQ(relative_errors(pairs, every).translation_m.size(), 92U);
-  EXPECT_TRUE(relative_errors(pairs, parse_span("500s")).translation_m.empty());
+  EXPECT_TRUE(relative_errors(pairs, parse_delta("500s")).translation_m.empty());
 }
 
-// At 10 Hz a span of 0.2 s is two poses, to the nanosecond. Mutation: differences of seconds as
+// At 10 Hz a delta of 0.2 s is two poses, to the nanosecond. Mutation: differences of seconds as
 // floating-point numbers, of which 0.3 - 0.1 is less than 0.2.
 TEST(RelativeErrors, InSecondsCountNanoseconds) {
   TrajectoryPairs pairs = drifting(201, 1.0, 0.0);
   for (std::int64_t& stamp_ns : pairs.stamps_ns) stamp_ns /= 10;
   for (const char* seconds : {"0.1s", "0.2s", "0.3s", "0.7s"}) {
-    RelativeSpan in_poses = parse_span(seconds);
-    in_poses.delta = std::round(10.0 * in_poses.delta);
-    in_poses.unit = RelativeSpan::Unit::kPoses;
-    EXPECT_EQ(relative_errors(pairs, parse_span(seconds)).translation_m.size(),
+    Delta in_poses = parse_delta(seconds);
+    in_poses.length = std::round(10.0 * in_poses.length);
+    in_poses.unit = Delta::Unit::kPoses;
+    EXPECT_EQ(relative_errors(pairs, parse_delta(seconds)).translation_m.size(),
               relative_errors(pairs, in_poses).translation_m.size())
         << seconds;
   }
   pairs.stamps_ns.clear();
-  EXPECT_THAT([&] { relative_errors(pairs, parse_span("1s")); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("--span: a file has no times")));
+  EXPECT_THAT([&] { relative_errors(pairs, parse_delta("1s")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--delta: a file has no times")));
 }
 
-TEST(ParseSpan, ReadsWhatItWritesAndRefusesTheRest) {
-  for (const char* text : {"1", "10m", "0.5s", "2.5m"}) EXPECT_EQ(text_of(parse_span(text)), text);
+TEST(ParseDelta, ReadsWhatItWritesAndRefusesTheRest) {
+  for (const char* text : {"1", "10m", "0.5s", "2.5m"}) EXPECT_EQ(text_of(parse_delta(text)), text);
   for (const char* text : {"", "m", "1.5", "-1", "0", "1km", "1 m", "nan", "inf"})
-    EXPECT_THAT([&] { parse_span(text); },
-                ThrowsMessage<std::runtime_error>(HasSubstr("--span: expected a number of poses")))
+    EXPECT_THAT([&] { parse_delta(text); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("--delta: expected a number of poses")))
         << text;
 }
 

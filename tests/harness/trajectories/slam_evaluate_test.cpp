@@ -37,7 +37,7 @@ class EvaluationCommand : public testing::Test {
 };
 
 TEST_F(EvaluationCommand, WritesWhatItPrints) {
-  const Outcome outcome = evaluate({"--align", "none", "--span", "5", "--segments-m", "10,20.5"});
+  const Outcome outcome = evaluate({"--align", "none", "--delta", "5", "--segments-m", "10,20.5"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("estimate.txt: 50 poses, 50 of them paired with the 50 of truth.txt"));
   EXPECT_THAT(outcome.out, HasSubstr("RPE over 5 poses, translation [m]"));
@@ -72,7 +72,7 @@ TEST_F(EvaluationCommand, RefusesOptionsThatHaveNoMeaning) {
   };
   expect_refused(evaluate({"--filters", "ekf"}), "--filters has no meaning beside --evaluate");
   expect_refused(evaluate({path("log")}), "log has no meaning beside --evaluate");
-  expect_refused(evaluate({"--span", "1km"}), "--span: expected a number of poses, metres or seconds");
+  expect_refused(evaluate({"--delta", "1km"}), "--delta: expected a number of poses, metres or seconds");
   expect_refused(evaluate({"--align", "4"}),
                  "--align: expected one of none, origin, se2, sim2, se3, sim3 (got '4')");
   expect_refused(evaluate({"--plane", "xz"}), "--plane: expected --align se2 or sim2 beside it");
