@@ -67,10 +67,6 @@ struct FilterConfig {
   double gate_probability =
       0.9999;  ///< a sighting is refused beyond this quantile of chi-square(2); 1 = never
 
-  /// Whether a frame with a refused sighting is fitted once more as a whole (fit_frame). Neither FastSLAM 2.0
-  /// nor UFastSLAM is published with such a refit: false gives those filters as they are.
-  bool refit = true;
-
   /// Two landmarks of one colour class are known to be at least this far apart; 0 = nothing is known. A
   /// sighting that lies within half of it of a landmark of its colour is that landmark, however sure the
   /// filter was.

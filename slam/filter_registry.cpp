@@ -82,13 +82,23 @@ constexpr auto kKinds = std::to_array<FilterKind>({
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
      }},
-    {"fastslam2", "FastSLAM 2.0", true, false, true,
+    {"fastslam2", "FastSLAM 2.0", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
      }},
-    {"ufastslam", "UFastSLAM", true, false, true,
+    {"ufastslam", "UFastSLAM", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
+     }},
+    {"fastslam2_iterated", "FastSLAM 2.0, iterated", true, false, true,
+     [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
+       return LinearisedFastSlam(with_low_floor(config), start, seed, Proposal::kPosterior,
+                                 Updates::kIterated);
+     }},
+    {"ufastslam_iterated", "UFastSLAM, iterated", true, false, true,
+     [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
+       return UnscentedFastSlam(with_low_floor(config), start, seed, Proposal::kPosterior,
+                                Updates::kIterated);
      }},
     {"ufastslam_kim", "UFastSLAM, stacked", true, false, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {

@@ -74,10 +74,6 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   fmt::join(slam::filter_names(), ", ")));
   command.add_option("--particles", arguments.particles, "particles of each particle filter")
       ->check(CLI::Range(1, 1'000'000));
-  command.add_flag_function(
-      "--refit,!--no-refit", [&arguments](std::int64_t count) { arguments.refit = count > 0; },
-      "whether filters fit a frame with a refused sighting once more as a whole, which the published ones do "
-      "not (default: yes)");
   add_seed_options(command, arguments);
   add_gate_option(command, arguments.gates);
 }

@@ -18,7 +18,6 @@ namespace stereobench::harness {
 struct RunArguments {
   std::vector<std::string> filters;
   int particles = 0;          ///< 0: as the scenario says
-  std::optional<bool> refit;  ///< none: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
   std::filesystem::path out;  ///< empty: out/<name>
@@ -44,7 +43,7 @@ std::vector<std::uint64_t> parse_seeds_option(const std::string& text);
 /// Adds --seeds, --jobs, --out, --dry-run and --quiet to a command.
 void add_seed_options(CLI::App& command, RunArguments& arguments);
 
-/// Adds --filters, --particles, --refit and --gate, and the options above.
+/// Adds --filters, --particles and --gate, and the options above.
 void add_run_options(CLI::App& command, RunArguments& arguments);
 
 /// A finite number within limits, both included. CLI::Range lets NaN through.

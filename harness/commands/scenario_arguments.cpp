@@ -53,7 +53,6 @@ Experiment read_experiment(const ScenarioArguments& arguments,
   check_identities(filters, experiment.scenario.identity == worlds::Identity::kKnown,
                    arguments.scenario.string());
   if (run.particles > 0) experiment.particles = run.particles;
-  if (run.refit) experiment.refit = *run.refit;
   if (!run.seeds.empty()) experiment.seeds = run.seeds;
   experiment.gates.insert(experiment.gates.end(), run.gates.begin(), run.gates.end());
   if (arguments.detector_timeout_s > 0.0) experiment.detector.timeout_s = arguments.detector_timeout_s;

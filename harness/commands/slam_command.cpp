@@ -103,7 +103,6 @@ int run_slam(SlamArguments arguments) {
   if (run.filters.empty()) run.filters = slam::usual_filter_names();
   if (run.seeds.empty()) run.seeds = {0};
   if (run.particles > 0) arguments.config.particles = run.particles;
-  if (run.refit) arguments.config.refit = *run.refit;
   check_metrics(run.gates, run_json(result_without_runs(arguments)));
   require_as_rendered(arguments.log);
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);

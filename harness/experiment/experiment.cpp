@@ -73,7 +73,6 @@ std::vector<Field<Experiment>> run_fields() {
       whole("particles", 1, 100000, "Particles of each particle filter.").fills(&Experiment::particles),
       whole("draw_every", 1, 100000, "Frames of a block, of the filters that draw poses in blocks.")
           .fills(&Experiment::draw_every),
-      flag("refit", "Whether a refused frame is fitted anew as a whole.").fills(&Experiment::refit),
       text("seeds", "Which seeds are run: 0..9 (both included), 3, or 0,4,7.", kSeedsPattern)
           .by<Experiment>(read_seeds, written_seeds),
       group("gates", gate_keys(), "Limits on metrics of run.json; a broken one is exit code 1.")

@@ -12,7 +12,6 @@ slam::FilterConfig filter_config(const Experiment& experiment) {
   slam::FilterConfig config;
   config.particles = experiment.particles;
   config.draw_every = experiment.draw_every;
-  config.refit = experiment.refit;
   config.odometry_noise = believed.odometry_noise.value_or(scenario.odometry_noise);
   config.noise_law = believed.measurement_noise;
   config.stated_sd_scale = believed.stated_sd_scale;

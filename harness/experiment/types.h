@@ -49,7 +49,6 @@ struct Experiment {
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
   int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block, of the filters that have blocks
-  bool refit = slam::FilterConfig{}.refit;  ///< whether filters fit a frame with a refused sighting once more
   std::vector<std::uint64_t> seeds = {0};
   std::vector<Gate> gates;
 };

@@ -24,10 +24,4 @@ Eigen::Matrix3d drift_covariance(const Pose& pose, const Eigen::Vector2d& landma
   return Eigen::Vector3d(off_m2, off_m2, kHeadingPerMetre_rad * kHeadingPerMetre_rad * off_m2).asDiagonal();
 }
 
-Eigen::Matrix3d bend_covariance(const PoseBelief& motion) {
-  const Eigen::Matrix3d& p = motion.covariance;
-  const double bend_m2 = p(2, 2) * (p(0, 0) + p(1, 1));
-  return Eigen::Vector3d(bend_m2, bend_m2, 0.0).asDiagonal();
-}
-
 }  // namespace stereobench::slam

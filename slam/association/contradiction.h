@@ -22,10 +22,4 @@ Outcome judge_contradiction(const TrackRecord& landmark, bool certain, bool corr
 Eigen::Matrix3d drift_covariance(const Pose& pose, const Eigen::Vector2d& landmark,
                                  const Observation& observation);
 
-/// What a prediction of first order leaves out: an error of the heading turns an error of the way. Twice of
-/// it, for the tails.
-///
-/// @param motion from a pose that was known, or in its frame
-Eigen::Matrix3d bend_covariance(const PoseBelief& motion);
-
 }  // namespace stereobench::slam

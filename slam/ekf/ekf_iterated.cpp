@@ -9,13 +9,6 @@
 namespace stereobench::slam {
 namespace {
 
-/// The motion in chord coordinates, with some room across the chord.
-ChordBelief chord_with_slack(const PoseBelief& motion) {
-  ChordBelief chord = chord_of(motion);
-  chord.covariance(1, 1) += kAcrossShare * kAcrossShare * chord.covariance.topLeftCorner<2, 2>().trace();
-  return chord;
-}
-
 /// The belief after a motion, to first order at the mode of a frame.
 JointBelief predict_at(const FrameMode& mode, const JointBelief& before, const ChordBelief& motion) {
   const Pose robot = end_of(mode.from, mode.chord);

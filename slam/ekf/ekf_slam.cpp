@@ -120,7 +120,7 @@ void EkfSlam::use(std::span<const Sighting> frame) {
   if (before)
     correct_iterated(decided, *std::move(before), motion);
   else
-    correct_once(decided, motion);
+    correct_one_by_one(decided);
   decided_ = decisions_of(frame, decided.targets, [&](const Sighting&, const Target& target) {
     return map_[static_cast<std::size_t>(target.landmark)].status.origin;
   });
@@ -135,20 +135,6 @@ EkfSlam::Decided EkfSlam::decide(std::span<const Sighting> frame) {
   associate(policy_, View{*this}, frame, decided.targets, counters_.joint_searches_cut);
   order_by_age(decided.targets, decided.order);
   return decided;
-}
-
-void EkfSlam::correct_once(Decided& decided, const PoseBelief& motion) {
-  const long gated_before = counters_.gated_measurements;
-  JointBelief predicted = belief_;
-  correct_one_by_one(decided);
-  if (!config_.refit || counters_.gated_measurements == gated_before) return;
-  predicted.covariance.move_pose(Eigen::Vector2d::Zero(), bend_covariance(motion));
-  if (auto fitted = fit_at_once(predicted, decided)) {
-    belief_ = *std::move(fitted);
-    counters_.gated_measurements = gated_before;
-    for (const std::size_t k : decided.order) decided.targets[k].outcome = Outcome::kUse;
-    for (NormalisedInnovation& innovation : report_.innovations) innovation.refused = false;
-  }
 }
 
 void EkfSlam::correct_one_by_one(Decided& decided) {
@@ -183,36 +169,6 @@ Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corrobo
   }
   if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
   return Outcome::kUse;
-}
-
-/// The iterated filter (Bell and Cathey, 1993): all sightings of a frame linearised at the state that they
-/// lead to.
-///
-/// @param predicted before the frame is used
-/// @return the belief after all sightings, when no chi-square speaks against it
-std::optional<JointBelief> EkfSlam::fit_at_once(const JointBelief& predicted, const Decided& decided) {
-  constexpr int kIterations = 8;
-  constexpr double kConverged = 1e-7;  // m and rad
-  const double limit = approximate_chi_square_quantile(policy_.gate_probability,
-                                                       2.0 * static_cast<double>(decided.order.size()));
-  JointBelief at = predicted;
-  const long before = counters_.covariance_repairs;
-  for (int i = 0; i < kIterations; ++i) {
-    JointBelief fitted = predicted;
-    double squared_length = 0.0;
-    for (const std::size_t k : decided.order) {
-      const int landmark = decided.targets[k].landmark;
-      const JointInnovation seen =
-          innovation(fitted, at, landmark, decided.frame[k].observation, counters_.covariance_repairs);
-      squared_length += seen.squared_length();
-      correct(fitted, landmark, seen, counters_.covariance_repairs);
-    }
-    const double step = boxminus(fitted.pose, at.pose).norm();
-    at = std::move(fitted);
-    if (counters_.covariance_repairs != before) return std::nullopt;
-    if (step < kConverged) return squared_length <= limit ? std::optional(at) : std::nullopt;
-  }
-  return std::nullopt;
 }
 
 void EkfSlam::learn(const Target& target, const Sighting& sighting) {

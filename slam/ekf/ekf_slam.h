@@ -91,7 +91,6 @@ class EkfSlam {
 
   Landmark landmark(std::size_t j) const;
   Decided decide(std::span<const Sighting> frame);
-  void correct_once(Decided& decided, const PoseBelief& motion);
   void correct_iterated(Decided& decided, JointBelief before, const PoseBelief& motion);
   std::optional<FrameMode> leave_out_outliers(const Decided& decided, const JointBelief& before,
                                               const ChordBelief& motion, std::vector<std::size_t>& used);
@@ -99,7 +98,6 @@ class EkfSlam {
   static std::vector<SeenLandmark> seen_by(const Decided& decided, const std::vector<std::size_t>& used);
   void correct_one_by_one(Decided& decided);
   Outcome correct_by(int landmark, const Sighting& sighting, bool corroborated);
-  std::optional<JointBelief> fit_at_once(const JointBelief& predicted, const Decided& decided);
   void learn(const Target& target, const Sighting& sighting);
 
   FilterConfig config_;

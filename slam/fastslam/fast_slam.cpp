@@ -16,9 +16,10 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
                           Proposal proposal, Updates updates)
     : config_(config),
       proposal_(proposal),
+      updates_(proposal == Proposal::kMotion ? Updates::kToJudge : updates),
       model_(config.unscented),
       reader_(config),
-      correction_(config, proposal == Proposal::kMotion ? Updates::kToJudge : updates),
+      correction_(config, updates_),
       management_(config),
       random_(seed, Stream::kFilter),
       particles_(static_cast<std::size_t>(config.particles), Particle{start, {}, {}}),
@@ -33,7 +34,10 @@ FastSlam<Model>::FastSlam(const FilterConfig& config, const Pose& start, std::ui
 
 template <class Model>
 void FastSlam<Model>::predict(const Control& control) {
-  move(motion_, model_, control, config_.odometry_noise, counters_);
+  if (updates_ == Updates::kIterated)  // the chord says what is not linear
+    move(motion_, Linearised(), control, config_.odometry_noise, counters_);
+  else
+    move(motion_, model_, control, config_.odometry_noise, counters_);
 }
 
 template <class Model>
@@ -76,10 +80,11 @@ void FastSlam<Model>::keep_expected(std::size_t particle) {
 template <class Model>
 bool FastSlam<Model>::correct(std::span<const Sighting> frame) {
   targets_.resize(particles_.size() * frame.size());
+  const ChordBelief motion = chord_with_slack(motion_);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     headings_[i] = sine_cosine(particles_[i].pose.heading_rad);
     const PoseBelief predicted = follow(particles_[i].pose, headings_[i], motion_);
-    posteriors_[i] = correction_.correct(particles_[i], predicted, frame, targets_of(i), counters_);
+    posteriors_[i] = correction_.correct(particles_[i], predicted, motion, frame, targets_of(i), counters_);
     if (config_.report_updates) keep_expected(i);
   }
   return std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
@@ -136,11 +141,16 @@ void FastSlam<Model>::resample() {
 template <class Model>
 void FastSlam<Model>::draw_poses() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const PoseBelief& belief = posteriors_[i].pose;
-    particles_[i].pose = belief.mean;
-    if (proposal_ == Proposal::kMotion && !posteriors_[i].relocalised) continue;
-    const Eigen::Matrix3d root = semidefinite_root<3>(belief.covariance, counters_.covariance_repairs);
-    particles_[i].pose = boxplus(belief.mean, root * normals());
+    const auto& [belief, likelihood, corroborated, relocalised, motion] = posteriors_[i];
+    Pose& pose = particles_[i].pose;
+    long& repairs = counters_.covariance_repairs;
+    if (motion) {
+      pose = end_of(pose, motion->mean + semidefinite_root<3>(motion->covariance, repairs) * normals());
+      continue;
+    }
+    pose = belief.mean;
+    if (proposal_ == Proposal::kMotion && !relocalised) continue;
+    pose = boxplus(belief.mean, semidefinite_root<3>(belief.covariance, repairs) * normals());
   }
   motion_ = {};
 }

@@ -74,6 +74,7 @@ class FastSlam {
 
   FilterConfig config_;
   Proposal proposal_;
+  Updates updates_;
   Model model_;
   FrameReader reader_;
   PoseCorrection<Model> correction_;

@@ -1,9 +1,13 @@
-/// The pose that explains a whole frame: all its sightings at once, where one after the other is too coarse.
+/// The motion that explains a whole frame: what a particle's next pose is drawn from.
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "slam/fastslam/particle.h"
+#include "slam/fastslam/predictive_mixture.h"
+#include "slam/models/chord.h"
+#include "slam/models/linearised.h"
+#include "slam/models/unscented.h"
 
 namespace stereobench::slam {
 
@@ -13,27 +17,49 @@ struct Match {
   Observation observation;
 };
 
-/// A pose fitted to a whole frame, and how well it fits.
-struct FrameFit {
-  Posterior posterior;
-  double prior_cost =
-      0.0;  ///< squared Mahalanobis distance from the prediction; chi-square with <= 3 degrees
-  double sighting_cost = 0.0;  ///< of the sightings from the fitted pose; chi-square with 2 degrees each
+/// A sighting to first order in u, the error of the motion.
+struct LinearMatch {
+  Eigen::Vector2d expected;          ///< at the mode
+  Eigen::Vector2d residual;          ///< seen less expected
+  Eigen::Matrix<double, 2, 3> by_u;  ///< d expected / du
+  Eigen::Matrix2d noise;             ///< of sensor and landmark
 };
 
-/// Finds the most probable pose given a frame, by Gauss-Newton from the predicted pose over all matches at
-/// once.
+/// The posterior of a motion given a frame: a Gaussian around its mode.
+struct FrameFit {
+  Eigen::Vector3d u;            ///< the mode; motion = prior mean + L u, where L L' is the prior's covariance
+  Eigen::Matrix3d of_u;         ///< covariance of u; the prior's is the identity
+  ChordBelief motion;           ///< the same in chord coordinates
+  double log_likelihood = 0.0;  ///< of the frame, by Laplace's approximation
+  std::vector<LinearMatch> matches;  ///< in the order given
+};
+
+/// Finds the most probable motion given a frame, by Gauss-Newton steps from its mean. A step that does not
+/// lower the cost is halved.
 ///
-/// Corrections one after the other take each landmark's moments where the last one left the pose. With a
-/// sensor of a millimetre and odometry of centimetres the bend of the range over the pose's uncertainty is
-/// larger than the noise, and a right sighting looks wrong. Here everything is linearised at the solution.
-/// The pose is written as predicted + L u with P = L L' and u ~ N(0, I), so a singular P is nothing special.
-/// The likelihood is Laplace's approximation; for a linear sensor it is the product of the innovations'
-/// densities.
+/// Given a particle's path the pose before the motion is known and landmarks are independent. Three numbers
+/// are looked for: the motion along its chord, across it, and its turn. In these the error of a coarse
+/// control is Gaussian; in (x, y, heading) it lies on a curve, which a precise sensor shows.
 ///
-/// @param predicted before the frame is used
-/// @param matches at least one
+/// With Unscented the sightings are then replaced by straight lines through sigma points of u and of each
+/// landmark, drawn around the mode (posterior linearisation; Garcia-Fernandez et al., IEEE TSP 2015), and the
+/// mode is looked for once more.
+///
+/// For a linear sensor the likelihood is the product of the innovations' densities.
+///
+/// @param from world_from_robot before the motion
+/// @param motion its mean and covariance, which may be singular
+/// @param matches may be none
 /// @param repairs counts covariances that had to be repaired
-FrameFit fit_frame(const PoseBelief& predicted, std::span<const Match> matches, long& repairs);
+template <class Model>
+FrameFit fit_frame(const Model& model, const Pose& from, const ChordBelief& motion,
+                   std::span<const Match> matches, long& repairs);
+
+/// @return the squared Mahalanobis length of a match's innovation, predicted from the motion and all other
+/// matches; chi-square with two degrees of freedom, where all is as believed
+double squared_length_without(const FrameFit& fit, std::size_t match);
+
+/// @return what each match should have been, given those before it, to first order at the mode
+std::vector<ExpectedSighting> expected_in_turn(const FrameFit& fit);
 
 }  // namespace stereobench::slam

@@ -1,9 +1,12 @@
 /// A particle: the end of a path, and the map that belongs to it.
 #pragma once
 
+#include <optional>
+
 #include "slam/association/sighting.h"
 #include "slam/fastslam/landmark_map.h"
 #include "slam/models/belief.h"
+#include "slam/models/chord.h"
 
 namespace stereobench::slam {
 
@@ -20,9 +23,10 @@ struct Particle {
 /// A particle's pose after what it saw, before it is drawn.
 struct Posterior {
   PoseBelief pose;
-  double log_likelihood = 0.0;  ///< of the whole frame, given the particle's path and map
-  bool corroborated = false;    ///< some landmark has corrected it in this frame
-  bool relocalised = false;     ///< a contradiction was settled against the odometry
+  double log_likelihood = 0.0;             ///< of the whole frame, given the particle's path and map
+  bool corroborated = false;               ///< some landmark has corrected it in this frame
+  bool relocalised = false;                ///< a contradiction was settled against the odometry
+  std::optional<ChordBelief> motion = {};  ///< to the pose, where it is the motion that is Gaussian
 };
 
 /// The map that a sighting's landmark is in: by identity, or by colour alone.

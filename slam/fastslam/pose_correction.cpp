@@ -15,9 +15,6 @@
 namespace stereobench::slam {
 namespace {
 
-constexpr double kSlip =
-    3.0;  ///< how many times worse than believed odometry may be when landmarks agree on it
-
 /// Whether a posterior and the squares that are made of it are numbers.
 bool is_finite(const Posterior& posterior) {
   const Pose& pose = posterior.pose.mean;
@@ -99,22 +96,44 @@ void apply(const Innovation& innovation, Posterior& posterior) {
   posterior.pose.covariance = 0.5 * (covariance + covariance.transpose());
   posterior.log_likelihood += innovation.log_likelihood();
   posterior.corroborated = true;
+  posterior.motion.reset();
+}
+
+/// The match that the rest of a frame speaks most against; one that is no number is the worst.
+struct Worst {
+  std::ptrdiff_t match = 0;
+  double squared_length = -1.0;
+};
+
+Worst worst_of(const FrameFit& fit) {
+  Worst worst;
+  for (std::size_t i = 0; i < fit.matches.size(); ++i) {
+    const double squared_length = squared_length_without(fit, i);
+    if (!(squared_length <= worst.squared_length)) worst = {static_cast<std::ptrdiff_t>(i), squared_length};
+  }
+  return worst;
+}
+
+/// @param from the pose before the motion
+Posterior after(const Pose& from, const FrameFit& fit) {
+  const Eigen::Matrix3d slope = end_by_chord(from, fit.motion.mean);
+  const Eigen::Matrix3d covariance = slope * fit.motion.covariance * slope.transpose();
+  return {.pose = {end_of(from, fit.motion.mean), 0.5 * (covariance + covariance.transpose())},
+          .log_likelihood = fit.log_likelihood,
+          .corroborated = true,
+          .motion = fit.motion};
 }
 
 }  // namespace
 
 template <class Model>
 PoseCorrection<Model>::PoseCorrection(const FilterConfig& config, Updates updates)
-    : model_(config.unscented),
-      updates_(updates),
-      policy_(config),
-      refit_(config.refit),
-      report_(config.report_updates) {}
+    : model_(config.unscented), updates_(updates), policy_(config), report_(config.report_updates) {}
 
 template <class Model>
 Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
-                                         std::span<const Sighting> frame, std::span<Target> targets,
-                                         FilterCounters& counters) {
+                                         const ChordBelief& motion, std::span<const Sighting> frame,
+                                         std::span<Target> targets, FilterCounters& counters) {
   const PredictedParticle<Model> belief{particle, predicted, model_, counters.covariance_repairs};
   associate(policy_, belief, frame, targets, counters.joint_searches_cut);
   doubt(particle, frame, targets);
@@ -122,26 +141,17 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   if (report_) expected_.assign(frame.size(), {});
   Posterior posterior{predicted};
   const long gated_before = counters.gated_measurements;
+  late_ = order_;
   if (updates_ == Updates::kAtOnce) use_at_once(particle, frame, targets, posterior, counters);
-  for (const std::size_t k : updates_ == Updates::kAtOnce ? late_ : order_) {
+  if (updates_ == Updates::kIterated) fit_at_once(particle, motion, frame, targets, posterior, counters);
+  for (const std::size_t k : late_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
     const double before = posterior.log_likelihood;
     const bool contradicted = counters.gated_measurements > gated_before;
-    const bool read = updates_ != Updates::kToJudge || k != order_.back() || contradicted;
+    const bool read = updates_ != Updates::kToJudge || k != late_.back() || contradicted;
     targets[k].outcome =
         use(landmark, frame[k], posterior, counters, {report_ ? &expected_[k] : nullptr, read});
     if (report_) expected_[k].log_likelihood = posterior.log_likelihood - before;
-  }
-  if (refit_ && counters.gated_measurements > gated_before) {
-    matches_.clear();
-    for (const std::size_t k : order_)
-      matches_.push_back({landmark_of(particle, frame[k], targets[k]).belief, frame[k].observation});
-    const auto joint = reconsider(predicted, posterior, counters.covariance_repairs);
-    if (joint) {
-      posterior = *joint;
-      counters.gated_measurements = gated_before;
-      for (const std::size_t k : order_) targets[k].outcome = Outcome::kUse;
-    }
   }
   posterior.log_likelihood += log_density_of_new(frame, targets);
   if (is_finite(posterior)) return posterior;
@@ -198,25 +208,6 @@ double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame
   return sum;
 }
 
-/// @param refusing the posterior that refuses some of the matches
-/// @return the posterior of all matches at once, when one pose explains them better than refusing does
-template <class Model>
-std::optional<Posterior> PoseCorrection<Model>::reconsider(const PoseBelief& predicted,
-                                                           const Posterior& refusing, long& repairs) const {
-  const double limit =
-      approximate_chi_square_quantile(policy_.gate_probability, 2.0 * static_cast<double>(matches_.size()));
-  const Eigen::Matrix3d covariance = predicted.covariance + bend_covariance(predicted);
-  const FrameFit bent = fit_frame({predicted.mean, covariance}, matches_, repairs);
-  if (bent.prior_cost + bent.sighting_cost <= limit) return bent.posterior;
-  if (matches_.size() < 2) return std::nullopt;  // nobody else says so
-  FrameFit slipped = fit_frame({predicted.mean, kSlip * kSlip * covariance}, matches_, repairs);
-  slipped.posterior.log_likelihood +=
-      logarithm_of_one_plus(-policy_.gate_probability);  // so rarely is the odometry that wrong
-  if (!(slipped.prior_cost + slipped.sighting_cost <= limit)) return std::nullopt;
-  if (!(slipped.posterior.log_likelihood > refusing.log_likelihood)) return std::nullopt;
-  return slipped.posterior;
-}
-
 /// Uses the sightings that the prediction does not refuse, and leaves the others in late_.
 template <class Model>
 void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<const Sighting> frame,
@@ -238,6 +229,34 @@ void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<cons
     }
   }
   if (!expectations_.empty()) posterior = correct_at_once(posterior.pose, expectations_, repairs);
+}
+
+/// Fits the motion to the frame without the sightings that the others speak against, and leaves those in
+/// late_.
+template <class Model>
+void PoseCorrection<Model>::fit_at_once(const Particle& particle, const ChordBelief& motion,
+                                        std::span<const Sighting> frame, std::span<Target> targets,
+                                        Posterior& posterior, FilterCounters& counters) {
+  std::vector<std::size_t> used = order_;
+  matches_.clear();
+  for (const std::size_t k : used)
+    matches_.push_back({landmark_of(particle, frame[k], targets[k]).belief, frame[k].observation});
+  while (!used.empty()) {
+    const FrameFit fit = fit_frame(model_, particle.pose, motion, matches_, counters.covariance_repairs);
+    const Worst worst = worst_of(fit);
+    if (worst.squared_length <= policy_.gate) {
+      for (const std::size_t k : used) targets[k].outcome = Outcome::kUse;
+      if (report_) {
+        const std::vector<ExpectedSighting> expected = expected_in_turn(fit);
+        for (std::size_t i = 0; i < used.size(); ++i) expected_[used[i]] = expected[i];
+      }
+      posterior = after(particle.pose, fit);
+      break;
+    }
+    used.erase(used.begin() + worst.match);
+    matches_.erase(matches_.begin() + worst.match);
+  }
+  std::erase_if(late_, [&](std::size_t k) { return std::ranges::find(used, k) != used.end(); });
 }
 
 template <class Model>

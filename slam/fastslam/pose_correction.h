@@ -18,8 +18,9 @@ namespace stereobench::slam {
 /// From where the landmarks of a frame are looked at.
 enum class Updates {
   kOneByOne,  ///< each from where the one before left the pose: the paper's refreshed sigma points (eq. 24)
-  kAtOnce,   ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
-  kToJudge,  ///< one by one, but for their outcomes alone: the pose is drawn without them (FastSLAM 1.0)
+  kAtOnce,  ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
+  kIterated,  ///< all at once, linearised where they put the pose in the end (fit_frame)
+  kToJudge,   ///< one by one, but for their outcomes alone: the pose is drawn without them (FastSLAM 1.0)
 };
 
 /// Corrects the predicted pose of a particle by the landmarks it knows, one after the other, oldest first.
@@ -34,10 +35,10 @@ enum class Updates {
 /// With Updates::kToJudge nobody reads the pose that a frame without contradictions leaves, so that what its
 /// last landmark would make of the pose is not worked out.
 ///
-/// **Second look.** When a sighting falls beyond the gate, the frame is looked at as a whole (fit_frame).
-/// After coarse odometry a precise sensor may be refused for what first order leaves out, and that is
-/// granted. And when two or more landmarks agree on one pose, it is the odometry that is wrong: outliers do
-/// not agree with each other. With FilterConfig::refit false there is none.
+/// With Updates::kIterated the frame is fitted as a whole (fit_frame). A sighting beyond the gate of what the
+/// motion and all others say is left out, the worst first, and used after the others, one after the other, as
+/// the rules below say. Landmarks that agree on one pose so overrule the odometry, where one alone is
+/// refused.
 ///
 /// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
 /// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
@@ -59,12 +60,13 @@ class PoseCorrection {
  public:
   explicit PoseCorrection(const FilterConfig& config, Updates updates = Updates::kOneByOne);
 
-  /// @param particle its map; the pose is not read
+  /// @param particle its map, and its pose before the motion
   /// @param predicted where the particle should be by its odometry
+  /// @param motion the same from the pose before, along and across its chord
   /// @param frame what was seen
   /// @param targets one for each sighting; receives its outcome
-  Posterior correct(const Particle& particle, const PoseBelief& predicted, std::span<const Sighting> frame,
-                    std::span<Target> targets, FilterCounters& counters);
+  Posterior correct(const Particle& particle, const PoseBelief& predicted, const ChordBelief& motion,
+                    std::span<const Sighting> frame, std::span<Target> targets, FilterCounters& counters);
 
   /// The likelihood of the same frame from a pose that was drawn: each sighting that was used counts by its
   /// innovation's density given that pose, each that was refused by the likelihood at the gate.
@@ -85,21 +87,20 @@ class PoseCorrection {
 
   void doubt(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets) const;
   double log_density_of_new(std::span<const Sighting> frame, std::span<const Target> targets) const;
-  std::optional<Posterior> reconsider(const PoseBelief& predicted, const Posterior& refusing,
-                                      long& repairs) const;
   void use_at_once(const Particle& particle, std::span<const Sighting> frame, std::span<Target> targets,
                    Posterior& posterior, FilterCounters& counters);
+  void fit_at_once(const Particle& particle, const ChordBelief& motion, std::span<const Sighting> frame,
+                   std::span<Target> targets, Posterior& posterior, FilterCounters& counters);
   Outcome use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
               FilterCounters& counters, const Wanted& wanted) const;
 
   Model model_;
   Updates updates_;
   AssociationPolicy policy_;
-  bool refit_;
   bool report_;
   std::vector<ExpectedSighting> expected_;
   std::vector<std::size_t> order_;
-  std::vector<std::size_t> late_;  ///< of order_, what is still to be used one after the other
+  std::vector<std::size_t> late_;  ///< of order_, what is used one after the other
   std::vector<Expectation> expectations_;
   std::vector<Match> matches_;
 };

@@ -44,4 +44,10 @@ ChordBelief chord_of(const PoseBelief& start_from_end) {
   return {mean, slope * start_from_end.covariance * slope.transpose()};
 }
 
+ChordBelief chord_with_slack(const PoseBelief& start_from_end) {
+  ChordBelief chord = chord_of(start_from_end);
+  chord.covariance(1, 1) += kAcrossShare * kAcrossShare * chord.covariance.topLeftCorner<2, 2>().trace();
+  return chord;
+}
+
 }  // namespace stereobench::slam

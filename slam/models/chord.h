@@ -39,4 +39,7 @@ Eigen::Matrix3d end_by_chord(const Pose& from, const Eigen::Vector3d& chord);
 /// @param start_from_end the motion in the frame of its start
 ChordBelief chord_of(const PoseBelief& start_from_end);
 
+/// The same with some room across the chord, for searches.
+ChordBelief chord_with_slack(const PoseBelief& start_from_end);
+
 }  // namespace stereobench::slam

@@ -1,6 +1,7 @@
 #include "slam/models/noise_law.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "slam/models/motion.h"
 
@@ -20,10 +21,22 @@ Observation observe(const RangeBearing& seen, const FilterConfig& config) {
   return observation;
 }
 
-FilterConfig without_floor(FilterConfig config) {
-  config.range_floor_m = std::min(config.range_floor_m, 1e-5);
-  config.bearing_floor_rad = std::min(config.bearing_floor_rad, 1e-7);
+namespace {
+
+FilterConfig with_floor_below(FilterConfig config, double range_m, double bearing_rad) {
+  config.range_floor_m = std::min(config.range_floor_m, range_m);
+  config.bearing_floor_rad = std::min(config.bearing_floor_rad, bearing_rad);
   return config;
+}
+
+}  // namespace
+
+FilterConfig without_floor(FilterConfig config) {
+  return with_floor_below(std::move(config), 1e-5, 1e-7);
+}
+
+FilterConfig with_low_floor(FilterConfig config) {
+  return with_floor_below(std::move(config), 5e-5, 2.5e-6);
 }
 
 }  // namespace stereobench::slam

@@ -70,8 +70,7 @@ class SightingCost : public ceres::SizedCostFunction<2, 3, 2> {
 /// What a filter makes of the log, step by step.
 BatchEstimate filtered(FilterConfig config, const Pose& start, std::span<const BatchStep> steps) {
   config.particles = kParticles;
-  config.refit = true;  // where the search starts is no matter of which filter the batch is held against
-  Filter filter = make_filter("fastslam2", config, start, 0);
+  Filter filter = make_filter("fastslam2_iterated", config, start, 0);
   BatchEstimate estimate;
   for (const BatchStep& step : steps) {
     for (const Control& control : step.controls) predict(filter, control);

@@ -86,7 +86,6 @@ constexpr BadOverride kBadOverrides[] = {
     {"particles=", "--set particles: expected a whole number from 1 to 100000 (got nothing)"},
     {"believed_odometry_noise.v=1", "--set believed_odometry_noise.v: unknown key"},
     {"believed_oracle.range_sd_m=8", "--set believed_oracle.range_sd_m: unknown key"},
-    {"refit=maybe", "--set refit: expected true or false (got maybe)"},
     {"believed_measurement_noise.range_sd_m=1", "--set believed_measurement_noise.kind: this key is missing"},
     {"believed_measurement_noise.kind=laser",
      "--set believed_measurement_noise.kind: expected one of per_observation, constant, stereo, file (got "

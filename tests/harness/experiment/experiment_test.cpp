@@ -100,11 +100,6 @@ TEST(Experiment, BelievesTheTrueOracleUnlessToldOtherwise) {
   EXPECT_EQ(read_small(lines).scenario.oracle.false_per_look, 2.0) << "the sensor stays as it is";
 }
 
-TEST(Experiment, SaysWhetherFiltersRefit) {
-  EXPECT_TRUE(read_small().refit);
-  EXPECT_FALSE(read_small({"refit=false"}).refit);
-}
-
 // 500 px and 0.1 m. Catches: pixels that are taken for metres, and a law that is told to nobody's rig.
 TEST(Experiment, ReadsTheNoiseThatFiltersBelieveOfTheSensor) {
   EXPECT_FALSE(read_small().believed.measurement_noise);

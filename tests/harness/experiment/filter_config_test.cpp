@@ -5,8 +5,8 @@
 namespace stereobench::harness {
 namespace {
 
-// The oracle is what it is, and filters may be told otherwise. Mutations: the true sector, or the default
-// refit, whatever the experiment says; a sector for cameras.
+// The oracle is what it is, and filters may be told otherwise. Mutations: the true sector,
+// whatever the experiment says; a sector for cameras.
 TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
   Experiment experiment;
   experiment.scenario.sensor = worlds::SensorKind::kOracle;
@@ -14,12 +14,9 @@ TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
   experiment.scenario.oracle.false_per_look = 2.0;
   EXPECT_EQ(filter_config(experiment).sector.range_m, 12.0);
   EXPECT_EQ(filter_config(experiment).sector.false_per_look, 2.0);
-  EXPECT_TRUE(filter_config(experiment).refit);
   experiment.believed.sector = slam::SensorSector{6.0, 0.5, 0.2, 0.1};
-  experiment.refit = false;
   EXPECT_EQ(filter_config(experiment).sector.range_m, 6.0);
   EXPECT_EQ(filter_config(experiment).sector.false_per_look, 0.1);
-  EXPECT_FALSE(filter_config(experiment).refit);
   experiment.scenario.sensor = worlds::SensorKind::kStereo;
   EXPECT_EQ(filter_config(experiment).sector.range_m, 0.0);
 }

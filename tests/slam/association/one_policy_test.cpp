@@ -68,8 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, OnePolicy,
 
 /// Where odometry is exact, two filters must decide alike of every sighting and landmark.
 void expect_alike(const Rules& rules, double precision, const char* one_name, const char* other_name) {
-  FilterConfig config{
-      .particles = 1, .refit = false, .colour_spacing_m = rules.spacing_m, .association = rules.association};
+  FilterConfig config{.particles = 1, .colour_spacing_m = rules.spacing_m, .association = rules.association};
   if (rules.has_sector) config.sector = {kRange_m, kHalfAngle_rad, 0.1, 1.0};
   std::array<int, 6> outcomes{};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

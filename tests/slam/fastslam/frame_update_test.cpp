@@ -115,8 +115,8 @@ struct Corrected {
       particle.known.push_back({scene.landmarks[i], kUnknown, 5, 0});
       frame.push_back({scene.seen[i], static_cast<int>(i), kUnknown});
     }
-    posterior =
-        PoseCorrection<Unscented>({}, updates).correct(particle, scene.predicted, frame, targets, counters);
+    posterior = PoseCorrection<Unscented>({}, updates)
+                    .correct(particle, scene.predicted, chord_of(scene.predicted), frame, targets, counters);
   }
 };
 

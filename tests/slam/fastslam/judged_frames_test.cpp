@@ -43,9 +43,9 @@ struct Judged {
 template <class Model>
 Judged outcome(const JudgedScene& scene, Updates updates) {
   Judged result{std::vector<Target>(scene.frame.size()), {}, {}};
-  result.posterior =
-      PoseCorrection<Model>({}, updates)
-          .correct(scene.particle, scene.predicted, scene.frame, result.targets, result.counters);
+  result.posterior = PoseCorrection<Model>({}, updates)
+                         .correct(scene.particle, scene.predicted, chord_of(scene.predicted), scene.frame,
+                                  result.targets, result.counters);
   return result;
 }
 

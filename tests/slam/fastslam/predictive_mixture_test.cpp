@@ -137,7 +137,8 @@ TEST(PredictiveMixture, SightingsAreWorthWhatTheFrameIs) {
   std::vector<Target> targets(frame.size());
   FilterCounters counters;
   const PoseBelief predicted{{}, 1e-3 * Eigen::Matrix3d::Identity()};
-  const Posterior posterior = correction.correct(particle, predicted, frame, targets, counters);
+  const Posterior posterior =
+      correction.correct(particle, predicted, chord_of(predicted), frame, targets, counters);
   double sum = 0.0;
   for (const ExpectedSighting& one : correction.expected()) sum += one.log_likelihood;
   EXPECT_NEAR(sum, posterior.log_likelihood, 1e-12);

@@ -176,7 +176,8 @@ TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
     particle.classed.push_back(landmark);
     std::vector<Target> targets(1);
     FilterCounters counters;
-    const Posterior posterior = correction.correct(particle, predicted, frame, targets, counters);
+    const Posterior posterior =
+        correction.correct(particle, predicted, chord_of(predicted), frame, targets, counters);
     EXPECT_EQ(targets[0].landmark, 0);
     EXPECT_EQ(targets[0].outcome, log_odds > 0.0F ? Outcome::kUse : Outcome::kConfirm);
     EXPECT_EQ(near(posterior.pose.mean, predicted.mean, 0.0), log_odds == 0.0F);
@@ -185,8 +186,9 @@ TEST(DoubtfulLandmarks, CorrectNoPoseAndWeighLikeNewOnes) {
   Particle empty;
   std::vector<Target> targets(1);
   FilterCounters counters;
-  EXPECT_EQ(correction.correct(empty, predicted, frame, targets, counters).log_likelihood,
-            log_likelihoods[0]);
+  EXPECT_EQ(
+      correction.correct(empty, predicted, chord_of(predicted), frame, targets, counters).log_likelihood,
+      log_likelihoods[0]);
   EXPECT_GT(log_likelihoods[1], log_likelihoods[0]);
 }
 

@@ -119,9 +119,10 @@ TEST(NoiseLaw, AFrameIsFittedWithTheNoiseOfWhereItShouldBeSeen) {
   const LandmarkBelief landmark{{15.0, 0.0}, Eigen::Matrix2d::Zero()};
   long repairs = 0;
   const Match near_m{landmark, grown(14.0)}, far_m{landmark, grown(16.0)};
-  const FrameFit a = fit_frame(predicted, std::span(&near_m, 1), repairs);
-  const FrameFit b = fit_frame(predicted, std::span(&far_m, 1), repairs);
-  EXPECT_NEAR(a.posterior.log_likelihood, b.posterior.log_likelihood, 1e-6);
+  const auto fit = [&](const Match& match) {
+    return fit_frame(Linearised(), {}, chord_of(predicted), std::span(&match, 1), repairs);
+  };
+  EXPECT_NEAR(fit(near_m).log_likelihood, fit(far_m).log_likelihood, 1e-6);
 }
 
 // A landmark of a metre's uncertainty in range, looked at from where the robot stands, again and again. Each
@@ -201,8 +202,8 @@ TYPED_TEST(LawfulModels, TheSearchMissesNothingFarAway) {
                   i};
     if (seen.observation.range_bearing.x() < 0.0) continue;
     Target target;
-    PoseCorrection<TypeParam>({}).correct(particle, predicted, std::span(&seen, 1), std::span(&target, 1),
-                                          counters);
+    PoseCorrection<TypeParam>({}).correct(particle, predicted, chord_of(predicted), std::span(&seen, 1),
+                                          std::span(&target, 1), counters);
     EXPECT_EQ(target.landmark, i);
     far_off += seen.observation.range_bearing.x() < 0.5 * expected.x() ? 1 : 0;
   }

@@ -20,7 +20,6 @@ namespace stereobench::worlds {
 inline constexpr std::array kKeysOfRuns = {"filters",
                                            "particles",
                                            "draw_every",
-                                           "refit",
                                            "seeds",
                                            "gates",
                                            "association",
