@@ -17,7 +17,7 @@ namespace stereobench::harness {
 /// Options that every command which runs filters takes; empty means "as the scenario says".
 struct RunArguments {
   std::vector<std::string> filters;
-  int particles = 0;          ///< 0: as the scenario says
+  int particles = 0;  ///< 0: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
   std::filesystem::path out;  ///< empty: out/<name>

@@ -31,8 +31,8 @@ enum class Linearisation {
 /// one go is the same as step by step. A prediction then touches no landmark.
 ///
 /// An update takes the landmarks one after the other, oldest first, each linearised where the one before left
-/// the mean. Gate, association by colour, contradictions and the second look at a frame with a refused
-/// sighting follow the rules of PoseCorrection, and what is there and what is new those of MapManagement.
+/// the mean. Gate, association by colour and contradictions follow the rules of PoseCorrection, and what is
+/// there and what is new those of MapManagement.
 ///
 /// Iterated (Bell and Cathey, 1993), it finds the mode of a frame first (frame_mode), and leaves out the
 /// sightings that all others speak against.

@@ -25,12 +25,12 @@ struct BatchEstimate {
 /// Finds the most probable path and map given a whole log, the later for the earlier too: what filters
 /// approximate, and a little more than they can have, for they must answer before the rest is seen.
 ///
-/// Levenberg-Marquardt on sparse normal equations (Ceres), from the path and map of an iterated FastSLAM 2.0 of few
-/// particles; from dead reckoning the search would end in the nearest of many valleys. Sightings without an
-/// identity are those of the nearest landmark of their colour in that map. What lies far beyond the gate
-/// counts ever less (Cauchy's loss with the gate as its scale), so that outliers neither pull nor must be
-/// found out first; a gate at probability 1 makes it the plain sum of squares. Invalid input is passed over,
-/// as the filters do. Equal arguments give equal bytes.
+/// Levenberg-Marquardt on sparse normal equations (Ceres), from the path and map of an iterated FastSLAM 2.0
+/// of few particles; from dead reckoning the search would end in the nearest of many valleys. Sightings
+/// without an identity are those of the nearest landmark of their colour in that map. What lies far beyond
+/// the gate counts ever less (Cauchy's loss with the gate as its scale), so that outliers neither pull nor
+/// must be found out first; a gate at probability 1 makes it the plain sum of squares. Invalid input is
+/// passed over, as the filters do. Equal arguments give equal bytes.
 ///
 /// @param config what is believed: odometry noise, noise law, floors, gate and colour spacing; particles
 /// are not read
