@@ -65,10 +65,10 @@ TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto detected = result_in(scratch);
   EXPECT_EQ(detected["detector"], "file");
-  for (const char* filter : {"dead_reckoning", "fastslam2", "ufastslam"})
+  for (const char* filter : {"dead_reckoning", "fastslam2_iterated", "ufastslam_iterated"})
     for (const char* metric : {"ate_rms_m", "heading_rms_rad", "landmark_rms_m", "anees"})
       EXPECT_EQ(detected["filters"][filter][metric], recorded["filters"][filter][metric]) << filter << metric;
-  EXPECT_GT(detected["filters"]["ufastslam"]["association"]["correct"].get<int>(), 5);
+  EXPECT_GT(detected["filters"]["ufastslam_iterated"]["association"]["correct"].get<int>(), 5);
 
   const TestFolder run;
   ASSERT_EQ(

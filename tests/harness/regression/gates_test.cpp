@@ -14,10 +14,10 @@ using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Gate kAtMostHalf{"filters.ufastslam.ate_rms_m.mean", Gate::Relation::kAtMost, 0.5};
+const Gate kAtMostHalf{"filters.ufastslam_iterated.ate_rms_m.mean", Gate::Relation::kAtMost, 0.5};
 
 Json result_with(const Json& mean) {
-  return {{"filters", {{"ufastslam", {{"ate_rms_m", {{"mean", mean}}}}}}}};
+  return {{"filters", {{"ufastslam_iterated", {{"ate_rms_m", {{"mean", mean}}}}}}}};
 }
 
 std::vector<BrokenGate> broken_by(const Json& mean, Gate::Relation relation, double limit) {
@@ -44,7 +44,7 @@ TEST(Gates, ABrokenOneSaysWhatWasExpectedAndByHowMuchItIsMissed) {
   ASSERT_EQ(broken.size(), 1U);
   EXPECT_EQ(broken[0].value, 0.75);
   EXPECT_EQ(broken[0].message,
-            "filters.ufastslam.ate_rms_m.mean is 0.75, expected at most 0.5: off by 0.250");
+            "filters.ufastslam_iterated.ate_rms_m.mean is 0.75, expected at most 0.5: off by 0.250");
 }
 
 // What could not be measured keeps no limit. Mutation: letting it pass.
@@ -61,13 +61,13 @@ TEST(Gates, AMetricWithoutValueIsBroken) {
 TEST(Gates, OfAFilterThatIsLeftOutAreSkippedAndOthersAreNot) {
   Experiment experiment;
   experiment.gates = {
-      kAtMostHalf, {"vision.recall"}, {"filters.fastslam2.failures"}, {"filters.nobody.failures"}};
+      kAtMostHalf, {"vision.recall"}, {"filters.fastslam2_iterated.failures"}, {"filters.nobody.failures"}};
   EXPECT_EQ(gates_of(experiment).size(), 4U);
-  experiment.filters = {"dead_reckoning", "fastslam2"};
+  experiment.filters = {"dead_reckoning", "fastslam2_iterated"};
   const auto gates = gates_of(experiment);
   ASSERT_EQ(gates.size(), 3U);
   EXPECT_EQ(gates[0].metric, "vision.recall");
-  EXPECT_EQ(gates[1].metric, "filters.fastslam2.failures");
+  EXPECT_EQ(gates[1].metric, "filters.fastslam2_iterated.failures");
   EXPECT_EQ(gates[2].metric, "filters.nobody.failures");  // a slip of the pen, for check_metrics to find
 }
 
@@ -77,11 +77,12 @@ TEST(Gates, NameANumberOfTheResultBeforeAnythingIsRun) {
   const auto check = [&](const std::string& metric) {
     check_metrics(std::vector{Gate{metric}}, result_without_values(experiment));
   };
-  for (const char* metric : {"vision.recall", "vision.flagged", "filters.ufastslam.ate_rms_m.mean",
-                             "filters.dead_reckoning.landmarks.missed", "filters.fastslam2.failures"})
+  for (const char* metric :
+       {"vision.recall", "vision.flagged", "filters.ufastslam_iterated.ate_rms_m.mean",
+        "filters.dead_reckoning.landmarks.missed", "filters.fastslam2_iterated.failures"})
     EXPECT_NO_THROW(check(metric)) << metric;
   for (const char* metric : {"", "vision", "vision.", "vision.beauty", "vision.recall.mean", "scenario",
-                             "filters.nobody.failures", "filters.ufastslam.ate_rms_m"})
+                             "filters.nobody.failures", "filters.ufastslam_iterated.ate_rms_m"})
     EXPECT_THAT([&] { check(metric); }, ThrowsMessage<std::runtime_error>(HasSubstr(metric)));
 }
 
@@ -92,15 +93,16 @@ TEST(Gates, AMisspeltMetricIsAskedBack) {
   };
   EXPECT_THAT([&] { check("vision.recal"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("did you mean vision.recall?")));
-  EXPECT_THAT([&] { check("filters.ufastslam.ate_rms_m.maen"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("did you mean filters.ufastslam.ate_rms_m.mean?")));
+  EXPECT_THAT([&] { check("filters.ufastslam_iterated.ate_rms_m.maen"); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("did you mean filters.ufastslam_iterated.ate_rms_m.mean?")));
   EXPECT_THAT([&] { check("beauty"); }, ThrowsMessage<std::runtime_error>(HasSubstr("by its keys")));
 }
 
 // Mutations: the wrong relation; a limit read up to the first letter that is no number.
 TEST(Gates, AreReadFromTheCommandLine) {
-  const Gate most = parse_gate("filters.ufastslam.ate_rms_m.mean<=5e-2");
-  EXPECT_EQ(most.metric, "filters.ufastslam.ate_rms_m.mean");
+  const Gate most = parse_gate("filters.ufastslam_iterated.ate_rms_m.mean<=5e-2");
+  EXPECT_EQ(most.metric, "filters.ufastslam_iterated.ate_rms_m.mean");
   EXPECT_EQ(most.relation, Gate::Relation::kAtMost);
   EXPECT_EQ(most.limit, 0.05);
   const Gate least = parse_gate("vision.recall>=0.98");
