@@ -48,9 +48,9 @@ namespace stereobench::slam {
 /// @tparam Model Linearised, an EKF within a block, or Unscented
 ///
 /// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
-/// nothing and costs its particle the likelihood at the gate; there is no second look, and contradictions are
-/// not settled. A frame costs n^2 in the n landmarks of a block, whatever the size of the map; a block that
-/// has a hundred of them ends early.
+/// nothing and costs its particle the likelihood at the gate; contradictions are not settled. A frame costs
+/// n^2 in the n landmarks of a block, whatever the size of the map; a block that has a hundred of them ends
+/// early.
 template <class Model>
 class BlockSlam {
  public:

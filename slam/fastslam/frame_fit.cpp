@@ -181,6 +181,7 @@ FrameFit fit_frame(const Model& model, const Pose& from, const ChordBelief& moti
   const Question asked{from, motion, semidefinite_root<3>(motion.covariance, repairs), matches};
   Expansion around = find_mode(asked, repairs);
   Eigen::LLT<Eigen::Matrix3d> factor(around.information);
+  settle(around, factor);
   look_wider(model, asked, around, factor, repairs);
   const Eigen::Matrix3d of_u = factor.solve(Eigen::Matrix3d::Identity());
   const Eigen::Matrix3d covariance = asked.root * of_u * asked.root.transpose();

@@ -110,6 +110,7 @@ Worst worst_of(const FrameFit& fit) {
   for (std::size_t i = 0; i < fit.matches.size(); ++i) {
     const double squared_length = squared_length_without(fit, i);
     if (!(squared_length <= worst.squared_length)) worst = {static_cast<std::ptrdiff_t>(i), squared_length};
+    if (!(squared_length == squared_length)) break;
   }
   return worst;
 }
@@ -120,7 +121,6 @@ Posterior after(const Pose& from, const FrameFit& fit) {
   const Eigen::Matrix3d covariance = slope * fit.motion.covariance * slope.transpose();
   return {.pose = {end_of(from, fit.motion.mean), 0.5 * (covariance + covariance.transpose())},
           .log_likelihood = fit.log_likelihood,
-          .corroborated = true,
           .motion = fit.motion};
 }
 
@@ -142,10 +142,12 @@ Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBel
   Posterior posterior{predicted};
   const long gated_before = counters.gated_measurements;
   late_ = order_;
+  oldest_fitted_.reset();
   if (updates_ == Updates::kAtOnce) use_at_once(particle, frame, targets, posterior, counters);
   if (updates_ == Updates::kIterated) fit_at_once(particle, motion, frame, targets, posterior, counters);
   for (const std::size_t k : late_) {
     const Landmark& landmark = landmark_of(particle, frame[k], targets[k]);
+    posterior.corroborated |= was_fitted_by_older(k);
     const double before = posterior.log_likelihood;
     const bool contradicted = counters.gated_measurements > gated_before;
     const bool read = updates_ != Updates::kToJudge || k != late_.back() || contradicted;
@@ -208,6 +210,13 @@ double PoseCorrection<Model>::log_density_of_new(std::span<const Sighting> frame
   return sum;
 }
 
+/// @return whether a landmark older than a sighting's has corrected the pose in fit_at_once()
+template <class Model>
+bool PoseCorrection<Model>::was_fitted_by_older(std::size_t sighting) const {
+  if (!oldest_fitted_) return false;
+  return std::ranges::find(order_, *oldest_fitted_) < std::ranges::find(order_, sighting);
+}
+
 /// Uses the sightings that the prediction does not refuse, and leaves the others in late_.
 template <class Model>
 void PoseCorrection<Model>::use_at_once(const Particle& particle, std::span<const Sighting> frame,
@@ -237,6 +246,7 @@ template <class Model>
 void PoseCorrection<Model>::fit_at_once(const Particle& particle, const ChordBelief& motion,
                                         std::span<const Sighting> frame, std::span<Target> targets,
                                         Posterior& posterior, FilterCounters& counters) {
+  posterior.motion = motion;
   std::vector<std::size_t> used = order_;
   matches_.clear();
   for (const std::size_t k : used)
@@ -245,7 +255,7 @@ void PoseCorrection<Model>::fit_at_once(const Particle& particle, const ChordBel
     const FrameFit fit = fit_frame(model_, particle.pose, motion, matches_, counters.covariance_repairs);
     const Worst worst = worst_of(fit);
     if (worst.squared_length <= policy_.gate) {
-      for (const std::size_t k : used) targets[k].outcome = Outcome::kUse;
+      oldest_fitted_ = used.front();
       if (report_) {
         const std::vector<ExpectedSighting> expected = expected_in_turn(fit);
         for (std::size_t i = 0; i < used.size(); ++i) expected_[used[i]] = expected[i];

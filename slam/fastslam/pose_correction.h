@@ -91,6 +91,7 @@ class PoseCorrection {
                    Posterior& posterior, FilterCounters& counters);
   void fit_at_once(const Particle& particle, const ChordBelief& motion, std::span<const Sighting> frame,
                    std::span<Target> targets, Posterior& posterior, FilterCounters& counters);
+  bool was_fitted_by_older(std::size_t sighting) const;
   Outcome use(const Landmark& landmark, const Sighting& sighting, Posterior& posterior,
               FilterCounters& counters, const Wanted& wanted) const;
 
@@ -101,6 +102,7 @@ class PoseCorrection {
   std::vector<ExpectedSighting> expected_;
   std::vector<std::size_t> order_;
   std::vector<std::size_t> late_;  ///< of order_, what is used one after the other
+  std::optional<std::size_t> oldest_fitted_;
   std::vector<Expectation> expectations_;
   std::vector<Match> matches_;
 };

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "slam/math/gaussian.h"
 #include "slam/math/random.h"
 #include "slam/models/measurement.h"
 #include "tests/slam/checks.h"
@@ -114,6 +115,31 @@ TYPED_TEST(FrameFits, FindsAMotionThatBendsAway) {
   EXPECT_NEAR(fit.u.squaredNorm(), (0.08 * 0.08 + 0.12 * 0.12) / 2.5e-3, 0.1);
   for (const LinearMatch& match : fit.matches) EXPECT_LE(match.residual.norm(), 2e-4);
   EXPECT_LE(fit.motion.covariance(1, 1), 1.0001e-12) << "a control moves nothing across its chord";
+}
+
+// One landmark, seen a thousand times as precisely as the odometry foresees: what is off is the odometry, and
+// no sighting is refused that the model itself drew. Mutation: the fit left where the last step would save
+// little.
+TYPED_TEST(FrameFits, APreciseSightingIsHeldAgainstTheOdometryAlone) {
+  const ChordBelief motion{{0.35, 0.0, 0.35}, Eigen::Vector3d(1.2e-3, 1e-11, 1.2e-3).asDiagonal()};
+  const Eigen::Matrix2d noise = Eigen::Vector2d(5e-5 * 5e-5, 2.5e-6 * 2.5e-6).asDiagonal();
+  RandomStream random(11, Stream::kFilter);
+  double sum = 0.0;
+  constexpr int kDraws = 400;
+  for (int i = 0; i < kDraws; ++i) {
+    Eigen::Vector3d truth = motion.mean;
+    truth.x() += 0.035 * random.normal();
+    truth.z() += 0.035 * random.normal();
+    Match match{{{1.5, 0.4}, 1e-10 * Eigen::Matrix2d::Identity()}, {{}, noise}};
+    const Eigen::Vector2d place =
+        match.landmark.mean + 1e-5 * Eigen::Vector2d(random.normal(), random.normal());
+    match.observation.range_bearing = predict_sighting(end_of({}, truth), place) +
+                                      Eigen::Vector2d(5e-5 * random.normal(), 2.5e-6 * random.normal());
+    const double squared_length = squared_length_without(this->fit(motion, {match}), 0);
+    EXPECT_LT(squared_length, chi_square_2_quantile(0.999999));
+    sum += squared_length;
+  }
+  EXPECT_NEAR(sum / kDraws, 2.0, 5.0 * 2.0 / std::sqrt(kDraws));  // chi-square(2): mean 2, deviation 2
 }
 
 TYPED_TEST(FrameFits, AMotionThatIsKnownStaysWhatItIs) {

@@ -81,7 +81,7 @@ TEST_P(PreciseSensors, BesideCoarseOdometryAreBelieved) {
   EXPECT_LT(iterated.rms_m, 0.003);
 }
 
-/// A filter that knows three landmarks well, told that it drove straight while it turned by `turned_rad`.
+/// A filter that knows three landmarks well, told that it stood still while it turned by `turned_rad`.
 Estimate after_a_slip(const std::string& name, double turned_rad) {
   const OdometryNoise noise{.v_constant_mps = 0.02, .w_constant_radps = 0.02};
   Filter filter = make_filter(name, {.particles = 20, .odometry_noise = noise}, {}, 3);
