@@ -1,11 +1,11 @@
 #include "slam/fastslam/frame_fit.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
+#include "slam/fastslam/frame_update.h"
 #include "slam/math/elementary.h"
 #include "slam/math/gaussian.h"
 #include "slam/models/measurement.h"
@@ -15,12 +15,11 @@ namespace stereobench::slam {
 namespace {
 
 constexpr int kMostSteps = 30;
-constexpr double kShortestStep = 1e-3;
-constexpr double kConverged = 1e-4;  ///< of the cost, a chi-square, that a step would save
-constexpr int kWiderLooks = 2;       ///< how often sigma points are drawn around the mode
+constexpr double kConverged = 1e-4;   ///< of the cost, a chi-square, that a step would save
+constexpr int kRelinearisations = 2;  ///< by sigma points around the mode
 
 /// The frame, and what is known before it.
-struct Question {
+struct FitProblem {
   const Pose& from;
   const ChordBelief& motion;
   Eigen::Matrix3d root;  ///< of the motion's covariance
@@ -28,6 +27,7 @@ struct Question {
 
   Eigen::Vector3d chord_at(const Eigen::Vector3d& u) const { return motion.mean + root * u; }
   Pose pose_at(const Eigen::Vector3d& u) const { return end_of(from, chord_at(u)); }
+  Eigen::Matrix3d pose_by_u(const Eigen::Vector3d& u) const { return end_by_chord(from, chord_at(u)) * root; }
 };
 
 /// Minus twice the log posterior around a point, to second order in u.
@@ -55,12 +55,12 @@ Expansion expand(const Eigen::Vector3d& u, std::vector<LinearMatch> matches, lon
 }
 
 /// The matches by their slopes at u.
-std::vector<LinearMatch> by_slopes(const Question& asked, const Eigen::Vector3d& u) {
+std::vector<LinearMatch> by_slopes(const FitProblem& problem, const Eigen::Vector3d& u) {
   std::vector<LinearMatch> linear;
-  linear.reserve(asked.matches.size());
-  const Pose pose = asked.pose_at(u);
-  const Eigen::Matrix3d pose_by_u = end_by_chord(asked.from, asked.chord_at(u)) * asked.root;
-  for (const auto& [landmark, observation] : asked.matches) {
+  linear.reserve(problem.matches.size());
+  const Pose pose = problem.pose_at(u);
+  const Eigen::Matrix3d pose_by_u = problem.pose_by_u(u);
+  for (const auto& [landmark, observation] : problem.matches) {
     const LinearSighting sighting = linearise_sighting(pose, landmark.mean);
     const auto& [expected, by_landmark] = sighting;
     linear.push_back(
@@ -70,105 +70,61 @@ std::vector<LinearMatch> by_slopes(const Question& asked, const Eigen::Vector3d&
   return linear;
 }
 
-/// Poses at the sigma points of u, above and below along each column of the root of its covariance.
-struct SigmaPoses {
-  SigmaPoses(const SigmaWeights<5>& weights, const Question& asked, const Eigen::Vector3d& u,
-             const Eigen::Matrix3d& root)
-      : centre(asked.pose_at(u)) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d step = weights.spread * root.col(static_cast<Eigen::Index>(i));
-      above[i] = asked.pose_at(u + step);
-      below[i] = asked.pose_at(u - step);
-    }
-  }
-
-  Pose centre;
-  std::array<Pose, 3> above;
-  std::array<Pose, 3> below;
-};
-
-/// A landmark as it looks from sigma points of pose and landmark, less how it looks from their centre.
-SigmaResiduals<2, 5> look_from(const SigmaPoses& poses, const LandmarkBelief& landmark,
-                               const Eigen::Vector2d& at_centre, double spread, long& repairs) {
-  const Eigen::Matrix2d root = semidefinite_root<2>(landmark.covariance, repairs);
-  SigmaResiduals<2, 5> residuals;
-  const auto look = [&](int dimension, const View& above, const View& below) {
-    const Eigen::Matrix2d seen = predict_sightings(above, below);
-    residuals.col(2 * dimension) = sighting_residual(seen.col(0), at_centre);
-    residuals.col(2 * dimension + 1) = sighting_residual(seen.col(1), at_centre);
-  };
-  for (std::size_t i = 0; i < 3; ++i)
-    look(static_cast<int>(i), {poses.above[i], landmark.mean}, {poses.below[i], landmark.mean});
-  for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector2d step = spread * root.col(i);
-    look(3 + i, {poses.centre, landmark.mean + step}, {poses.centre, landmark.mean - step});
-  }
-  return residuals;
-}
-
-/// The matches by the straight lines through sigma points of u and of each landmark.
+/// The matches by straight lines through sigma points of the pose and of each landmark.
 ///
-/// @param root lower, of the covariance that the points of u are drawn from
-std::vector<LinearMatch> by_sigma_points(const SigmaWeights<5>& weights, const Question& asked,
-                                         const Eigen::Vector3d& u, const Eigen::Matrix3d& root,
+/// @param of_u covariance of u, which the points are drawn from
+std::vector<LinearMatch> by_sigma_points(const Unscented& model, const FitProblem& problem,
+                                         const Eigen::Vector3d& u, const Eigen::Matrix3d& of_u,
                                          long& repairs) {
-  const SigmaPoses poses(weights, asked, u, root);
+  const Eigen::Matrix3d root_of_u = of_u.llt().matrixL();
+  const PoseRoot root(problem.pose_by_u(u) * root_of_u);
+  const PoseBelief pose{problem.pose_at(u), root.matrix() * root.matrix().transpose()};
   std::vector<LinearMatch> linear;
-  linear.reserve(asked.matches.size());
-  for (const auto& [landmark, observation] : asked.matches) {
-    const Eigen::Vector2d at_centre = predict_sighting(poses.centre, landmark.mean);
-    const auto residuals = look_from(poses, landmark, at_centre, weights.spread, repairs);
-    const Eigen::Vector2d mean = sigma_mean<2, 5>(residuals, weights);
-    const Eigen::Vector2d expected(at_centre.x() + mean.x(), wrap_angle(at_centre.y() + mean.y()));
-    // The covariance of u with the sighting is L L' A', of which the points along L's columns give L' A'.
-    const auto along = sigma_cross<3, 2, 5>(Eigen::Matrix3d::Identity(), 0, residuals, weights);
-    const Eigen::Matrix<double, 3, 2> slope = root.transpose().triangularView<Eigen::Upper>().solve(along);
-    const Eigen::Matrix2d off_the_line =
-        sigma_covariance<2, 5>(residuals, mean, weights) - along.transpose() * along;
-    linear.push_back({expected, sighting_residual(observation.range_bearing, expected), slope.transpose(),
-                      off_the_line + noise_at(observation, expected)});
+  linear.reserve(problem.matches.size());
+  for (const auto& [landmark, observation] : problem.matches) {
+    const PredictedMeasurement seen = model.expect(pose, landmark, observation, repairs);
+    // With of_u = L L' and the slope A, W = L' A'.
+    const Eigen::Matrix<double, 3, 2> w = root.divide(seen.cross);
+    const Eigen::Matrix<double, 3, 2> slope = root_of_u.transpose().triangularView<Eigen::Upper>().solve(w);
+    linear.push_back({seen.expected, sighting_residual(observation.range_bearing, seen.expected),
+                      slope.transpose(), seen.covariance - w.transpose() * w});
   }
   return linear;
 }
 
-/// Goes to the mode, where the matches are taken for linear.
-void settle(Expansion& around, const Eigen::LLT<Eigen::Matrix3d>& factor) {
+/// Goes to the mode of the matches as they are linearised. The gradient is of no more use.
+void take_last_step(Expansion& around, const Eigen::LLT<Eigen::Matrix3d>& factor) {
   const Eigen::Vector3d step = -factor.solve(around.gradient);
   around.cost += step.dot(around.gradient);
   around.u += step;
-  around.gradient.setZero();
   for (LinearMatch& match : around.matches) {
     match.expected += match.by_u * step;
     match.residual -= match.by_u * step;
   }
 }
 
-void look_wider(const Linearised&, const Question&, Expansion&, Eigen::LLT<Eigen::Matrix3d>&, long&) {}
+void relinearise_by_sigma_points(const Linearised&, const FitProblem&, Expansion&,
+                                 Eigen::LLT<Eigen::Matrix3d>&, long&) {}
 
 /// Linearises the matches as they are over the whole posterior, and not at its mode alone.
-void look_wider(const Unscented& model, const Question& asked, Expansion& around,
-                Eigen::LLT<Eigen::Matrix3d>& factor, long& repairs) {
-  for (int i = 0; i < kWiderLooks; ++i) {
+void relinearise_by_sigma_points(const Unscented& model, const FitProblem& problem, Expansion& around,
+                                 Eigen::LLT<Eigen::Matrix3d>& factor, long& repairs) {
+  for (int i = 0; i < kRelinearisations; ++i) {
     const Eigen::Matrix3d of_u = factor.solve(Eigen::Matrix3d::Identity());
-    const Eigen::Matrix3d root = of_u.llt().matrixL();
-    around = expand(around.u, by_sigma_points(model.weights(), asked, around.u, root, repairs), repairs);
+    around = expand(around.u, by_sigma_points(model, problem, around.u, of_u, repairs), repairs);
     factor.compute(around.information);
-    settle(around, factor);
+    take_last_step(around, factor);
   }
 }
 
 /// @return around the mode of the matches by their slopes
-Expansion find_mode(const Question& asked, long& repairs) {
-  const auto at = [&](const Eigen::Vector3d& u) { return expand(u, by_slopes(asked, u), repairs); };
+Expansion find_mode(const FitProblem& problem, long& repairs) {
+  const auto at = [&](const Eigen::Vector3d& u) { return expand(u, by_slopes(problem, u), repairs); };
   Expansion around = at(Eigen::Vector3d::Zero());
   for (int i = 0; i < kMostSteps; ++i) {
     const Eigen::Vector3d step = -around.information.llt().solve(around.gradient);
     if (!(-step.dot(around.gradient) > kConverged)) break;
-    double part = 1.0;
-    Expansion next = at(around.u + step);
-    while (!(next.cost < around.cost) && part > kShortestStep) next = at(around.u + (part *= 0.5) * step);
-    if (!(next.cost < around.cost)) break;
-    around = std::move(next);
+    around = at(around.u + step);
   }
   return around;
 }
@@ -178,17 +134,17 @@ Expansion find_mode(const Question& asked, long& repairs) {
 template <class Model>
 FrameFit fit_frame(const Model& model, const Pose& from, const ChordBelief& motion,
                    std::span<const Match> matches, long& repairs) {
-  const Question asked{from, motion, semidefinite_root<3>(motion.covariance, repairs), matches};
-  Expansion around = find_mode(asked, repairs);
+  const FitProblem problem{from, motion, semidefinite_root<3>(motion.covariance, repairs), matches};
+  Expansion around = find_mode(problem, repairs);
   Eigen::LLT<Eigen::Matrix3d> factor(around.information);
-  settle(around, factor);
-  look_wider(model, asked, around, factor, repairs);
+  take_last_step(around, factor);
+  relinearise_by_sigma_points(model, problem, around, factor, repairs);
   const Eigen::Matrix3d of_u = factor.solve(Eigen::Matrix3d::Identity());
-  const Eigen::Matrix3d covariance = asked.root * of_u * asked.root.transpose();
+  const Eigen::Matrix3d covariance = problem.root * of_u * problem.root.transpose();
   const double log_det = 2.0 * logarithm(factor.matrixLLT().diagonal().prod());
   return {around.u,
           of_u,
-          {asked.chord_at(around.u), 0.5 * (covariance + covariance.transpose())},
+          {problem.chord_at(around.u), 0.5 * (covariance + covariance.transpose())},
           -0.5 * (around.cost + around.log_det_2_pi + log_det),
           std::move(around.matches)};
 }

@@ -34,8 +34,7 @@ struct FrameFit {
   std::vector<LinearMatch> matches;  ///< in the order given
 };
 
-/// Finds the most probable motion given a frame, by Gauss-Newton steps from its mean. A step that does not
-/// lower the cost is halved.
+/// Finds the most probable motion given a frame, by Gauss-Newton steps from its mean.
 ///
 /// Given a particle's path the pose before the motion is known and landmarks are independent. Three numbers
 /// are looked for: the motion along its chord, across it, and its turn. In these the error of a coarse

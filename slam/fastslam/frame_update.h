@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include <Eigen/QR>
+
 #include "slam/fastslam/particle.h"
 
 namespace stereobench::slam {
@@ -11,6 +13,23 @@ namespace stereobench::slam {
 struct Expectation {
   PredictedMeasurement predicted;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();  ///< wrapped
+};
+
+/// A square root of a pose's covariance, P = L L', which may be singular.
+class PoseRoot {
+ public:
+  explicit PoseRoot(const Eigen::Matrix3d& root);
+
+  const Eigen::Matrix3d& matrix() const { return root_; }
+
+  /// @param cross covariance of the pose and a sighting
+  /// @return W with L W = cross: the covariance of u ~ N(0, I) with the sighting, where pose = mean + L u
+  Eigen::Matrix<double, 3, 2> divide(const Eigen::Matrix<double, 3, 2>& cross) const;
+
+ private:
+  Eigen::Matrix3d root_;
+  Eigen::Vector3d by_sd_;  ///< rows are measured in standard deviations: the rank does not depend on units
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> in_sd_;
 };
 
 /// The Kalman update by a whole frame, whose moments are all of the prediction: sigma points, or Jacobians,

@@ -99,7 +99,7 @@ void apply(const Innovation& innovation, Posterior& posterior) {
   posterior.motion.reset();
 }
 
-/// The match that the rest of a frame speaks most against; one that is no number is the worst.
+/// The match that the rest of a frame speaks most against.
 struct Worst {
   std::ptrdiff_t match = 0;
   double squared_length = -1.0;
@@ -110,13 +110,12 @@ Worst worst_of(const FrameFit& fit) {
   for (std::size_t i = 0; i < fit.matches.size(); ++i) {
     const double squared_length = squared_length_without(fit, i);
     if (!(squared_length <= worst.squared_length)) worst = {static_cast<std::ptrdiff_t>(i), squared_length};
-    if (!(squared_length == squared_length)) break;
   }
   return worst;
 }
 
 /// @param from the pose before the motion
-Posterior after(const Pose& from, const FrameFit& fit) {
+Posterior posterior_of(const FrameFit& fit, const Pose& from) {
   const Eigen::Matrix3d slope = end_by_chord(from, fit.motion.mean);
   const Eigen::Matrix3d covariance = slope * fit.motion.covariance * slope.transpose();
   return {.pose = {end_of(from, fit.motion.mean), 0.5 * (covariance + covariance.transpose())},
@@ -260,7 +259,7 @@ void PoseCorrection<Model>::fit_at_once(const Particle& particle, const ChordBel
         const std::vector<ExpectedSighting> expected = expected_in_turn(fit);
         for (std::size_t i = 0; i < used.size(); ++i) expected_[used[i]] = expected[i];
       }
-      posterior = after(particle.pose, fit);
+      posterior = posterior_of(fit, particle.pose);
       break;
     }
     used.erase(used.begin() + worst.match);

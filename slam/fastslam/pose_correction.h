@@ -19,7 +19,7 @@ namespace stereobench::slam {
 enum class Updates {
   kOneByOne,  ///< each from where the one before left the pose: the paper's refreshed sigma points (eq. 24)
   kAtOnce,  ///< all from the predicted pose, in one update: the code that Kim, Sakthivel and Chung published
-  kIterated,  ///< all at once, linearised where they put the pose in the end (fit_frame)
+  kIterated,  ///< all at once, linearised at the mode (fit_frame)
   kToJudge,   ///< one by one, but for their outcomes alone: the pose is drawn without them (FastSLAM 1.0)
 };
 
@@ -36,9 +36,9 @@ enum class Updates {
 /// last landmark would make of the pose is not worked out.
 ///
 /// With Updates::kIterated the frame is fitted as a whole (fit_frame). A sighting beyond the gate of what the
-/// motion and all others say is left out, the worst first, and used after the others, one after the other, as
-/// the rules below say. Landmarks that agree on one pose so overrule the odometry, where one alone is
-/// refused.
+/// motion and all others say is left out of the fit, the worst first. What is left out is then held against
+/// the pose of the fit, one after the other. So landmarks that agree on a pose overrule the odometry, and one
+/// alone is refused.
 ///
 /// **Contradictions.** A sighting that stays beyond the gate is refused: it moves nothing, and costs the
 /// particle the likelihood at the gate, so that refusing neither pays nor kills. An outlier passes like that.
@@ -101,8 +101,8 @@ class PoseCorrection {
   bool report_;
   std::vector<ExpectedSighting> expected_;
   std::vector<std::size_t> order_;
-  std::vector<std::size_t> late_;  ///< of order_, what is used one after the other
-  std::optional<std::size_t> oldest_fitted_;
+  std::vector<std::size_t> late_;             ///< of order_, what is used one after the other
+  std::optional<std::size_t> oldest_fitted_;  ///< sighting of the oldest landmark in the fit of the frame
   std::vector<Expectation> expectations_;
   std::vector<Match> matches_;
 };

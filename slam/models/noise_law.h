@@ -16,8 +16,8 @@ Observation observe(const RangeBearing& seen, const FilterConfig& config);
 /// vanishing. What has no weights needs it only against sensors that claim to be exact.
 FilterConfig without_floor(FilterConfig config);
 
-/// The settings with a floor of 0.05 mm and 2.5 urad at most: as little as a hundred particles bear that are
-/// drawn near the mode.
+/// The settings with a floor of 0.05 mm and 2.5 urad at most, for particles that are drawn around the mode.
+/// With less a hundred of them claim too little, with more a thousand claim too much (lab book).
 FilterConfig with_low_floor(FilterConfig config);
 
 /// @param range_m where the landmark should be seen

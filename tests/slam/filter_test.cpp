@@ -214,7 +214,7 @@ TEST_P(MappingFilter, IsFarBetterThanDeadReckoning) {
     filtered += score.rms_m;
     reckoned += drive(make_filter("dead_reckoning", config_for(world), {}, seed), world, seed).rms_m;
     EXPECT_EQ(score.last.landmarks.size(), world.landmarks().size());
-    EXPECT_LE(score.map_rms_m, 1.2);
+    EXPECT_LE(score.map_rms_m, 1.2);  // FastSLAM 1.0 has 1.07 m in one drive
   }
   EXPECT_LE(filtered, 0.5 * reckoned);
 }

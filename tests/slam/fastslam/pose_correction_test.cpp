@@ -167,8 +167,8 @@ TYPED_TEST(Corrections, OnlyLandmarksThatAgreeOverruleTheOdometry) {
 }
 
 // Three landmarks, one of which was seen half a metre too far: the other two correct the pose, to the last
-// bit as if they alone had been seen. The outlier costs what it does without an identity of its own: the
-// gate. Mutations: the first sighting left out in place of the worst; an outlier that is used in the end.
+// bit as if they alone had been seen. The outlier costs the likelihood at the gate. Mutations: the first
+// sighting left out in place of the worst; an outlier that is used in the end; one that costs nothing.
 TYPED_TEST(Corrections, AnOutlierIsLeftOutOfTheFit) {
   const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {4.0, 0.5}};
   std::vector<Sighting> frame;
@@ -184,8 +184,41 @@ TYPED_TEST(Corrections, AnOutlierIsLeftOutOfTheFit) {
   EXPECT_EQ(this->targets_[2].outcome, Outcome::kUse);
   EXPECT_EQ(boxminus(with.pose.mean, without.pose.mean).norm(), 0.0);
   EXPECT_EQ((with.pose.covariance - without.pose.covariance).norm(), 0.0);
-  ASSERT_TRUE(with.motion.has_value());
-  EXPECT_LT(with.log_likelihood, without.log_likelihood);
+  long repairs = 0;
+  const PredictedMeasurement expected =
+      TypeParam().expect(without.pose, this->particle_.known[1].belief, frame[1].observation, repairs);
+  EXPECT_NEAR(with.log_likelihood - without.log_likelihood,
+              std::log1p(-this->config_.gate_probability) -
+                  0.5 * std::log((2.0 * M_PI * expected.covariance).determinant()),
+              1e-9);
+}
+
+// A landmark that is contradicted for the fifth time, beside two that fit. Where it is the oldest, nothing
+// older speaks for the pose, and the pose has drifted; where it is the youngest, it is found anew. Mutation:
+// any landmark of the fit speaks for the pose.
+TYPED_TEST(Corrections, OnlyOlderLandmarksSpeakForThePose) {
+  const std::vector<Eigen::Vector2d> places = {{3.0, 1.0}, {2.0, -2.0}, {4.0, 0.5}};
+  for (const Eigen::Vector2d& place : places) this->know_well(place);
+  for (const std::size_t contradicted : {0U, 2U}) {
+    std::vector<Sighting> frame;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      this->change(i, [&](Landmark& known) { known.status.record.refusals = i == contradicted ? 4 : 0; });
+      frame.push_back(this->see(places[i], static_cast<int>(i), {i == contradicted ? 0.5 : 0.0, 0.0}));
+    }
+    const Posterior posterior = this->correct(frame, Updates::kIterated);
+    EXPECT_EQ(this->targets_[contradicted].outcome, contradicted == 0 ? Outcome::kUse : Outcome::kMove);
+    EXPECT_EQ(posterior.relocalised, contradicted == 0);
+  }
+}
+
+// What is new says nothing of the motion, which is drawn along its chord all the same. Mutation: the pose
+// drawn from x, y and heading where nothing is fitted.
+TYPED_TEST(Corrections, AFrameOfNewLandmarksLeavesTheMotion) {
+  const Posterior posterior = this->correct({this->see({3.0, 1.0}, 0)}, Updates::kIterated);
+  ASSERT_TRUE(posterior.motion.has_value());
+  EXPECT_EQ(posterior.motion->mean, chord_of(this->predicted_).mean);
+  EXPECT_EQ(posterior.motion->covariance, chord_of(this->predicted_).covariance);
+  EXPECT_FALSE(this->correct({this->see({3.0, 1.0}, 0)}).motion.has_value());
 }
 
 // A map of a thousand landmarks, searched through its bounds, and the same search done one by one. Catches a
