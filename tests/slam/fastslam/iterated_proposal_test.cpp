@@ -70,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Both, PreciseSensors, ::testing::Values("fastslam2", "u
                          [](const auto& name) { return std::string(name.param); });
 
 // Ways that are known to 10 cm and turns to 6 deg: what first order leaves out is many times the sensor's
-// noise, and sightings that are right look wrong to the published filters. Mutations: slopes kept from the
-// prediction; poses drawn along x, y and heading.
+// noise, and sightings that are right look wrong to the published filters. Mutation: a single step to the
+// mode.
 TEST_P(PreciseSensors, BesideCoarseOdometryAreBelieved) {
   const PreciseDrives published = drive_precisely(GetParam());
   const PreciseDrives iterated = drive_precisely((std::string(GetParam()) + "_iterated").c_str());
@@ -79,6 +79,24 @@ TEST_P(PreciseSensors, BesideCoarseOdometryAreBelieved) {
   EXPECT_LT(iterated.refused, 0.01);
   EXPECT_LT(iterated.rms_m, 0.5 * published.rms_m) << published.rms_m;
   EXPECT_LT(iterated.rms_m, 0.003);
+}
+
+// A metre straight on, whose turn is off by 0.3 rad: the places where it may end lie on an arc, whose mean is
+// exp(-0.3^2 / 8) m ahead. A landmark found at arm's length has that mean. Mutation: poses drawn along x, y
+// and heading, whose mean is 1 m.
+TEST_P(PreciseSensors, FindWhatIsNewFromPosesOnTheArc) {
+  constexpr double kTurn_sd_rad = 0.3;
+  constexpr double kRange_m = 0.01;
+  const OdometryNoise noise{.w_constant_radps = kTurn_sd_rad};
+  Filter filter =
+      make_filter(std::string(GetParam()) + "_iterated", {.particles = 4000, .odometry_noise = noise}, {}, 5);
+  predict(filter, {.v_mps = 1.0, .w_radps = 0.0, .duration_s = 1.0});
+  update(filter, std::vector<RangeBearing>{identified({kRange_m, 0.0}, 0, 1e-4, 1e-3)});
+  const double variance = kTurn_sd_rad * kTurn_sd_rad;
+  const double ahead_m = std::exp(-variance / 8.0) + kRange_m * std::exp(-variance / 2.0);
+  const double sd_m = variance / 8.0 * std::sqrt(2.0);  // of 1 - theta^2 / 8
+  ASSERT_EQ(estimate(filter).landmarks.size(), 1U);
+  EXPECT_NEAR(estimate(filter).landmarks[0].position_m.x(), ahead_m, 5.0 * sd_m / std::sqrt(4000.0));
 }
 
 /// A filter that knows three landmarks well, told that it stood still while it turned by `turned_rad`.
