@@ -231,8 +231,8 @@ TEST(BallCircle, IsTheSameThroughPixelsThatAreNotSquare) {
 
 struct RealLog {
   const char* folder;
-  double ate_aligned_m;  ///< mean of five seeds plus three of its standard errors, of the worse filter
-  double map_aligned_m;  ///< the same of the landmarks
+  double ate_aligned_m;  ///< most that the median of five seeds may be, of the worse filter
+  double map_aligned_m;  ///< their mean plus three of its standard errors, of the landmarks
 };
 void PrintTo(const RealLog& log, std::ostream* out) {
   *out << log.folder;
