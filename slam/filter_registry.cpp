@@ -59,58 +59,57 @@ void check(const FilterConfig& config) {
           "unscented.beta and kappa must be finite, kappa > -2");
 }
 
-/// One row a filter: name, title, whether it maps landmarks, whether it needs identities, whether it is
-/// usual, how it starts.
+/// One row a filter: name, title, whether it maps landmarks, whether it is usual, how it starts.
 constexpr auto kKinds = std::to_array<FilterKind>({
-    {"dead_reckoning", "dead reckoning", false, false, true,
+    {"dead_reckoning", "dead reckoning", false, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return DeadReckoning(config, start);
      }},
-    {"ekf", "EKF-SLAM", true, false, false,
+    {"ekf", "EKF-SLAM", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(config, start);
      }},
-    {"iekf", "iterated EKF-SLAM", true, false, false,
+    {"iekf", "iterated EKF-SLAM", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return EkfSlam(without_floor(config), start, Linearisation::kIterated);
      }},
-    {"smoother", "incremental smoothing", true, false, true,
+    {"smoother", "incremental smoothing", true, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t) -> Filter {
        return Smoother(without_floor(config), start);
      }},
-    {"fastslam1", "FastSLAM 1.0", true, false, false,
+    {"fastslam1", "FastSLAM 1.0", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kMotion);
      }},
-    {"fastslam2", "FastSLAM 2.0", true, false, false,
+    {"fastslam2", "FastSLAM 2.0", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(config, start, seed, Proposal::kPosterior);
      }},
-    {"ufastslam", "UFastSLAM", true, false, false,
+    {"ufastslam", "UFastSLAM", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(config, start, seed, Proposal::kPosterior);
      }},
-    {"fastslam2_iterated", "FastSLAM 2.0, iterated", true, false, true,
+    {"fastslam2_iterated", "FastSLAM 2.0, iterated", true, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return LinearisedFastSlam(with_low_floor(config), start, seed, Proposal::kPosterior,
                                  Updates::kIterated);
      }},
-    {"ufastslam_iterated", "UFastSLAM, iterated", true, false, true,
+    {"ufastslam_iterated", "UFastSLAM, iterated", true, true,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(with_low_floor(config), start, seed, Proposal::kPosterior,
                                 Updates::kIterated);
      }},
-    {"ufastslam_kim", "UFastSLAM, stacked", true, false, false,
+    {"ufastslam_kim", "UFastSLAM, stacked", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
        return UnscentedFastSlam(config, start, seed, Proposal::kPosterior, Updates::kAtOnce);
      }},
-    {"fastslam2_block", "FastSLAM 2.0 in blocks", true, true, false,
+    {"fastslam2_block", "FastSLAM 2.0 in blocks", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
-       return LinearisedBlockSlam(config, start, seed);
+       return BlockSlam(without_floor(config), start, seed, Linearisation::kIterated);
      }},
-    {"ufastslam_block", "UFastSLAM in blocks", true, true, false,
+    {"ufastslam_block", "UFastSLAM in blocks", true, false,
      [](const FilterConfig& config, const Pose& start, std::uint64_t seed) -> Filter {
-       return UnscentedBlockSlam(config, start, seed);
+       return BlockSlam(without_floor(config), start, seed, Linearisation::kSigmaPoints);
      }},
 });
 
@@ -136,11 +135,6 @@ std::vector<std::string> usual_filter_names() {
   for (const FilterKind& kind : kKinds)
     if (kind.is_usual) names.emplace_back(kind.name);
   return names;
-}
-
-bool needs_identities(std::string_view name) {
-  const FilterKind* const kind = find_filter_kind(name);
-  return kind != nullptr && kind->needs_identities;
 }
 
 Filter make_filter(const std::string& name, const FilterConfig& config, const Pose& start,

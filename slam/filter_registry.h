@@ -17,7 +17,6 @@ struct FilterKind {
   std::string_view name;   ///< on command lines and in files
   std::string_view title;  ///< as people write it, e.g. "FastSLAM 2.0"
   bool maps_landmarks;     ///< false: it is blind to sightings, as dead reckoning is
-  bool needs_identities;   ///< uses sightings with an identity alone, and refuses all others
   bool is_usual;           ///< is run where nobody says which
   Filter (*start)(const FilterConfig& config, const Pose& start, std::uint64_t seed);
 };
@@ -33,9 +32,6 @@ std::vector<std::string> filter_names();
 
 /// @return the names of those that are run where nobody says which
 std::vector<std::string> usual_filter_names();
-
-/// @return whether the filter of a name uses sightings with an identity alone; false for an unknown name
-bool needs_identities(std::string_view name);
 
 /// Starts a filter at a known pose with an empty map.
 ///

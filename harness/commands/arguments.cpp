@@ -60,13 +60,6 @@ std::vector<std::string> parse_filters(const std::string& text) {
   return filters;
 }
 
-void check_identities(const std::vector<std::string>& filters, bool known, const std::string& whose) {
-  const auto needy = std::ranges::find_if(filters, slam::needs_identities);
-  if (known || needy == filters.end()) return;
-  throw std::runtime_error(fmt::format(
-      "filter {} needs landmarks whose identities are known, and those of {} are not", *needy, whose));
-}
-
 void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option_function<std::string>(
       "--filters", [&arguments](const std::string& text) { arguments.filters = parse_filters(text); },

@@ -31,11 +31,6 @@ inline constexpr const char* kBaselineFilter = "dead_reckoning";
 /// @throws std::runtime_error that names the unknown filter and the ones there are
 std::vector<std::string> parse_filters(const std::string& text);
 
-/// @param known whether every landmark of it is seen with its identity
-/// @param whose what the landmarks are of, for the message
-/// @throws std::runtime_error that names the first filter that needs identities where there are none
-void check_identities(const std::vector<std::string>& filters, bool known, const std::string& whose);
-
 /// Reads "0..9", "3" or "0,4,7". @throws std::runtime_error that begins with "--seeds: "
 std::vector<std::uint64_t> parse_seeds_option(const std::string& text);
 

@@ -50,8 +50,6 @@ Experiment read_experiment(const ScenarioArguments& arguments,
   if (!run.filters.empty()) filters = run.filters;
   if (std::find(filters.begin(), filters.end(), kBaselineFilter) == filters.end())
     filters.insert(filters.begin(), kBaselineFilter);
-  check_identities(filters, experiment.scenario.identity == worlds::Identity::kKnown,
-                   arguments.scenario.string());
   if (run.particles > 0) experiment.particles = run.particles;
   if (!run.seeds.empty()) experiment.seeds = run.seeds;
   experiment.gates.insert(experiment.gates.end(), run.gates.begin(), run.gates.end());

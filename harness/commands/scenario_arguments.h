@@ -36,7 +36,7 @@ void add_camera_options(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// Reads the scenario and lets the command line have the last word on filters, particles and seeds.
-/// @throws std::runtime_error as the reader of files and check_identities do
+/// @throws std::runtime_error as the reader of files does
 Experiment read_experiment(const ScenarioArguments& arguments,
                            const std::vector<std::string>& more_overrides = {});
 

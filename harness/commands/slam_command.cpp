@@ -21,7 +21,6 @@
 #include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
 #include "harness/run/seed_result.h"
-#include "harness/scoring/association_score.h"
 #include "harness/scoring/references.h"
 #include "slam/filter_registry.h"
 
@@ -109,7 +108,6 @@ int run_slam(SlamArguments arguments) {
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
     vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
-  check_identities(run.filters, knows_identities(recorded.log), arguments.log.string());
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   if (run.dry_run) {

@@ -40,8 +40,8 @@ class MapManagement {
   /// misfit() as a belief does in associate(), and
   ///   - `LandmarkBelief found(const Observation&)`: a landmark seen for the first time
   ///   - `see_again(int landmark, const Sighting&)`: an identity, in the frame that found it
-  ///   - `int add(int slot, const Landmark&, std::vector<int>& vacant)`: returns where it was put, at the end
-  ///     or in a vacant place, which is then taken from the list
+  ///   - `int add(const Sighting&, const Landmark&, std::vector<int>& vacant)`: returns where it was put, at
+  ///     the end or in a vacant place, which is then taken from the list
   ///   - `set_log_odds(std::size_t j, float)`
   ///   - `kClaimsLookalikes`: whether a second such sighting of a frame, of the same landmark, is new
   /// @param targets kAdd becomes kIgnore for what is no new landmark
@@ -118,7 +118,7 @@ Outcome MapManagement::add(Map& map, const Sighting& sighting) {
   }
   const Landmark landmark{map.found(sighting.observation), founded_by(sighting, policy_.existence)};
   if (!has_identity && may_be_mapped(map, sighting, landmark.belief.mean)) return Outcome::kIgnore;
-  const int place = map.add(sighting.slot, landmark, vacant_);
+  const int place = map.add(sighting, landmark, vacant_);
   if (!has_identity) claimed_.push_back(place);
   return Outcome::kAdd;
 }

@@ -31,4 +31,12 @@ struct Target {
   int landmark = -1;
 };
 
+/// What was expected of a sighting, just before it was used.
+struct ExpectedSighting {
+  bool exists = false;  ///< there was a landmark for it
+  Eigen::Vector2d range_bearing = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< S
+  double log_likelihood = 0.0;  ///< of the sighting, or of the gate where it was refused
+};
+
 }  // namespace stereobench::slam

@@ -7,10 +7,9 @@
 
 #include "slam/association/decisions.h"
 #include "slam/association/frame_reader.h"
-#include "slam/block/backward_sampling.h"
-#include "slam/ekf/joint_belief.h"
+#include "slam/block/path_draw.h"
+#include "slam/ekf/ekf_slam.h"
 #include "slam/fastslam/particle.h"
-#include "slam/fastslam/predictive_mixture.h"
 #include "slam/filter_config.h"
 #include "slam/math/random.h"
 #include "slam/models/linearised.h"
@@ -27,34 +26,30 @@ namespace stereobench::slam {
 /// frames (FilterConfig::draw_every) goes by before anything is drawn. With s the block's first instant, a
 /// particle is a path x_0..s and the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
 ///
-/// **Within a block** each particle is a Kalman filter over its pose and the landmarks it has seen in this
-/// block,
+/// **Within a block** each particle is an iterated EKF over its pose and the landmarks that the block shows,
 ///     p(x_t, m | x_0..s, z_1..t),
-/// which starts from the pose x_s without uncertainty and landmarks that are independent of each other. A
-/// sighting is worth
-///     log w += log N(z; z^, S),  S = [Hx Hm] P [Hx Hm]' + R,
+/// which starts from the pose x_s without uncertainty and landmarks that are independent of each other. So
+/// gate, association, contradictions and map management are those of EkfSlam. A frame is worth its
+/// likelihood, to first order at its mode,
+///     log w += log N(z; z^, S),  S = H P H' + R,
 /// so that after K frames the weight has grown by p(z_s+1..t | x_0..s, z_1..s): the poses since s are
 /// integrated out, and nothing that is drawn later makes weights scatter. The estimate is the mixture of
 /// these Gaussians. Resampling copies them.
 ///
 /// **At its end** x_s+1..t is drawn from p(x_s+1..t | x_0..s, z_1..t), in two steps: landmarks from their
-/// joint Gaussian, m ~ N, and then the path given them (PathSampler). The landmarks that were drawn are
+/// joint Gaussian, m ~ N, and then the path given them (draw_path). The landmarks that were drawn are
 /// forgotten, and those of the map at s are refined by the block's sightings from the poses drawn, as in
 /// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
-/// for any K. Poor bearings are not: there the moments of the model are what a block costs, those by
-/// Jacobians more than FastSLAM 2.0's own, which are taken anew at each pose drawn, and those by sigma points
-/// about as much as the draws that they save.
+/// for any K, but for a landmark that is found anew within a block: what it had said of the pose stays.
 ///
-/// @tparam Model Linearised, an EKF within a block, or Unscented
-///
-/// Sightings must have identities; others are refused and counted. A sighting beyond the gate corrects
-/// nothing and costs its particle the likelihood at the gate; contradictions are not settled. A frame costs
-/// n^2 in the n landmarks of a block, whatever the size of the map; a block that has a hundred of them ends
-/// early.
-template <class Model>
+/// A frame costs s n^2 + s^3 for s sightings and the n landmarks of a block. A block ends after the frame in
+/// which it has a hundred of them. Landmarks without an identity count where a sighting may be of them, or
+/// where they should be seen.
 class BlockSlam {
  public:
-  BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed);
+  /// @param linearisation of a block's frames and landmarks: kIterated, or kSigmaPoints, which is better
+  /// where bearings are poor
+  BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_t seed, Linearisation linearisation);
 
   void predict(const Control& control);
   void update(std::span<const RangeBearing> sightings);
@@ -67,72 +62,56 @@ class BlockSlam {
   Decisions last_decisions() const;
 
  private:
+  static constexpr std::size_t kMostLandmarks = 100;  ///< of a block
+
+  /// A landmark that a particle's block shows, beside what its EKF says of it.
+  struct Shown {
+    int in_map = kUnknown;  ///< its index in the particle's map; none where the block has found it
+    int origin = kUnknown;  ///< the sighting that founded it
+    bool is_new = true;     ///< whether what was known before the block is of no use
+  };
+
   /// A particle: where its path and map stood when the block began, and what has been learnt since.
   struct Hypothesis {
     Particle start;
-    JointBelief now;
-    std::vector<Outcome> outcomes;  ///< of all sightings of the block
+    EkfSlam now;
+    std::vector<Shown> shown;  ///< by landmark of `now`
+    std::vector<BlockFrame> frames;
 
     void descend_from(const Hypothesis& other);
   };
-  static constexpr std::size_t kMostLandmarks = 100;  ///< of a block
-  struct Frame {
-    PoseBelief motion;
-    std::vector<Sighting> sightings;
-  };
 
-  bool is_mapped(int slot) const { return static_cast<std::size_t>(slot) < origins_.size(); }
-  int& place_of(int slot) { return place_of_slot_[static_cast<std::size_t>(slot)]; }
-  void enter(const Frame& frame);
-  void absorb(const Frame& frame);
-  double correct(Hypothesis& mine, const Frame& frame, std::span<Target> targets,
-                 std::span<ExpectedSighting> expected);
-  ExpectedSighting use(Hypothesis& mine, const Sighting& sighting, Target& target);
-  void take_up(Hypothesis& mine, int slot);
-  void add_new(Hypothesis& mine, const Frame& frame);
-  void reweigh();
-  std::size_t heaviest() const;
-  void note_decisions(std::span<const Sighting> frame);
+  void take_up_known(Hypothesis& mine, std::span<const Sighting> frame) const;
+  void take_up_near(Hypothesis& mine, std::span<const Sighting> frame) const;
+  static void take_up(Hypothesis& mine, int slot, const LandmarkMap& map, std::size_t index);
+  void use(Hypothesis& mine, std::span<const Sighting> frame);
+  static void note_founded(Hypothesis& mine);
+  double worth(const Hypothesis& mine, std::span<const Sighting> frame);
+  void reweigh(std::span<const Sighting> frame);
   void resample();
-  void close_block();
   void draw_block(Hypothesis& mine);
-  void place_sightings(const Hypothesis& mine);
-  void learn(Hypothesis& mine, std::span<const Pose> path);
-  LandmarkBelief landmark(const Hypothesis& of, std::size_t slot) const;
+  std::vector<LandmarkBelief> learn(const Hypothesis& mine, std::span<const Pose> path);
+  static void write_back(const Hypothesis& mine, std::span<const LandmarkBelief> learnt, Particle& particle);
+  static Particle present(const Hypothesis& mine);
+  std::size_t heaviest() const;
 
   FilterConfig config_;
-  double gate_;
-  Model model_;
+  AssociationPolicy policy_;
+  bool by_sigma_points_;
+  Linearised linearised_;
+  Unscented unscented_;
   FrameReader reader_;
   RandomStream random_;
   std::vector<Hypothesis> hypotheses_;
-  std::vector<Frame> block_;         ///< since the poses were drawn
-  std::vector<int> slots_of_block_;  ///< of the landmarks seen in it, by their place in the joint belief
-  std::size_t known_in_block_ = 0;   ///< how many of them the map has, or had before the last frame
-  std::vector<int> place_of_slot_;   ///< by slot: its index among the block's landmarks, or -1
-  std::vector<double> worth_;        ///< of the last frame to each particle, as logarithms
   std::vector<double> log_weights_;  ///< normalised
   std::vector<double> weights_;      ///< the same, not as logarithms
-  std::vector<Target> targets_;      ///< of the last frame, particle by particle
-  std::vector<ExpectedSighting> expected_;  ///< the same, for a report
-  std::vector<int> origins_;                ///< by slot: the sighting that founded the landmark
-  JointCovariance::Columns whitened_;       ///< memory for corrections
-  PathSampler<Model> sampler_;
-  std::vector<BlockStep> steps_;  ///< the block as one particle sees it
-  std::vector<Landmark> learnt_;  ///< of one particle, by place in the block
-  std::vector<bool> has_learnt_;  ///< the same
-  PoseBelief motion_;             ///< since the last frame, in the robot's frame of that time
-  PoseBelief belief_;             ///< at the last frame, over all particles
+  PoseBelief motion_;                ///< since the last frame, in the robot's frame of that time
+  PoseBelief belief_;                ///< at the last frame, over all particles
   double effective_;
-  std::vector<Decision> decided_;  ///< what the heaviest particle made of the last frame
+  std::size_t decider_ = 0;        ///< the particle that the last frame left heaviest, which resampling keeps
+  std::vector<Decision> decided_;  ///< what it made of the frame
   FilterCounters counters_;
   UpdateReport report_;  ///< of the last update
 };
-
-extern template class BlockSlam<Linearised>;
-extern template class BlockSlam<Unscented>;
-
-using LinearisedBlockSlam = BlockSlam<Linearised>;
-using UnscentedBlockSlam = BlockSlam<Unscented>;
 
 }  // namespace stereobench::slam

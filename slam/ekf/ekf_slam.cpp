@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "slam/association/contradiction.h"
+#include "slam/ekf/joint_moments.h"
 #include "slam/models/measurement.h"
 #include "slam/models/motion.h"
 
@@ -17,8 +18,8 @@ struct EkfSlam::View {
   PoseBelief pose() const { return {filter.belief_.pose, filter.belief_.covariance.pose()}; }
 
   int landmark_of(int slot) const {
-    const auto index = static_cast<std::size_t>(slot);
-    return index < filter.landmark_of_slot_.size() ? filter.landmark_of_slot_[index] : kUnknown;
+    const auto found = std::ranges::find(filter.map_, slot, &Mapped::slot);
+    return found == filter.map_.end() ? kUnknown : static_cast<int>(found - filter.map_.begin());
   }
 
   /// All of them: there are few, and an innovation costs less than the search for those that matter.
@@ -60,21 +61,21 @@ struct EkfSlam::View {
   }
 
   void see_again(int landmark, const Sighting& sighting) {
-    filter.learn({filter.correct_by(landmark, sighting, true), landmark}, sighting);
+    ExpectedSighting expected;
+    filter.learn({filter.correct_by(landmark, sighting, true, expected), landmark}, sighting);
   }
 
-  /// The rows of a dead landmark are as good as new ones.
-  int add(int slot, const Landmark& landmark, std::vector<int>& vacant) {
+  /// The rows of a dead landmark are as good as new ones; landmarks with an identity stay in their order.
+  int add(const Sighting& sighting, const Landmark& landmark, std::vector<int>& vacant) {
     int j = static_cast<int>(filter.map_.size());
-    if (vacant.empty()) {
+    if (vacant.empty() || sighting.slot != kUnknown) {
       filter.map_.emplace_back();
     } else {
       j = vacant.front();
       vacant.erase(vacant.begin());
     }
-    if (slot != kUnknown) filter.landmark_of_slot_.push_back(j);
-    filter.map_[static_cast<std::size_t>(j)] = {slot, landmark.status};
-    place(filter.belief_, j, landmark.belief, filter.counters_.covariance_repairs);
+    filter.map_[static_cast<std::size_t>(j)] = {sighting.slot, landmark.status};
+    filter.find_landmark(j, sighting.observation);
     return j;
   }
 
@@ -86,6 +87,7 @@ EkfSlam::EkfSlam(const FilterConfig& config, const Pose& start, Linearisation li
       linearisation_(linearisation),
       policy_(config),
       management_(config),
+      unscented_(config.unscented),
       reader_(config),
       belief_{.pose = start} {}
 
@@ -101,20 +103,40 @@ std::vector<Sighting> EkfSlam::read(std::span<const RangeBearing> sightings) {
   return reader_.read(sightings, counters_.rejected_inputs);
 }
 
-void EkfSlam::assume(JointBelief belief, std::vector<Mapped> map, std::vector<int> landmark_of_slot) {
+void EkfSlam::assume(JointBelief belief, std::vector<Mapped> map) {
   belief_ = std::move(belief);
   map_ = std::move(map);
-  landmark_of_slot_ = std::move(landmark_of_slot);
+}
+
+void EkfSlam::start_anew(const Pose& pose) {
+  belief_.pose = pose;
+  belief_.landmarks.clear();
+  belief_.covariance.clear();
+  map_.clear();
+}
+
+void EkfSlam::take_up(int slot, const Landmark& landmark) {
+  const auto j = static_cast<int>(map_.size());
+  map_.push_back({slot, landmark.status});
+  belief_.landmarks.push_back(landmark.belief.mean);
+  belief_.covariance.place(j, Eigen::Matrix<double, 2, 3>::Zero(), landmark.belief.covariance,
+                           counters_.covariance_repairs);
 }
 
 void EkfSlam::use(std::span<const Sighting> frame) {
+  use(frame, frame.empty() ? PoseBelief{} : std::exchange(motion_, {}));
+}
+
+void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   report_ = {};
   decided_.clear();
+  targets_.assign(frame.size(), {});
+  expected_.assign(frame.size(), {});
+  used_.clear();
   drift_.setZero();
   if (frame.empty()) return;
-  const PoseBelief motion = std::exchange(motion_, {});
   std::optional<JointBelief> before;
-  if (linearisation_ == Linearisation::kIterated) before = belief_;
+  if (linearisation_ != Linearisation::kOnce) before = belief_;
   follow(belief_, motion);
   Decided decided = decide(frame);
   if (before)
@@ -131,7 +153,7 @@ void EkfSlam::use(std::span<const Sighting> frame) {
 }
 
 EkfSlam::Decided EkfSlam::decide(std::span<const Sighting> frame) {
-  Decided decided{frame, std::vector<Target>(frame.size()), {}};
+  Decided decided{frame, targets_, {}};
   associate(policy_, View{*this}, frame, decided.targets, counters_.joint_searches_cut);
   order_by_age(decided.targets, decided.order);
   return decided;
@@ -141,13 +163,15 @@ void EkfSlam::correct_one_by_one(Decided& decided) {
   bool corroborated = false;
   for (const std::size_t k : decided.order) {
     Target& target = decided.targets[k];
-    target.outcome = correct_by(target.landmark, decided.frame[k], corroborated);
+    target.outcome = correct_by(target.landmark, decided.frame[k], corroborated, expected_[k]);
     corroborated |= target.outcome == Outcome::kUse;
   }
 }
 
 /// @param corroborated whether some landmark has corrected the pose in this frame
-Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corroborated) {
+/// @param expected receives what was expected of the sighting
+Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corroborated,
+                            ExpectedSighting& expected) {
   const Observation& observation = sighting.observation;
   long& repairs = counters_.covariance_repairs;
   const long before = repairs;
@@ -160,6 +184,7 @@ Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corrobo
         judge_contradiction(map_[j].status.record, policy_.is_certain(sighting), corroborated);
     if (outcome != Outcome::kUse) {
       if (config_.report_updates) report_.innovations.back().refused = true;
+      expected = expectation(seen, observation, policy_.gate);
       return outcome;
     }
     const Eigen::Matrix3d drift = drift_covariance(belief_.pose, belief_.landmarks[j], observation);
@@ -167,14 +192,34 @@ Outcome EkfSlam::correct_by(int landmark, const Sighting& sighting, bool corrobo
     drift_ += drift;
     seen = innovation(belief_, landmark, observation, repairs);
   }
-  if (repairs == before) correct(belief_, landmark, seen, repairs);  // else all is certain: nothing is learnt
+  expected = correct_and_note(landmark, seen, observation, repairs == before);
   return Outcome::kUse;
 }
 
-void EkfSlam::learn(const Target& target, const Sighting& sighting) {
+/// @param teaches false where all is certain: then nothing is learnt, and the sighting weighs nothing
+/// @return what was expected of it
+ExpectedSighting EkfSlam::correct_and_note(int landmark, const JointInnovation& seen,
+                                           const Observation& observation, bool teaches) {
+  ExpectedSighting expected = expectation(seen, observation, seen.squared_length());
+  if (!teaches) expected.log_likelihood = 0.0;
+  if (teaches) correct(belief_, landmark, seen, counters_.covariance_repairs);
+  used_.push_back({landmark, observation});
+  return expected;
+}
+
+/// Takes a landmark, of the map or one more, for what is seen now.
+void EkfSlam::find_landmark(int landmark, const Observation& observation) {
+  std::erase_if(used_, [&](const UsedSighting& one) { return one.landmark == landmark; });
+  used_.push_back({landmark, observation});
   long& repairs = counters_.covariance_repairs;
-  if (target.outcome == Outcome::kMove)
-    place(belief_, target.landmark, model_.found(belief_.pose, sighting.observation, repairs), repairs);
+  if (linearisation_ == Linearisation::kSigmaPoints)
+    find(unscented_, belief_, landmark, observation, repairs);
+  else
+    find(model_, belief_, landmark, observation, repairs);
+}
+
+void EkfSlam::learn(const Target& target, const Sighting& sighting) {
+  if (target.outcome == Outcome::kMove) find_landmark(target.landmark, sighting.observation);
   note_sighting(map_[static_cast<std::size_t>(target.landmark)].status, sighting, target.outcome,
                 policy_.existence);
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "slam/association/decisions.h"
@@ -13,14 +14,22 @@
 #include "slam/ekf/joint_belief.h"
 #include "slam/filter_config.h"
 #include "slam/models/linearised.h"
+#include "slam/models/unscented.h"
 #include "slam/update_report.h"
 
 namespace stereobench::slam {
 
 /// Where an EKF linearises the motion and the sightings of a frame.
 enum class Linearisation {
-  kOnce,      ///< at what is predicted
-  kIterated,  ///< at what explains the frame best, with the motion's error along and across its chord
+  kOnce,         ///< at what is predicted
+  kIterated,     ///< at what explains the frame best, with the motion's error along and across its chord
+  kSigmaPoints,  ///< the same; frames that bend little, and landmarks that are new, by sigma points
+};
+
+/// A sighting and the landmark that it was used for.
+struct UsedSighting {
+  int landmark = 0;  ///< index
+  Observation observation;
 };
 
 /// EKF-SLAM (Smith, Self and Cheeseman, 1990): one Gaussian, in which the pose and every landmark are
@@ -60,8 +69,13 @@ class EkfSlam {
   std::vector<Sighting> read(std::span<const RangeBearing> sightings);
 
   /// Forgets pose and map for others; the motion since the last update stays.
-  /// @param landmark_of_slot by slot that was given out
-  void assume(JointBelief belief, std::vector<Mapped> map, std::vector<int> landmark_of_slot);
+  void assume(JointBelief belief, std::vector<Mapped> map);
+
+  /// Forgets pose and map for a pose that is known exactly, and keeps their memory.
+  void start_anew(const Pose& pose);
+
+  /// Adds a landmark that nothing ties to the pose or to other landmarks.
+  void take_up(int slot, const Landmark& landmark);
 
   /// @return whether a landmark is sure enough to be part of an estimate
   static bool is_reported(const Mapped& landmark);
@@ -72,10 +86,24 @@ class EkfSlam {
   /// The rest of an update.
   void use(std::span<const Sighting> frame);
 
+  /// The same where somebody else keeps the motion since the last update.
+  void use(std::span<const Sighting> frame, const PoseBelief& motion);
+
   const JointBelief& belief() const { return belief_; }    ///< at the last update
   const PoseBelief& motion() const { return motion_; }     ///< since then, in the robot's frame of that time
   const std::vector<Mapped>& map() const { return map_; }  ///< in the order of belief().landmarks
   std::span<const Decision> decided() const { return decided_; }  ///< by sighting of the last frame
+
+  /// By sighting of the last frame: what became of it, with the index in map() of the landmark that it was
+  /// held against, and what was expected of it.
+  std::span<const Target> targets() const { return targets_; }
+  std::span<const ExpectedSighting> expected() const { return expected_; }
+
+  /// The sightings of the last frame that corrected or found a landmark, with its index in map().
+  const std::vector<UsedSighting>& used() const { return used_; }
+
+  /// @return what had to be repaired or refused since the last call
+  FilterCounters take_counters() { return std::exchange(counters_, {}); }
 
   /// What the last frame added to the covariance of the pose (x, y, heading), since it had drifted.
   const Eigen::Matrix3d& drift() const { return drift_; }
@@ -84,7 +112,7 @@ class EkfSlam {
   /// A frame beside what becomes of it.
   struct Decided {
     std::span<const Sighting> frame;
-    std::vector<Target> targets;
+    std::vector<Target>& targets;
     std::vector<std::size_t> order;  ///< of the sightings that correct the pose: oldest landmarks first
   };
   struct View;
@@ -97,7 +125,13 @@ class EkfSlam {
   bool judge_refused(Decided& decided, std::vector<std::size_t>& used, JointBelief& before);
   static std::vector<SeenLandmark> seen_by(const Decided& decided, const std::vector<std::size_t>& used);
   void correct_one_by_one(Decided& decided);
-  Outcome correct_by(int landmark, const Sighting& sighting, bool corroborated);
+  Outcome correct_by(int landmark, const Sighting& sighting, bool corroborated, ExpectedSighting& expected);
+  JointInnovation innovation_of_used(const Decided& decided, std::size_t sighting, const JointBelief& at,
+                                     bool by_sigma_points);
+  ExpectedSighting correct_and_note(int landmark, const JointInnovation& seen, const Observation& observation,
+                                    bool teaches);
+  void expect_of_refused(const Decided& decided);
+  void find_landmark(int landmark, const Observation& observation);
   void learn(const Target& target, const Sighting& sighting);
 
   FilterConfig config_;
@@ -105,12 +139,15 @@ class EkfSlam {
   AssociationPolicy policy_;
   MapManagement management_;
   Linearised model_;
+  Unscented unscented_;
   FrameReader reader_;
   JointBelief belief_;  ///< at the last update
   PoseBelief motion_;   ///< since the last update, in the robot's frame of that time
   std::vector<Mapped> map_;
-  std::vector<int> landmark_of_slot_;
-  std::vector<Decision> decided_;  ///< of the last frame
+  std::vector<Decision> decided_;  ///< of the last frame, as all below
+  std::vector<Target> targets_;
+  std::vector<ExpectedSighting> expected_;
+  std::vector<UsedSighting> used_;
   Eigen::Matrix3d drift_ = Eigen::Matrix3d::Zero();
   FilterCounters counters_;
   UpdateReport report_;  ///< of the last update

@@ -24,16 +24,21 @@ constexpr double kCurved = 0.3;
 /// Where the state's parts begin: pose before, chord, landmarks.
 constexpr Eigen::Index kChord = 3;
 constexpr Eigen::Index kLandmarks = 6;
+constexpr Eigen::Index kCertain = -1;  ///< of a landmark that has no part in it
 
-/// The joint prior of what a frame depends on: the pose before, the motion and the landmarks seen.
+/// The joint prior of what a frame depends on: the pose before, the motion and the landmarks seen. Landmarks
+/// whose places are certain are no part of the state.
 class Prior {
  public:
   Prior(const JointBelief& before, const ChordBelief& motion, std::span<const SeenLandmark> seen)
       : before_(before), motion_(motion) {
     for (const SeenLandmark& one : seen) {
+      seen_.push_back(one.landmark);
       auto found = std::ranges::find(landmarks_, one.landmark);
-      rows_.push_back(kLandmarks + 2 * (found - landmarks_.begin()));
-      if (found == landmarks_.end()) landmarks_.push_back(one.landmark);
+      const bool is_certain =
+          found == landmarks_.end() && before.covariance.landmark(one.landmark).isZero(0.0);
+      rows_.push_back(is_certain ? kCertain : kLandmarks + 2 * (found - landmarks_.begin()));
+      if (found == landmarks_.end() && !is_certain) landmarks_.push_back(one.landmark);
     }
     const auto count = static_cast<Eigen::Index>(landmarks_.size());
     covariance_ = Eigen::MatrixXd::Zero(kLandmarks + 2 * count, kLandmarks + 2 * count);
@@ -56,7 +61,7 @@ class Prior {
 
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
-  /// Where a sighting's landmark stands in the state.
+  /// Where a sighting's landmark stands in the state, or kCertain.
   Eigen::Index row_of(std::size_t sighting) const { return rows_[sighting]; }
 
   Pose from(const Eigen::VectorXd& shift) const { return boxplus(before_.pose, shift.head<3>()); }
@@ -64,9 +69,10 @@ class Prior {
     return motion_.mean + shift.segment<3>(kChord);
   }
   Eigen::Vector2d landmark_of(std::size_t sighting, const Eigen::VectorXd& shift) const {
+    const Eigen::Vector2d& mean = before_.landmarks[static_cast<std::size_t>(seen_[sighting])];
     const Eigen::Index row = rows_[sighting];
-    const int index = landmark((row - kLandmarks) / 2);
-    return before_.landmarks[static_cast<std::size_t>(index)] + shift.segment<2>(row);
+    if (row == kCertain) return mean;
+    return mean + shift.segment<2>(row);
   }
 
  private:
@@ -74,8 +80,9 @@ class Prior {
 
   const JointBelief& before_;
   const ChordBelief& motion_;
-  std::vector<int> landmarks_;
-  std::vector<Eigen::Index> rows_;
+  std::vector<int> seen_;           ///< landmarks by sighting
+  std::vector<int> landmarks_;      ///< in the state
+  std::vector<Eigen::Index> rows_;  ///< by sighting
   Eigen::MatrixXd covariance_;
 };
 
@@ -101,7 +108,7 @@ Linear linearise(const Prior& prior, std::span<const SeenLandmark> seen, const E
     const auto row = 2 * static_cast<Eigen::Index>(i);
     linear.slope.block<2, 3>(row, 0) = sighting.by_pose() * by_from;
     linear.slope.block<2, 3>(row, kChord) = sighting.by_pose() * by_chord;
-    linear.slope.block<2, 2>(row, prior.row_of(i)) = sighting.by_landmark;
+    if (prior.row_of(i) != kCertain) linear.slope.block<2, 2>(row, prior.row_of(i)) = sighting.by_landmark;
     linear.residual.segment<2>(row) = sighting_residual(seen[i].observation.range_bearing, sighting.expected);
     linear.noise.block<2, 2>(row, row) = noise_at(seen[i].observation, sighting.expected);
   }
@@ -135,11 +142,11 @@ Guess guess_at(const Prior& prior, std::span<const SeenLandmark> seen, const Eig
   return {multipliers, shift, std::move(linear), cost};
 }
 
-/// Whether another guess costs what the slopes of this one foresee.
-bool is_linear(const Guess& guess, const Guess& other) {
+/// By how much another guess costs more or less than the slopes of this one foresee.
+double bend_between(const Guess& guess, const Guess& other) {
   const auto& [slope, residual, noise] = guess.linear;
   const Eigen::VectorXd foreseen = residual - slope * (other.shift - guess.shift);
-  return std::abs(other.multipliers.dot(other.shift) + cost_of(foreseen, noise) - other.cost) < kCurved;
+  return std::abs(other.multipliers.dot(other.shift) + cost_of(foreseen, noise) - other.cost);
 }
 
 /// Goes all the way to what is wanted, or half of it, or a quarter, until that lowers the cost.
@@ -174,21 +181,36 @@ std::optional<FrameMode> frame_mode(const JointBelief& before, const ChordBelief
   if (seen.empty()) return FrameMode{before.pose, motion.mean, {}, {}};
   const Prior prior(before, motion, seen);
   Guess guess = guess_at(prior, seen, Eigen::VectorXd::Zero(prior.covariance().cols()));
+  double bend = 0.0;
   for (int step = 0;; ++step) {
     const auto& [slope, residual, noise] = guess.linear;
     const Eigen::LLT<Eigen::MatrixXd> root(slope * prior.covariance() * slope.transpose() + noise);
     if (root.info() != Eigen::Success) return std::nullopt;
     const Eigen::VectorXd solved = root.solve(residual + slope * guess.shift);
     const Eigen::VectorXd wanted = slope.transpose() * solved;
-    const bool stays = step == 0 ? is_linear(guess, guess_at(prior, seen, wanted)) : step == kMostSteps;
+    if (step == 0) bend = bend_between(guess, guess_at(prior, seen, wanted));
+    const bool stays = step == 0 ? bend < kCurved : step == kMostSteps;
     const double cost = guess.cost;
     if (!stays) guess = improved(guess, wanted, prior, seen);
     // A prior that rounding made indefinite can cost less than nothing.
     if (!stays && cost - guess.cost > kConverged * (1.0 + std::abs(guess.cost))) continue;
-    FrameMode mode{prior.from(guess.shift), prior.chord(guess.shift), {}, squared_lengths_of(root, solved)};
+    FrameMode mode{
+        prior.from(guess.shift), prior.chord(guess.shift), {}, squared_lengths_of(root, solved), bend};
     for (std::size_t i = 0; i < seen.size(); ++i) mode.landmarks.push_back(prior.landmark_of(i, guess.shift));
     return mode;
   }
+}
+
+JointBelief predict_at(const FrameMode& mode, JointBelief before, const ChordBelief& motion) {
+  const Pose robot = end_of(mode.from, mode.chord);
+  const Eigen::Vector2d swing = heading_lever(mode.from, {robot.x_m, robot.y_m});
+  const Eigen::Matrix3d by_chord = end_by_chord(mode.from, mode.chord);
+  const Eigen::Vector3d off = boxminus(before.pose, mode.from);
+  Eigen::Vector3d shift = off + by_chord * (motion.mean - mode.chord);
+  shift.head<2>() += swing * off.z();
+  before.pose = boxplus(robot, shift);
+  before.covariance.move_pose(swing, by_chord * motion.covariance * by_chord.transpose());
+  return before;
 }
 
 }  // namespace stereobench::slam

@@ -26,6 +26,10 @@ struct FrameMode {
   /// By sighting: squared Mahalanobis length of its innovation, predicted from all that is known but itself.
   /// Chi-square distributed with two degrees of freedom, where all is as believed.
   std::vector<double> squared_lengths;
+
+  /// By how much the frame's cost after the first step differs from what the slopes at the prior's mean
+  /// foresee: a difference of squared Mahalanobis lengths, 0 where nothing bends.
+  double bend = 0.0;
 };
 
 /// Finds the mode by Gauss-Newton steps in gain form (the iterated extended Kalman filter of Bell and Cathey,
@@ -38,5 +42,8 @@ struct FrameMode {
 /// @return nothing where the sightings' covariance has no root
 std::optional<FrameMode> frame_mode(const JointBelief& before, const ChordBelief& motion,
                                     std::span<const SeenLandmark> seen);
+
+/// The belief after a motion, to first order at the mode of a frame.
+JointBelief predict_at(const FrameMode& mode, JointBelief before, const ChordBelief& motion);
 
 }  // namespace stereobench::slam

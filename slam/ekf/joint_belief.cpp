@@ -57,13 +57,14 @@ JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int
   return against(belief, landmark, slope, linear.expected + slope * off, observation, repairs);
 }
 
-void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs) {
-  JointCovariance::Columns whitened;
-  correct(belief, landmark, seen, whitened, repairs);
+ExpectedSighting expectation(const JointInnovation& seen, const Observation& observation,
+                             double squared_length) {
+  return {true, observation.range_bearing - seen.residual, seen.covariance,
+          -0.5 * (squared_length + seen.factor.log_det_2_pi())};
 }
 
-void correct(JointBelief& belief, int landmark, const JointInnovation& seen,
-             JointCovariance::Columns& whitened, long& repairs) {
+void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs) {
+  JointCovariance::Columns whitened;
   belief.covariance.with_sighting(landmark, seen.slope, seen.near, whitened);
   seen.factor.whiten_in_place(whitened);
   const Eigen::Vector2d residual = seen.factor.whiten<1>(seen.residual.transpose()).transpose();

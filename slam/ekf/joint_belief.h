@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "slam/association/sighting.h"
 #include "slam/ekf/joint_covariance.h"
 #include "slam/math/gaussian.h"
 #include "slam/models/belief.h"
@@ -27,6 +28,12 @@ struct JointInnovation {
   double squared_length() const { return factor.squared_length(residual); }
 };
 
+/// What was expected of a sighting.
+///
+/// @param squared_length at which it is weighed: its own, or the gate's where it is refused
+ExpectedSighting expectation(const JointInnovation& seen, const Observation& observation,
+                             double squared_length);
+
 /// Puts a motion behind the pose: O(n), for a landmark feels it through its covariance with the pose alone.
 ///
 /// @param motion in the robot's frame before it
@@ -46,10 +53,6 @@ JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int
 
 /// The Kalman update in gain form, O(n^2): K = P H' S^-1, so a singular P is nothing special.
 void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs);
-
-/// The same with memory that many updates can share.
-void correct(JointBelief& belief, int landmark, const JointInnovation& seen,
-             JointCovariance::Columns& whitened, long& repairs);
 
 /// Takes a landmark for what is seen now: one that is new, or one whose place turned out to be wrong.
 ///

@@ -44,9 +44,9 @@ struct DrawnParticle {
 
   void see_again(int landmark, const Sighting& sighting) { learn(sighting, {Outcome::kUse, landmark}); }
 
-  int add(int slot, const Landmark& landmark, std::vector<int>& vacant) {
-    LandmarkMap& map = slot == kUnknown ? particle.classed : particle.known;
-    if (slot != kUnknown || vacant.empty()) {
+  int add(const Sighting& sighting, const Landmark& landmark, std::vector<int>& vacant) {
+    LandmarkMap& map = map_of(particle, sighting);
+    if (sighting.slot != kUnknown || vacant.empty()) {
       map.push_back(landmark);
       return static_cast<int>(map.size()) - 1;
     }

@@ -177,35 +177,14 @@ template <class Model>
 Estimate FastSlam<Model>::estimate() const {
   Estimate estimate = estimate_without_map();
   const auto heaviest = std::max_element(log_weights_.begin(), log_weights_.end()) - log_weights_.begin();
-  const Particle& reported = particles_[static_cast<std::size_t>(heaviest)];
-  for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
-    const LandmarkBelief mixed = mixed_landmark(particles_, weights_, slot);
-    const RangeBearing& first = reader_.first_sighting(slot);
-    estimate.landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance,
-                                  reported.known[slot].status.origin});
-  }
-  for (std::size_t i = 0; i < reported.classed.size(); ++i) {
-    const Landmark& own = reported.classed[i];
-    if (!Existence::is_believed(own.status.log_odds)) continue;
-    const LandmarkBelief mixed =
-        mixed_landmark_near(particles_, weights_, own, 0.5 * config_.colour_spacing_m);
-    estimate.landmarks.push_back(
-        {kUnknown, own.status.colour_class, mixed.mean, mixed.covariance, own.status.origin});
-  }
+  estimate.landmarks = mixed_landmarks(particles_, weights_, static_cast<std::size_t>(heaviest), reader_,
+                                       0.5 * config_.colour_spacing_m);
   return estimate;
 }
 
 template <class Model>
 Decisions FastSlam<Model>::last_decisions() const {
-  Decisions decisions{decided_, {}};
-  const Particle& particle = particles_[decider_];
-  for (std::size_t slot = 0; slot < particle.known.size(); ++slot)
-    decisions.mapped.push_back(particle.known[slot].status.origin);
-  for (std::size_t i = 0; i < particle.classed.size(); ++i) {
-    const LandmarkStatus& status = particle.classed[i].status;
-    if (!Existence::is_dead(status.log_odds)) decisions.mapped.push_back(status.origin);
-  }
-  return decisions;
+  return {decided_, origins_of(particles_[decider_])};
 }
 
 template <class Model>

@@ -23,6 +23,30 @@ const Landmark* nearest(const LandmarkMap& map, const Landmark& own, double with
   return best;
 }
 
+/// A landmark that all particles know by its slot.
+LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& weights,
+                              std::size_t slot) {
+  const Eigen::Vector2d reference = particles.front().known[slot].belief.mean;
+  Moments<2> moments;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const LandmarkBelief& belief = particles[i].known[slot].belief;
+    moments.add(weights[i], belief.mean - reference, belief.covariance);
+  }
+  return {reference + moments.mean(), moments.covariance()};
+}
+
+/// A landmark of one particle's map and its nearest neighbours of that colour in the others' maps.
+LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& weights,
+                                   const Landmark& own, double within_m) {
+  Moments<2> moments;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Landmark* same = nearest(particles[i].classed, own, within_m);
+    if (same == nullptr) continue;
+    moments.add(weights[i], same->belief.mean - own.belief.mean, same->belief.covariance);
+  }
+  return {own.belief.mean + moments.mean(), moments.covariance()};
+}
+
 }  // namespace
 
 PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vector<double>& weights) {
@@ -36,26 +60,35 @@ PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vecto
   return {boxplus(reference, moments.mean()), moments.covariance()};
 }
 
-LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& weights,
-                              std::size_t slot) {
-  const Eigen::Vector2d reference = particles.front().known[slot].belief.mean;
-  Moments<2> moments;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const LandmarkBelief& belief = particles[i].known[slot].belief;
-    moments.add(weights[i], belief.mean - reference, belief.covariance);
+std::vector<LandmarkEstimate> mixed_landmarks(const std::vector<Particle>& particles,
+                                              const std::vector<double>& weights, std::size_t heaviest,
+                                              const FrameReader& reader, double within_m) {
+  const Particle& reported = particles[heaviest];
+  std::vector<LandmarkEstimate> landmarks;
+  for (std::size_t slot = 0; slot < reported.known.size(); ++slot) {
+    const LandmarkBelief mixed = mixed_landmark(particles, weights, slot);
+    const RangeBearing& first = reader.first_sighting(slot);
+    landmarks.push_back({first.landmark_id, first.colour_class, mixed.mean, mixed.covariance,
+                         reported.known[slot].status.origin});
   }
-  return {reference + moments.mean(), moments.covariance()};
+  for (std::size_t i = 0; i < reported.classed.size(); ++i) {
+    const Landmark& own = reported.classed[i];
+    if (!Existence::is_believed(own.status.log_odds)) continue;
+    const LandmarkBelief mixed = mixed_landmark_near(particles, weights, own, within_m);
+    landmarks.push_back({kUnknown, own.status.colour_class, mixed.mean, mixed.covariance, own.status.origin});
+  }
+  return landmarks;
 }
 
-LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& weights,
-                                   const Landmark& own, double within_m) {
-  Moments<2> moments;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Landmark* same = nearest(particles[i].classed, own, within_m);
-    if (same == nullptr) continue;
-    moments.add(weights[i], same->belief.mean - own.belief.mean, same->belief.covariance);
+std::vector<int> origins_of(const Particle& particle) {
+  std::vector<int> origins;
+  for (std::size_t slot = 0; slot < particle.known.size(); ++slot)
+    origins.push_back(particle.known[slot].status.origin);
+  for (std::size_t i = 0; i < particle.classed.size(); ++i) {
+    const LandmarkStatus& status = particle.classed[i].status;
+    if (!Existence::is_dead(status.log_odds)) origins.push_back(status.origin);
   }
-  return {own.belief.mean + moments.mean(), moments.covariance()};
+  return origins;
 }
 
 }  // namespace stereobench::slam

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/association/frame_reader.h"
 #include "slam/fastslam/particle.h"
 
 namespace stereobench::slam {
@@ -14,16 +15,18 @@ namespace stereobench::slam {
 /// @param weights normalised
 PoseBelief mixed_pose(const std::vector<Posterior>& posteriors, const std::vector<double>& weights);
 
-/// The same of a landmark that all particles know by its slot.
-LandmarkBelief mixed_landmark(const std::vector<Particle>& particles, const std::vector<double>& weights,
-                              std::size_t slot);
-
-/// The same of a landmark of one particle's map and its nearest neighbours of that colour in the others'
-/// maps.
+/// The landmarks that a set of particles reports: those of its heaviest particle, each as the mixture of what
+/// all believe of it. Without an identity that is the nearest of its colour in each of the other maps.
 ///
-/// @param own the landmark in the particle that is reported
+/// @param weights normalised
+/// @param heaviest index of a particle
+/// @param reader that gave out the slots
 /// @param within_m how far a neighbour may lie to count as the same landmark
-LandmarkBelief mixed_landmark_near(const std::vector<Particle>& particles, const std::vector<double>& weights,
-                                   const Landmark& own, double within_m);
+std::vector<LandmarkEstimate> mixed_landmarks(const std::vector<Particle>& particles,
+                                              const std::vector<double>& weights, std::size_t heaviest,
+                                              const FrameReader& reader, double within_m);
+
+/// @return the sightings that founded the landmarks of a particle's map
+std::vector<int> origins_of(const Particle& particle);
 
 }  // namespace stereobench::slam

@@ -4,19 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "slam/fastslam/particle.h"
-#include "slam/models/belief.h"
+#include "slam/association/sighting.h"
 #include "slam/update_report.h"
 
 namespace stereobench::slam {
-
-/// What one particle expected of one sighting, just before it used it.
-struct ExpectedSighting {
-  bool exists = false;  ///< the particle had a landmark for it
-  Eigen::Vector2d range_bearing = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< S
-  double log_likelihood = 0.0;                           ///< what the sighting was worth to the particle
-};
 
 /// Holds each sighting against the mixture of what the particles expected, taken as the Gaussian of the same
 /// mean and covariance.

@@ -14,8 +14,10 @@ struct Moments {
   Eigen::Matrix<double, kSize, kSize> second = Eigen::Matrix<double, kSize, kSize>::Zero();
   double total = 0.0;
 
+  /// What has no weight may be no number.
   void add(double weight, const Eigen::Matrix<double, kSize, 1>& offset,
            const Eigen::Matrix<double, kSize, kSize>& covariance) {
+    if (weight == 0.0) return;
     total += weight;
     first += weight * offset;
     second += weight * (covariance + offset * offset.transpose());

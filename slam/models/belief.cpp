@@ -41,4 +41,10 @@ PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_fr
   return now;
 }
 
+PoseBelief after_drift(const PoseBelief& motion, const Pose& start, const Eigen::Matrix3d& drift) {
+  const Pose turned_back{0.0, 0.0, -start.heading_rad};
+  const PoseBelief in_its_frame{{}, follow(turned_back, PoseBelief{{}, drift}).covariance};
+  return follow(in_its_frame, motion);
+}
+
 }  // namespace stereobench::slam

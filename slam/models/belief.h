@@ -95,4 +95,11 @@ void move(PoseBelief& belief, const Model& model, const Control& control, const 
   belief = model.move(belief, control, control_sd, counters.covariance_repairs);
 }
 
+/// A motion whose start has drifted.
+///
+/// @param motion in the robot's frame of its start
+/// @param start world_from_robot
+/// @param drift covariance of (x, y, heading) of the start, in the world
+PoseBelief after_drift(const PoseBelief& motion, const Pose& start, const Eigen::Matrix3d& drift);
+
 }  // namespace stereobench::slam

@@ -53,20 +53,6 @@ PredictedMeasurement Linearised::expect(const PoseBelief& belief, const Landmark
   return predicted;
 }
 
-PredictedMeasurement Linearised::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                                        const Observation& observation, long&) const {
-  const LinearSighting linear = linearise_sighting(belief.mean, place);
-  const Eigen::Matrix2d by_place = -linear.by_landmark;  // of the robot; its heading takes from the bearing
-  PredictedMeasurement predicted;
-  predicted.expected = linear.expected;
-  predicted.cross.noalias() = belief.covariance.leftCols<2>() * by_place.transpose();
-  predicted.cross.col(1) -= belief.covariance.col(2);
-  predicted.covariance = noise_at(observation, predicted.expected);
-  predicted.covariance.noalias() += by_place * predicted.cross.topRows<2>();
-  predicted.covariance.row(1) -= predicted.cross.row(2);
-  return predicted;
-}
-
 PredictedMeasurement Linearised::expect(const Pose& robot, const LandmarkBelief& landmark,
                                         const Observation& observation, long&) const {
   const LinearSighting linear = linearise_sighting(robot, landmark.mean);

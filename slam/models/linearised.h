@@ -23,10 +23,6 @@ class Linearised {
   PredictedMeasurement expect(const Pose& robot, const LandmarkBelief& landmark,
                               const Observation& observation, long& repairs) const;
 
-  /// What a point should look like whose place is known: S = Hx P Hx' + R.
-  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                              const Observation& observation, long& repairs) const;
-
   /// The landmark after a sighting from a known pose: the extended Kalman update.
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,
                         long& repairs) const;

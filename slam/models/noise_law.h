@@ -13,7 +13,8 @@ namespace stereobench::slam {
 Observation observe(const RangeBearing& seen, const FilterConfig& config);
 
 /// The settings with hardly any floor under the measurement noise. The floor keeps weights of particles from
-/// vanishing. What has no weights needs it only against sensors that claim to be exact.
+/// vanishing. What has no weights, or weighs a whole block at once, needs it only against sensors that claim
+/// to be exact.
 FilterConfig without_floor(FilterConfig config);
 
 /// The settings with a floor of 0.05 mm and 2.5 urad at most, for particles that are drawn around the mode.

@@ -28,19 +28,8 @@ PoseBelief Unscented::move(const PoseBelief& belief, const Control& control,
 
 PredictedMeasurement Unscented::expect(const PoseBelief& belief, const LandmarkBelief& landmark,
                                        const Observation& observation, long& repairs) const {
-  const PivotedRoot<2> root = pivoted_root<2>(landmark.covariance, landmark.covariance.diagonal(), repairs);
-  return expect(belief, landmark.mean, root, observation, repairs);
-}
-
-PredictedMeasurement Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                                       const Observation& observation, long& repairs) const {
-  return expect(belief, place, {}, observation, repairs);
-}
-
-/// @param spread root of the landmark's covariance about its place
-PredictedMeasurement Unscented::expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                                       const PivotedRoot<2>& spread, const Observation& observation,
-                                       long& repairs) const {
+  const PivotedRoot<2> spread = pivoted_root<2>(landmark.covariance, landmark.covariance.diagonal(), repairs);
+  const Eigen::Vector2d& place = landmark.mean;
   const PivotedRoot<3> root = pivoted_root<3>(belief.covariance, belief.covariance.diagonal(), repairs);
   const Eigen::Vector2d centre = predict_sighting(belief.mean, place);
   SigmaResiduals<2, 5> residuals = SigmaResiduals<2, 5>::Zero();  // beyond a rank points are the centre

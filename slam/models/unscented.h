@@ -33,10 +33,6 @@ class Unscented {
     return expect(PoseBelief{robot}, landmark, observation, repairs);
   }
 
-  /// What a point should look like whose place is known.
-  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                              const Observation& observation, long& repairs) const;
-
   /// The landmark after a sighting from a known pose: sigma points over the landmark (eq. 28-34).
   LandmarkBelief refine(const LandmarkBelief& landmark, const Pose& robot, const Observation& observation,
                         long& repairs) const;
@@ -47,10 +43,6 @@ class Unscented {
   const SigmaWeights<5>& weights() const { return five_; }  ///< of points over five dimensions
 
  private:
-  PredictedMeasurement expect(const PoseBelief& belief, const Eigen::Vector2d& place,
-                              const PivotedRoot<2>& spread, const Observation& observation,
-                              long& repairs) const;
-
   SigmaWeights<5> five_;
   SigmaWeights<2> two_;
 };

@@ -21,14 +21,6 @@ constexpr double kShareOfFrame = 0.03;
 /// Most of it, of the motion's own standard deviation: exact odometry stays exact.
 constexpr double kShareOfMotion = 0.1;
 
-/// A motion whose start has drifted.
-/// @param drift covariance of (x, y, heading) of the start, in the world
-PoseBelief after_drift(const PoseBelief& motion, const Pose& start, const Eigen::Matrix3d& drift) {
-  const Pose turned_back{0.0, 0.0, -start.heading_rad};
-  const PoseBelief in_its_frame{{}, follow(turned_back, PoseBelief{{}, drift}).covariance};
-  return follow(in_its_frame, motion);
-}
-
 /// A motion with room for a search. Where it is known not to leave a curve, steps along the curve are short.
 ///
 /// @param frame at its end
@@ -110,18 +102,15 @@ std::vector<std::size_t> Smoother::may_be_seen(std::span<const Sighting> frame) 
 void Smoother::assume(std::span<const std::size_t> near) {
   std::vector<int> variables;
   std::vector<EkfSlam::Mapped> kept;
-  std::vector<int> landmark_of_slot(landmark_of_slot_.size(), kUnknown);
   JointBelief belief{.pose = graph_.pose()};
   for (const std::size_t j : near) {
     const Mapped& landmark = map_[j];
-    if (landmark.kept.slot != kUnknown)
-      landmark_of_slot[static_cast<std::size_t>(landmark.kept.slot)] = static_cast<int>(kept.size());
     kept.push_back(landmark.kept);
     variables.push_back(landmark.variable);
     belief.landmarks.push_back(graph_.landmark(landmark.variable));
   }
   belief.covariance = JointCovariance(graph_.covariance(variables));
-  reader_.assume(std::move(belief), std::move(kept), std::move(landmark_of_slot));
+  reader_.assume(std::move(belief), std::move(kept));
 }
 
 /// Takes from the reader how landmarks have fared, and those that are new.

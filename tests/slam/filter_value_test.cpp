@@ -69,7 +69,6 @@ TEST_P(Registry, HasATitleAndIsFoundByItsName) {
   ASSERT_NE(kind, nullptr);
   EXPECT_EQ(kind->name, GetParam());
   EXPECT_FALSE(kind->title.empty());
-  EXPECT_EQ(needs_identities(GetParam()), kind->needs_identities);
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, Registry, ::testing::ValuesIn(filter_names()),
@@ -87,7 +86,6 @@ TEST(FilterRegistry, NamesAndTitlesAreThereOnce) {
 // Red when the message leaves a name out, or an unknown name gives some filter.
 TEST(FilterRegistry, AnUnknownNameIsToldAllThereAre) {
   EXPECT_EQ(find_filter_kind("kalman"), nullptr);
-  EXPECT_FALSE(needs_identities("kalman"));
   try {
     make_filter("kalman", {}, {}, 0);
     FAIL() << "no error";

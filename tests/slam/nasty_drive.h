@@ -20,14 +20,6 @@ struct NastyStep {
   std::vector<Control> controls;
   std::vector<std::vector<RangeBearing>> frames;  // the step's own, and some that come late or twice
   int impossible = 0;                             // controls and sightings that cannot be
-
-  // Sightings that can be and have no identity.
-  int nameless() const {
-    int count = 0;
-    for (const std::vector<RangeBearing>& frame : frames)
-      for (const RangeBearing& seen : frame) count += is_valid(seen) && seen.landmark_id == kUnknown ? 1 : 0;
-    return count;
-  }
 };
 
 // Noise from none to a million times what it should be, of the odometry (so that P is 0, of rank 1, 2 or 3),

@@ -19,6 +19,9 @@ struct TestedFilter {
     return make_filter(name, config, start, seed);
   }
 
+  // Such a filter needs fewer particles, and more time for each.
+  bool draws_in_blocks() const { return name.ends_with("_block"); }
+
   // The least standard deviation (m and rad) that it takes a motion for.
   double least_sd() const { return name == "smoother" ? 1e-6 : 0.0; }
 };
@@ -32,7 +35,7 @@ inline std::vector<TestedFilter> tested_filters(const std::vector<std::string>& 
   std::vector<TestedFilter> filters;
   for (const std::string& name : names) {
     filters.push_back({name});
-    if (name.ends_with("_block")) filters.push_back({name, 3});
+    if (filters.back().draws_in_blocks()) filters.push_back({name, 3});
   }
   return filters;
 }

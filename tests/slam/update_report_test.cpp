@@ -126,8 +126,9 @@ TEST_P(Reports, NameEachSightingOfAKnownLandmarkOnce) {
 // sightings: five standard errors.
 TEST_P(Reports, SquaredLengthsAreChiSquareWhenTheFilterIsRight) {
   Lengths all;
+  const int particles = GetParam().draws_in_blocks() ? 20 : 200;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const auto run = lengths(precise_lap(), 200, seed, 1.0);
+    const auto run = lengths(precise_lap(), particles, seed, 1.0);
     all.sum += run.sum;
     all.count += run.count;
   }

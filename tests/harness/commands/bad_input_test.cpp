@@ -153,10 +153,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"FolderForScenario", {"run", "{scratch}"}, "got a folder"},
         BadCall{"UnknownOption", {"run", "{scenario}", "--fast"}, "--fast"},
         BadCall{"UnknownFilter", {"run", "{scenario}", "--filters", "kalman"}, "kalman"},
-        BadCall{"BlocksWithoutIdentities",
-                {"run", "{scenario}", "--filters", "ekf,ufastslam_block", "--set", "identity=none", "--out",
-                 "{out}"},
-                "filter ufastslam_block needs landmarks whose identities are known"},
         BadCall{"EmptyFilter", {"run", "{scenario}", "--filters", "ufastslam,"}, "--filters"},
         BadCall{"ZeroParticles", {"run", "{scenario}", "--particles", "0"}, "--particles"},
         BadCall{"TextForParticles", {"run", "{scenario}", "--particles", "many"}, "--particles"},
@@ -248,26 +244,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadLog{"LandmarkOfAFraction", "observations.csv",
                "t_s,landmark_id,range_m,bearing_rad\n0.5,1.5,2,0.1\n", "observations.csv:2"}),
     [](const auto& test) { return test.param.kind; });
-
-// Filters in blocks use sightings with an identity alone: a log that has one without is refused before
-// anything is written, and other filters take it. Mutations: no check of a log's identities; a log that
-// counts as known for its first sighting.
-TEST(LogWithoutIdentities, IsRefusedByFiltersInBlocksAlone) {
-  const TestFolder scratch;
-  scratch.write("odometry.csv", "t_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
-  scratch.write("observations.csv", "t_s,landmark_id,range_m,bearing_rad\n0.5,1,2,0.1\n0.5,-1,3,0.4\n");
-  const std::filesystem::path out = scratch.path() / "out";
-  const auto slam = [&](const char* filters) {
-    return run_stereobench(
-        {"slam", scratch.path().string(), "--filters", filters, "--particles", "2", "--out", out.string()});
-  };
-  for (const char* filter : {"fastslam2_block", "ufastslam_block"}) {
-    expect_bad_input(slam(filter), std::string("filter ") + filter + " needs landmarks whose identities");
-    EXPECT_TRUE(is_empty_or_missing(out));
-  }
-  const Outcome others = slam("ekf,fastslam2");
-  EXPECT_EQ(others.exit_code, 0) << others.err;
-}
 
 /// Runs the program with files limited to `bytes`, as a disk that is full would.
 Outcome run_on_full_disk(const std::vector<std::string>& arguments, rlim_t bytes) {

@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Settings, OnePolicy,
 
 /// Where odometry is exact, two filters must decide alike of every sighting and landmark.
 void expect_alike(const Rules& rules, double precision, const char* one_name, const char* other_name) {
-  FilterConfig config{.particles = 1, .colour_spacing_m = rules.spacing_m, .association = rules.association};
+  FilterConfig config{
+      .particles = 1, .draw_every = 4, .colour_spacing_m = rules.spacing_m, .association = rules.association};
   if (rules.has_sector) config.sector = {kRange_m, kHalfAngle_rad, 0.1, 1.0};
   std::array<int, 6> outcomes{};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -126,6 +127,13 @@ TEST_P(OnePolicy, WhereThePoseIsKnownAllFiltersDecideAlike) {
 // sector; not those nearer than half the spacing; the odds of before kept.
 TEST_P(OnePolicy, TheSmootherDecidesAsItsReaderWouldAlone) {
   expect_alike(GetParam(), 100.0, "iekf", "smoother");
+}
+
+// So does a particle in blocks, and what its reader says of them goes back into its map. Mutations: not those
+// within the sector; not those nearer than half the spacing; what was seen of a landmark before it turned out
+// to be elsewhere kept; records not written back; new landmarks not written back.
+TEST_P(OnePolicy, AParticleInBlocksDecidesAsItsReaderWouldAlone) {
+  expect_alike(GetParam(), 100.0, "iekf", "fastslam2_block");
 }
 
 }  // namespace

@@ -77,7 +77,6 @@ TEST_P(Stress, NeitherThrowsNorLosesANumber) {
       for (const Control& control : drive.steps[k].controls) predict(filter, control);
       for (const std::vector<RangeBearing>& frame : drive.steps[k].frames) update(filter, frame);
       impossible += drive.steps[k].impossible;
-      if (needs_identities(name)) impossible += drive.steps[k].nameless();
       const Estimate now = estimate(filter);
       const std::string fault = fault_of(now, before, count);
       ASSERT_TRUE(fault.empty()) << fault << "\nseed " << seed << ", step " << k;

@@ -116,17 +116,6 @@ TYPED_TEST(Models, ExpectHasTheMomentsOfManySightings) {
 
 // The mean is held to five standard errors and what first order leaves out. Catches a transposed Jacobian,
 // and sigma points whose mean has the wrong sign.
-// A point whose place is known is a landmark without uncertainty.
-TYPED_TEST(Models, ExpectAKnownPlaceAsALandmarkThatIsCertain) {
-  const Observation seen{{6.0, 0.4}, Eigen::Vector2d(1e-4, 4e-6).asDiagonal()};
-  const LandmarkBelief certain{some_landmark().mean, Eigen::Matrix2d::Zero()};
-  const PredictedMeasurement of_landmark = this->model_.expect(some_pose(), certain, seen, this->repairs_);
-  const PredictedMeasurement of_place = this->model_.expect(some_pose(), certain.mean, seen, this->repairs_);
-  EXPECT_EQ(of_place.expected, of_landmark.expected);
-  EXPECT_TRUE(near(of_place.covariance, of_landmark.covariance, 1e-15));
-  EXPECT_TRUE(near(of_place.cross, of_landmark.cross, 1e-15));
-}
-
 TYPED_TEST(Models, FoundHasTheMomentsOfManyFinds) {
   const Pose robot{1.0, 2.0, -3.0};
   const Observation seen{{6.0, 0.4}, some_noise()};

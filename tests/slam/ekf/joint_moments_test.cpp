@@ -1,5 +1,5 @@
 // What a sighting says of a joint belief, against Monte Carlo.
-#include "slam/block/joint_moments.h"
+#include "slam/ekf/joint_moments.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -58,6 +58,12 @@ Eigen::MatrixXd shared_with(const JointBelief& belief, const JointInnovation& se
   JointCovariance::Columns shared;
   belief.covariance.with_sighting(0, seen.slope, seen.near, shared);
   return shared;
+}
+
+// By slopes at the mean: no model is needed.
+JointInnovation innovation(const Linearised&, const JointBelief& belief, int landmark,
+                           const Observation& observation, long& repairs) {
+  return slam::innovation(belief, landmark, observation, repairs);
 }
 
 template <class Model>

@@ -7,13 +7,8 @@
 
 namespace stereobench::slam {
 
-/// Looks for a landmark where it should be, by the slopes at the belief's mean.
-///
-/// @param repairs counts covariances that had to be repaired
-JointInnovation innovation(const Linearised& model, const JointBelief& belief, int landmark,
-                           const Observation& observation, long& repairs);
-
-/// The same by sigma points over pose and landmark with what ties them together.
+/// Looks for a landmark where it should be, by sigma points over pose and landmark with what ties them
+/// together.
 ///
 /// The slope is that of the straight line through the points, A = P_zx P^-1 (statistical linear regression;
 /// Lefebvre, Bruyninckx and De Schutter 2002). All else is jointly Gaussian with pose and landmark, so that A
@@ -22,8 +17,9 @@ JointInnovation innovation(const Linearised& model, const JointBelief& belief, i
 JointInnovation innovation(const Unscented& model, const JointBelief& belief, int landmark,
                            const Observation& observation, long& repairs);
 
-/// Takes a landmark for what is seen from an uncertain pose: one more than the last.
+/// Takes a landmark for what is seen from an uncertain pose.
 ///
+/// @param landmark index of one that is forgotten, or one more than the last
 /// @param repairs counts covariances that had to be repaired
 void find(const Linearised& model, JointBelief& belief, int landmark, const Observation& observation,
           long& repairs);

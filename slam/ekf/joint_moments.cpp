@@ -1,4 +1,4 @@
-#include "slam/block/joint_moments.h"
+#include "slam/ekf/joint_moments.h"
 
 #include "slam/math/gaussian.h"
 #include "slam/models/measurement.h"
@@ -40,11 +40,6 @@ LinearFit line_through(const Matrix5& covariance, const SigmaWeights<5>& weights
 }
 
 }  // namespace
-
-JointInnovation innovation(const Linearised&, const JointBelief& belief, int landmark,
-                           const Observation& observation, long& repairs) {
-  return innovation(belief, landmark, observation, repairs);
-}
 
 JointInnovation innovation(const Unscented& model, const JointBelief& belief, int landmark,
                            const Observation& observation, long& repairs) {
@@ -88,7 +83,8 @@ void find(const Unscented& model, JointBelief& belief, int landmark, const Obser
   };
   const LinearFit line = line_through(covariance, model.weights(), off, repairs);
   const Eigen::Matrix<double, 2, 3> by_pose = line.slope.leftCols<3>();
-  belief.landmarks.push_back(centre + line.mean);
+  if (static_cast<std::size_t>(landmark) == belief.landmarks.size()) belief.landmarks.emplace_back();
+  belief.landmarks[static_cast<std::size_t>(landmark)] = centre + line.mean;
   belief.covariance.place(landmark, by_pose, line.covariance - by_pose * pose * by_pose.transpose(), repairs);
 }
 
