@@ -60,9 +60,9 @@ TEST(BlockSlam, NeedsSigmaPointsWhereBearingsArePoor) {
 // Frames of a block that is drawn leave maps whose landmarks are right: with 100 particles the mixture over
 // many blocks is the EKF's Gaussian again, as far as 100 particles go and the drive is linear. Means of
 // twelve seeds, since paths that are resampled scatter by half a deviation, and one in fifty by more than
-// one. Mutations: landmarks that are not refined from the path drawn; places of landmarks that are not drawn;
-// a path that is drawn without the landmarks, or each pose without the next; sightings that weigh nothing;
-// weights that stay when particles are drawn anew; descendants that keep the block of whom they replace.
+// one. Mutations (seen red with the Kalman filter that a particle was before it was an iterated EKF):
+// landmarks that are not refined from the path drawn; places of landmarks that are not drawn; a path that is
+// drawn without the landmarks; sightings that weigh nothing; weights that stay when particles are drawn anew.
 TEST_P(BlockSlams, AgreesWithTheEkfAfterManyBlocks) {
   constexpr int kSeeds = 12;
   Drive world;
