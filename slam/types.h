@@ -47,6 +47,9 @@ struct RangeBearing {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (range, bearing): m^2, m rad, rad^2
   int landmark_id = kUnknown;                            ///< identity when it is known, >= 0
   int colour_class = kUnknown;  ///< colour when colours repeat and identity must be resolved, >= 0
+  /// By how much the standard deviations of (range, bearing) are larger than stated: part of the error was in
+  /// the sighting before already.
+  Eigen::Vector2d sd_scale = Eigen::Vector2d::Ones();
 };
 
 /// A landmark of the map as a filter believes it to be.

@@ -10,6 +10,7 @@
 #include "harness/experiment/write_experiment.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
+#include "harness/noise_check/noise_check.h"
 #include "harness/process/interruption.h"
 #include "harness/process/process_pool.h"
 #include "renderer/backend.h"
@@ -78,10 +79,11 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : experiment.seeds) {
     const bool is_first = seed == experiment.seeds.front();
-    const SeedParts wanted = is_first ? parts : SeedParts{.steps = parts.steps};
+    SeedParts wanted = is_first ? parts : SeedParts{.steps = parts.steps};
+    wanted.log = parts.log && tasks.size() < kCheckedLogs;
     tasks.push_back({&experiment, seed, wanted, arguments.backend});
-    tasks.back().key = sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {}", basis, seed,
-                                             wanted.steps, wanted.map, wanted.snapshots));
+    tasks.back().key = sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {} log {}", basis, seed,
+                                             wanted.steps, wanted.map, wanted.snapshots, wanted.log));
   }
   return tasks;
 }

@@ -8,6 +8,7 @@
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/dataset/draws_file.h"
+#include "harness/experiment/filter_config.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/run/result_table.h"
@@ -16,7 +17,7 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4};
+constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4, .log = true};
 
 int run(const ScenarioArguments& arguments) {
   const Experiment experiment = read_experiment(arguments);
@@ -35,10 +36,14 @@ int run(const ScenarioArguments& arguments) {
   KeptDrives kept(out);
   const std::string pixels = pixels_of(scenario, arguments.backend);
   const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kParts);
+  std::vector<SensorLog> logs;
   RunOutput output(out, RunTally(scenario.name, rendered_by(scenario, arguments.backend)));
-  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name,
-                [&](std::size_t, const SeedResult& seed) { output.add(seed); });
+  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name, [&](std::size_t, const SeedResult& seed) {
+    output.add(seed);
+    if (seed.log) logs.push_back(*seed.log);
+  });
   RunResult result = output.result();
+  result.noise = check_noise(logs, filter_config(experiment), arguments.run.jobs);
   warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
   result.made_from = provenance_of(arguments, {}, experiment, pixels);
   output.write(result, scenario.world.walls);

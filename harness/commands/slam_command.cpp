@@ -13,6 +13,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/file_list.h"
 #include "harness/logs/measurement_log_reader.h"
+#include "harness/logs/sighting_weights.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "harness/process/stopwatch.h"
@@ -35,6 +36,7 @@ struct SlamArguments {
   std::optional<worlds::Identity> identity;
   slam::FilterConfig config;
   StatedNoise stated;
+  std::optional<Eigen::Vector2d> sighting_correlation_s;
   EvaluationArguments evaluation;
 };
 
@@ -108,6 +110,7 @@ int run_slam(SlamArguments arguments) {
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
     vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
+  weigh_sightings(recorded, arguments.config, arguments.sighting_correlation_s);
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   if (run.dry_run) {
@@ -123,6 +126,9 @@ int run_slam(SlamArguments arguments) {
   if (vision) result.detector = "file";
   result.vision = std::move(vision);
   result.recorded = recorded.facts;
+  // Factors on the noise would be those of errors that are each their own.
+  if (recorded.facts.lasting_errors.time_s.isZero())
+    result.noise = check_noise({sensor_log(recorded.log)}, arguments.config, run.jobs);
   result.assumed = assumptions_of(recorded.facts, arguments.stated);
   output.write(result, {});
   print_summary(result, run.seeds.size(), recorded);
@@ -169,6 +175,20 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
           "by how much the motion follows the odometry's stamps (default: estimated from how bearings "
           "change; 0 = trust the stamps)")
       ->check(real_between(-60.0, 60.0))
+      ->group("Noise (standard deviations)");
+  command
+      .add_option_function<std::vector<double>>(
+          "--sighting-correlation-s",
+          [&stated = arguments.sighting_correlation_s](const std::vector<double>& time_s) {
+            stated = Eigen::Vector2d(time_s[0], time_s[1]);
+          },
+          "how long errors of ranges and of bearings last from one sighting of a landmark to the next "
+          "(default: "
+          "estimated from innovations; 0,0 = each error is its own)")
+      ->expected(2)
+      ->delimiter(',')
+      ->check(real_between(0.0, 1e6))
+      ->type_name("RANGE,BEARING")
       ->group("Noise (standard deviations)");
   add("--correlation-s", noise.correlation_s, 0.0,
       "how long an odometry error lasts (slip outlives fast readings)");

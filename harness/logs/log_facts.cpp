@@ -1,5 +1,7 @@
 #include "harness/logs/log_facts.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace stereobench::harness {
@@ -38,6 +40,20 @@ void add_delay(const LogFacts& facts, std::vector<std::string>& lines) {
     lines.push_back("too few landmarks are seen twice within a second: " + taken);
 }
 
+/// Those that were found; what the caller stated has no correlation.
+void add_lasting_errors(const slam::LastingErrors& lasting, std::vector<std::string>& lines) {
+  constexpr std::array kParts = {"ranges", "bearings"};
+  for (int part = 0; part < 2; ++part) {
+    if (!(lasting.correlation[part] > 0.0)) continue;
+    lines.push_back(
+        fmt::format("errors of {} last {:.2g} s (correlation {:.2f} over {:.2g} s): sightings of a landmark "
+                    "so far apart are taken for "
+                    "one in {:.2g}; state --sighting-correlation-s 0,0 to take each for independent",
+                    kParts[static_cast<std::size_t>(part)], lasting.time_s[part], lasting.correlation[part],
+                    lasting.gap_s, 1.0 / (1.0 - lasting.correlation[part])));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> assumptions_of(const LogFacts& facts, const StatedNoise& stated) {
@@ -58,6 +74,7 @@ std::vector<std::string> assumptions_of(const LogFacts& facts, const StatedNoise
                                 sightings(facts.unknown_barcodes)));
   add_truth(facts, lines);
   add_delay(facts, lines);
+  add_lasting_errors(facts.lasting_errors, lines);
   if (facts.noise_is_assumed && !stated.sensor)
     lines.emplace_back(
         "sightings state no covariances: that of MRCLAM's cameras is assumed; state --range-sd-m and "

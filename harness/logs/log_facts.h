@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "slam/diagnosis/lasting_errors.h"
+
 namespace stereobench::harness {
 
 /// Where the odometry's delay comes from.
@@ -20,9 +22,10 @@ enum class DelaySource {
 struct LogFacts {
   double odometry_delay_s = 0.0;  ///< by which the odometry was moved
   DelaySource delay_source = DelaySource::kStated;
-  long robot_sightings = 0;       ///< MRCLAM: of the other robots, which are no landmarks; left out
-  long unknown_barcodes = 0;      ///< MRCLAM: of a barcode that `Barcodes.dat` does not name; left out
-  long repeated_sightings = 0;    ///< that stood in the log already; left out
+  slam::LastingErrors lasting_errors;  ///< for which sightings in close order count for less
+  long robot_sightings = 0;            ///< MRCLAM: of the other robots, which are no landmarks; left out
+  long unknown_barcodes = 0;           ///< MRCLAM: of a barcode that `Barcodes.dat` does not name; left out
+  long repeated_sightings = 0;         ///< that stood in the log already; left out
   long concurrent_sightings = 0;  ///< of a landmark that another sighting of the same instant is of; kept
   bool noise_is_assumed = false;  ///< some sightings state no covariance
   bool has_truth = false;         ///< of the path, at any step

@@ -123,6 +123,11 @@ std::string association_table(const std::vector<FilterResult>& filters) {
   return table.rows.empty() ? std::string() : "\n" + plain_text(table);
 }
 
+std::string noise_section(const NoiseCheck& check) {
+  const std::string table = noise_table(check);
+  return table.empty() ? table : "\n" + table;
+}
+
 }  // namespace
 
 std::string result_table(const RunResult& result) {
@@ -130,6 +135,7 @@ std::string result_table(const RunResult& result) {
   if (result.vision) text += vision_line(*result.vision);
   text += error_table(result) + claim_warnings(result) + "\n" + consistency_table(result) +
           counters_table(result.filters);
+  if (result.noise) text += noise_section(*result.noise);
   return result.identities_known ? text : text + association_table(result.filters);
 }
 

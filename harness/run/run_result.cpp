@@ -41,11 +41,16 @@ Json association_json(const std::optional<AssociationScore>& association) {
 }
 
 Json log_json(const LogFacts& facts, const std::vector<std::string>& assumed, bool start_is_true) {
-  return {
-      {"odometry_delay_s", facts.odometry_delay_s},         {"frame", start_is_true ? "truth" : "own"},
-      {"steps_without_truth", facts.steps_without_truth},   {"repeated_sightings", facts.repeated_sightings},
-      {"concurrent_sightings", facts.concurrent_sightings}, {"robot_sightings", facts.robot_sightings},
-      {"unknown_barcodes", facts.unknown_barcodes},         {"assumed", assumed}};
+  return {{"odometry_delay_s", facts.odometry_delay_s},
+          {"sighting_correlation_s",
+           {{"range", facts.lasting_errors.time_s[0]}, {"bearing", facts.lasting_errors.time_s[1]}}},
+          {"frame", start_is_true ? "truth" : "own"},
+          {"steps_without_truth", facts.steps_without_truth},
+          {"repeated_sightings", facts.repeated_sightings},
+          {"concurrent_sightings", facts.concurrent_sightings},
+          {"robot_sightings", facts.robot_sightings},
+          {"unknown_barcodes", facts.unknown_barcodes},
+          {"assumed", assumed}};
 }
 
 Json counters_json(const slam::FilterCounters& counters) {
@@ -137,6 +142,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   json["bound"] = bound_json(result.bounds, &BoundScores::filtering);
   json["smoothing_bound"] = bound_json(result.bounds, &BoundScores::smoothing);
   json["batch"] = batch_json(result);
+  json["noise"] = noise_json(result.noise.value_or(NoiseCheck{}));
   json["filters"] = std::move(filters);
   json["comparisons"] = comparisons_json(result.comparisons);
   return json;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/logs/log_facts.h"
+#include "harness/noise_check/noise_check.h"
 #include "harness/run/provenance.h"
 #include "harness/run/seed_drive.h"
 #include "harness/scoring/references.h"
@@ -63,6 +64,7 @@ struct RunResult {
   bool start_is_true = true;            ///< of every log; see MeasurementLog
   std::optional<LogFacts> recorded;     ///< of a recorded log
   std::vector<std::string> assumed;     ///< of it: lines for people
+  std::optional<NoiseCheck> noise;      ///< empty where it was not checked
   std::optional<Provenance> made_from;  ///< empty for a recorded log
 };
 

@@ -34,6 +34,7 @@ struct SeedParts {
   bool steps = false;         ///< its lines of steps.csv, and its errors at each step
   bool map = false;           ///< what the map shows
   std::size_t snapshots = 0;  ///< how many pictures, evenly spread over the path
+  bool log = false;           ///< what was measured
 };
 
 /// A seed to drive, what is wanted of it, and what renders it.

@@ -107,6 +107,7 @@ SeedResult score_seed(const SeedDrive& drive, const SeedParts& parts) {
   if (drive.references.bound) result.bound = score(*drive.references.bound);
   if (parts.steps) add_steps(drive, result);
   if (parts.map) result.map = map_of(drive, result);
+  if (parts.log) result.log = sensor_log(recording.log);
   return result;
 }
 

@@ -1,5 +1,5 @@
-/// What is kept of a seed's drive once its filters are scored: where the filters ran, so that neither logs
-/// nor covariances leave the process.
+/// What is kept of a seed's drive once its filters are scored: where the filters ran, so that covariances do
+/// not leave the process.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/logs/sensor_log.h"
 #include "harness/report/map_picture.h"
 #include "harness/run/seed_drive.h"
 #include "harness/scoring/references.h"
@@ -47,6 +48,7 @@ struct SeedResult {
   std::vector<double> time_s;     ///< of each step
   std::optional<MapPicture> map;  ///< without title and walls
   std::vector<Snapshot> snapshots;
+  std::optional<SensorLog> log;
 };
 
 /// Told of a seed's result. @param index of its task

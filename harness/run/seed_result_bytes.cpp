@@ -7,6 +7,9 @@ STEREOBENCH_ALL_FIELDS(Pose, x_m, y_m, heading_rad)
 STEREOBENCH_ALL_FIELDS(LandmarkEstimate, landmark_id, colour_class, position_m, covariance, origin)
 STEREOBENCH_ALL_FIELDS(FilterCounters, resamplings, covariance_repairs, weight_collapses, gated_measurements,
                        rejected_inputs, joint_searches_cut)
+STEREOBENCH_ALL_FIELDS(Control, v_mps, w_radps, duration_s)
+STEREOBENCH_ALL_FIELDS(RangeBearing, range_m, bearing_rad, covariance, landmark_id, colour_class, sd_scale)
+STEREOBENCH_ALL_FIELDS(BatchStep, controls, sightings)
 }  // namespace stereobench::slam
 
 namespace stereobench::harness {
@@ -59,8 +62,9 @@ inline void from_json(const nlohmann::json& json, Snapshot& snapshot) {
   snapshot.png.assign(png.begin(), png.end());
 }
 
+STEREOBENCH_ALL_FIELDS(SensorLog, start, steps)
 STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
-                       identities_known, runs, batch, bound, bound_m2, csv, time_s, map, snapshots)
+                       identities_known, runs, batch, bound, bound_m2, csv, time_s, map, snapshots, log)
 
 std::string to_bytes(const SeedResult& result) {
   return bytes_of(result);

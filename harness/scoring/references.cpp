@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "harness/logs/sensor_log.h"
 #include "harness/scoring/measured_landmark.h"
 #include "slam/reference/batch.h"
 #include "slam/reference/posterior_bound.h"
@@ -45,9 +46,8 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
 }
 
 FilterRun replay_batch(const MeasurementLog& log, const slam::FilterConfig& config) {
-  std::vector<slam::BatchStep> steps;
-  for (const LogStep& step : log.steps) steps.push_back({step.odometry, step.measurements});
-  const slam::BatchEstimate batch = slam::estimate_batch(config, log.start, steps);
+  const SensorLog measured = sensor_log(log);
+  const slam::BatchEstimate batch = slam::estimate_batch(config, measured.start, measured.steps);
   FilterRun run{.filter = "batch", .poses = batch.path};
   run.covariances.assign(batch.path.size(), Eigen::Matrix3d::Zero());
   run.last.landmarks = batch.landmarks;

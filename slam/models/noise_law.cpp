@@ -12,11 +12,12 @@ Observation observe(const RangeBearing& seen, const FilterConfig& config) {
   if (config.noise_law) {
     const Eigen::Vector2d sd(config.noise_law->range_sd_m, config.noise_law->bearing_sd_rad);
     observation.noise = sd.cwiseAbs2().asDiagonal();
-    observation.range_sd_per_m2 = config.noise_law->range_sd_per_m2;
+    observation.range_sd_per_m2 = config.noise_law->range_sd_per_m2 * seen.sd_scale[0];
   } else {
     observation.noise =
         config.stated_sd_scale.asDiagonal() * seen.covariance * config.stated_sd_scale.asDiagonal();
   }
+  observation.noise = seen.sd_scale.asDiagonal() * observation.noise * seen.sd_scale.asDiagonal();
   observation.noise.diagonal() += Eigen::Vector2d(config.range_floor_m, config.bearing_floor_rad).cwiseAbs2();
   return observation;
 }

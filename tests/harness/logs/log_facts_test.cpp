@@ -46,6 +46,10 @@ TEST(Assumptions, EachIsALineThatSaysWhatToDo) {
   facts = complete();
   facts.has_truth = false;
   EXPECT_THAT(line_of(facts), ElementsAre(AllOf(HasSubstr("no true path"), HasSubstr("groundtruth.csv"))));
+  facts = complete();
+  facts.lasting_errors = {.time_s = {4.5, 0.0}, .correlation = {0.9, 0.0}, .gap_s = 0.3};
+  EXPECT_THAT(line_of(facts), ElementsAre(AllOf(HasSubstr("ranges last 4.5 s"), HasSubstr("one in 10"),
+                                                HasSubstr("--sighting-correlation-s"))));
   for (const DelaySource source : {DelaySource::kNoIdentities, DelaySource::kFewPairs}) {
     facts = complete();
     facts.delay_source = source;

@@ -1,0 +1,54 @@
+#include "slam/diagnosis/decided_log.h"
+
+#include <map>
+#include <utility>
+
+namespace stereobench::slam {
+namespace {
+
+/// Names landmarks by the sighting that founded them, or found them anew.
+class Names {
+ public:
+  /// @return kUnknown for a sighting that was not believed
+  int of(const Decision& decision) {
+    const auto& [number, outcome, origin] = decision;
+    if (outcome == Outcome::kRefuse || outcome == Outcome::kIgnore) return kUnknown;
+    if (outcome == Outcome::kAdd) return number;
+    if (outcome == Outcome::kMove) return renamed_[origin] = number;
+    const auto found = renamed_.find(origin);
+    return found == renamed_.end() ? origin : found->second;
+  }
+
+ private:
+  std::map<int, int> renamed_;  ///< landmarks that were found anew, by origin
+};
+
+}  // namespace
+
+DecidedLog decide(const FilterConfig& config, const Pose& start, std::span<const BatchStep> steps) {
+  EkfSlam filter(config, start, Linearisation::kIterated);
+  DecidedLog log;
+  Names names;
+  int first = 0;  // number of the step's first sighting
+  for (const BatchStep& step : steps) {
+    for (const Control& control : step.controls) filter.predict(control);
+    filter.update(step.sightings);
+    BatchStep& decided = log.steps.emplace_back();
+    decided.controls = step.controls;
+    std::vector<int>& landmarks = log.landmarks.emplace_back(step.sightings.size(), kUnknown);
+    if (step.sightings.empty()) continue;
+    for (const Decision& decision : filter.decided()) {
+      log.refused += decision.outcome == Outcome::kRefuse ? 1 : 0;
+      const int landmark = names.of(decision);
+      if (landmark == kUnknown) continue;
+      const auto k = static_cast<std::size_t>(decision.sighting - first);
+      landmarks[k] = landmark;
+      decided.sightings.push_back(step.sightings[k]);
+      decided.sightings.back().landmark_id = landmark;
+    }
+    first += static_cast<int>(step.sightings.size());
+  }
+  return log;
+}
+
+}  // namespace stereobench::slam
