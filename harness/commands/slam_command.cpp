@@ -110,7 +110,6 @@ int run_slam(SlamArguments arguments) {
   std::optional<VisionScore> vision;
   if (!arguments.detections.empty())
     vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
-  weigh_sightings(recorded, arguments.config, arguments.sighting_correlation_s);
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   if (run.dry_run) {
@@ -118,6 +117,7 @@ int run_slam(SlamArguments arguments) {
                recorded.log.steps.size(), run.filters.size(), run.seeds.size(), (out / "").string());
     return kPassed;
   }
+  weigh_sightings(recorded, arguments.config, arguments.sighting_correlation_s);
   prepare_output_folder(out);
   remove_leftovers_in(out);
   RunOutput output(out, RunTally(name, kNoBackend, Seeds::kFilters));

@@ -46,9 +46,9 @@ void add_lasting_errors(const slam::LastingErrors& lasting, std::vector<std::str
   for (int part = 0; part < 2; ++part) {
     if (!(lasting.correlation[part] > 0.0)) continue;
     lines.push_back(
-        fmt::format("errors of {} last {:.2g} s (correlation {:.2f} over {:.2g} s): sightings of a landmark "
-                    "so far apart are taken for "
-                    "one in {:.2g}; state --sighting-correlation-s 0,0 to take each for independent",
+        fmt::format("errors of {} last {:.2g} s (correlation {:.2f} over {:.2g} s): {:.2g} sightings of a "
+                    "landmark in a row count for "
+                    "about one; state --sighting-correlation-s 0,0 to take each for independent",
                     kParts[static_cast<std::size_t>(part)], lasting.time_s[part], lasting.correlation[part],
                     lasting.gap_s, 1.0 / (1.0 - lasting.correlation[part])));
   }

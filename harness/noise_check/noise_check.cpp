@@ -12,7 +12,7 @@
 #include "slam/math/elementary.h"
 
 namespace stereobench::slam {
-STEREOBENCH_ALL_FIELDS(NoiseEvidence, slope, information, frames, refused)
+STEREOBENCH_ALL_FIELDS(NoiseEvidence, slope, information, refused)
 }  // namespace stereobench::slam
 
 namespace stereobench::harness {
@@ -38,15 +38,13 @@ constexpr std::array<Named, slam::kNoiseFactors> kNames = {
      {"range", "ranges", "ranges are"},
      {"bearing", "bearings", "bearings are"}}};
 
-/// @return variances of the factors' logarithms; infinite for those that logs do not tell
-slam::LogFactors variances(const slam::NoiseEvidence& evidence) {
-  Eigen::Matrix4d information = evidence.information;
-  for (int k = 0; k < slam::kNoiseFactors; ++k)
-    if (information(k, k) == 0.0) information(k, k) = 1.0;
-  slam::LogFactors result = information.inverse().diagonal();
-  for (int k = 0; k < slam::kNoiseFactors; ++k)
-    if (evidence.information(k, k) == 0.0) result[k] = std::numeric_limits<double>::infinity();
-  return result;
+/// @return standard deviations of the factors' logarithms, with a little known beforehand: two frames say
+/// something of two factors at most, and nothing of the others
+slam::LogFactors standard_deviations(const slam::NoiseEvidence& evidence) {
+  constexpr double kPriorSd = 2.0;
+  const Eigen::Matrix4d information =
+      evidence.information + Eigen::Matrix4d::Identity() / (kPriorSd * kPriorSd);
+  return information.inverse().diagonal().cwiseSqrt();
 }
 
 bool is_off(const NoiseFactor& factor) {
@@ -77,10 +75,11 @@ NoiseCheck check_noise(const std::vector<SensorLog>& logs, const slam::FilterCon
   };
   const slam::NoiseFit fit = slam::fit_noise(evidence_at);
   NoiseCheck check{.factors = {}, .logs = logs.size(), .refused = fit.evidence.refused};
+  check.converged = fit.converged;
   if (!fit.converged) return check;
-  const slam::LogFactors variance = variances(fit.evidence);
+  const slam::LogFactors deviations = standard_deviations(fit.evidence);
   for (int k = 0; k < slam::kNoiseFactors; ++k) {
-    const double sd = std::sqrt(variance[k]);
+    const double sd = deviations[k];
     if (!(sd < kVague)) continue;
     const double log = fit.factors[k];
     check.factors[static_cast<std::size_t>(k)] = {slam::exponential(log),
@@ -91,7 +90,7 @@ NoiseCheck check_noise(const std::vector<SensorLog>& logs, const slam::FilterCon
 }
 
 nlohmann::ordered_json noise_json(const NoiseCheck& check) {
-  Json json = {{"logs", check.logs}, {"refused", check.refused}};
+  Json json = {{"logs", check.logs}, {"converged", check.converged}, {"refused", check.refused}};
   for (std::size_t k = 0; k < kNames.size(); ++k) {
     const NoiseFactor& factor = check.factors[k];
     json[kNames[k].key] = {
@@ -112,6 +111,8 @@ std::string noise_table(const NoiseCheck& check) {
                           fmt::format("{} to {}", format_number(factor.low), format_number(factor.high))});
     if (is_off(factor)) warnings += warning_of(factor, kNames[k].are);
   }
+  if (check.logs > 0 && !check.converged)
+    return "warning: no noise was found that makes the sightings likely (the search did not converge)\n";
   if (table.rows.empty()) return "";
   return plain_text(table) + warnings;
 }

@@ -29,6 +29,7 @@ struct NoiseFactor {
 struct NoiseCheck {
   std::array<NoiseFactor, slam::kNoiseFactors> factors;  ///< of forward speed, turn rate, range, bearing
   std::size_t logs = 0;                                  ///< that were looked at
+  bool converged = false;                                ///< else no factor is known
   long refused = 0;                                      ///< sightings that were left out as outliers
 };
 

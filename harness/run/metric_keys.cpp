@@ -120,6 +120,7 @@ constexpr SummaryKey kSingles[] = {
     {"log.unknown_barcodes", "Sightings of a barcode that names no landmark (MRCLAM); left out."},
     {"log.assumed[]", "What was assumed of the log, and what to do about it."},
     {"noise.logs", "Logs that the check of the noise looked at; 0: there was none."},
+    {"noise.converged", "Whether the check of the noise found factors."},
     {"noise.refused", "Sightings that the check of the noise left out as outliers."},
     {"noise.forward_speed.factor",
      "How many times as noisy as filters are told the forward speed is, by the sightings alone: factor on "

@@ -9,11 +9,11 @@ namespace {
 /// Names landmarks by the sighting that founded them, or found them anew.
 class Names {
  public:
-  /// @return kUnknown for a sighting that was not believed
+  /// @return kUnknown for a sighting of nothing
   int of(const Decision& decision) {
     const auto& [number, outcome, origin] = decision;
-    if (outcome == Outcome::kRefuse || outcome == Outcome::kIgnore) return kUnknown;
     if (outcome == Outcome::kAdd) return number;
+    if (origin == kUnknown) return kUnknown;
     if (outcome == Outcome::kMove) return renamed_[origin] = number;
     const auto found = renamed_.find(origin);
     return found == renamed_.end() ? origin : found->second;
@@ -37,12 +37,14 @@ DecidedLog decide(const FilterConfig& config, const Pose& start, std::span<const
     decided.controls = step.controls;
     std::vector<int>& landmarks = log.landmarks.emplace_back(step.sightings.size(), kUnknown);
     if (step.sightings.empty()) continue;
+    const bool drifted = !filter.drift().isZero();
     for (const Decision& decision : filter.decided()) {
-      log.refused += decision.outcome == Outcome::kRefuse ? 1 : 0;
       const int landmark = names.of(decision);
-      if (landmark == kUnknown) continue;
       const auto k = static_cast<std::size_t>(decision.sighting - first);
       landmarks[k] = landmark;
+      const bool refused = drifted || decision.outcome == Outcome::kRefuse;
+      log.refused += refused ? 1 : 0;
+      if (refused || landmark == kUnknown || decision.outcome == Outcome::kIgnore) continue;
       decided.sightings.push_back(step.sightings[k]);
       decided.sightings.back().landmark_id = landmark;
     }

@@ -12,10 +12,12 @@ namespace stereobench::slam {
 
 /// A log as an iterated EKF took it.
 struct DecidedLog {
-  std::vector<BatchStep> steps;  ///< sightings have identities; those that were refused are left out
-  std::vector<std::vector<int>>
-      landmarks;  ///< by step and sighting of the log as it was: identity, or kUnknown
-  long refused = 0;
+  /// Sightings have identities. Those that were refused are left out, and all of a frame that showed that the
+  /// pose had drifted.
+  std::vector<BatchStep> steps;
+  /// By step and sighting of the log as it was: whose it is, believed or not; kUnknown where it is nobody's.
+  std::vector<std::vector<int>> landmarks;
+  long refused = 0;  ///< sightings that were left out
 };
 
 /// Runs an iterated EKF over a log, and takes down what it decides.
@@ -23,7 +25,7 @@ struct DecidedLog {
 /// @param start world_from_robot before the first control
 DecidedLog decide(const FilterConfig& config, const Pose& start, std::span<const BatchStep> steps);
 
-/// Runs it once more with all decisions made: nothing is refused.
+/// Runs it once more over what was not left out: nothing is refused.
 ///
 /// @param visit (const EkfSlam&, std::size_t step) after each step with sightings; their order is that of
 /// EkfSlam::expected()

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "slam/diagnosis/decided_log.h"
+#include "slam/diagnosis/noise_fit.h"
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/models/noise_law.h"
@@ -15,8 +18,7 @@ namespace {
 constexpr double kBeyondChance = 5.0;  ///< standard deviations of a correlation that is none
 constexpr long kFewestPairs = 50;
 constexpr double kMostCorrelated = 0.999;
-constexpr double kClose = 2.0;        ///< pairs are looked at up to so many median gaps
-constexpr double kLeastGap_s = 1e-3;  ///< of two sightings of the same instant
+constexpr double kClose = 2.0;  ///< pairs are looked at up to so many median gaps
 
 /// Two innovations of a landmark that follow each other, in standard deviations.
 struct Pair {
@@ -58,13 +60,22 @@ std::vector<Pair> pairs_of(const FilterConfig& config, const Pose& start, std::s
       if (!expected.exists) continue;
       const RangeBearing& seen = log.steps[step].sightings[k];
       const Last now{times[step], in_sd(seen, expected)};
+      if (!now.innovation.allFinite()) continue;
       const auto [before, is_first] = last.try_emplace(seen.landmark_id, now);
-      if (!is_first && now.time_s > before->second.time_s && now.innovation.allFinite())
+      if (!is_first && now.time_s > before->second.time_s)
         pairs.push_back({now.time_s - before->second.time_s, before->second.innovation, now.innovation});
       before->second = now;
     }
   });
   return pairs;
+}
+
+FilterConfig with_fitted_odometry(const FilterConfig& config, const Pose& start,
+                                  std::span<const BatchStep> steps) {
+  LogFactors factors =
+      fit_noise([&](const LogFactors& at) { return noise_evidence(config, start, steps, at); }).factors;
+  factors.tail<2>().setZero();
+  return without_floor(with_factors(config, factors));
 }
 
 double median_gap_s(const std::vector<Pair>& pairs) {
@@ -79,7 +90,7 @@ double median_gap_s(const std::vector<Pair>& pairs) {
 
 LastingErrors find_lasting_errors(const FilterConfig& config, const Pose& start,
                                   std::span<const BatchStep> steps) {
-  std::vector<Pair> pairs = pairs_of(without_floor(config), start, steps);
+  std::vector<Pair> pairs = pairs_of(with_fitted_odometry(config, start, steps), start, steps);
   if (static_cast<long>(pairs.size()) < kFewestPairs) return {};
   const double most_s = kClose * median_gap_s(pairs);
   std::erase_if(pairs, [&](const Pair& pair) { return pair.gap_s > most_s; });
@@ -93,7 +104,7 @@ LastingErrors find_lasting_errors(const FilterConfig& config, const Pose& start,
   }
   for (int part = 0; part < 2; ++part) {
     const double correlation = squares[part] > 0.0 ? products[part] / squares[part] : 0.0;
-    if (correlation < kHangsTogether || correlation * std::sqrt(count) < kBeyondChance) continue;
+    if (correlation < kCorrelated || correlation * std::sqrt(count) < kBeyondChance) continue;
     found.correlation[part] = std::min(correlation, kMostCorrelated);
     found.time_s[part] = -found.gap_s / logarithm(found.correlation[part]);
   }
@@ -102,20 +113,25 @@ LastingErrors find_lasting_errors(const FilterConfig& config, const Pose& start,
 
 void weigh_by_gaps(const FilterConfig& config, const Pose& start, const Eigen::Vector2d& time_s,
                    std::span<BatchStep> steps) {
+  struct Last {
+    double time_s;
+    double gap_s;
+  };
   const DecidedLog log = decide(without_floor(config), start, steps);
   const std::vector<double> times = times_of(steps);
-  std::map<int, double> last_s;  // by landmark
+  std::map<std::pair<bool, int>, Last> last;  // by landmark that is known, or decided
   for (std::size_t k = 0; k < steps.size(); ++k) {
     for (std::size_t i = 0; i < steps[k].sightings.size(); ++i) {
-      const int landmark = log.landmarks[k][i];
+      RangeBearing& seen = steps[k].sightings[i];
+      const bool is_known = seen.landmark_id >= 0;
+      const int landmark = is_known ? seen.landmark_id : log.landmarks[k][i];
       if (landmark == kUnknown) continue;
-      const auto [last, is_first] = last_s.try_emplace(landmark, times[k]);
-      if (is_first) continue;
-      const double gap_s = std::max(times[k] - last->second, kLeastGap_s);
-      last->second = times[k];
+      constexpr double kNever = std::numeric_limits<double>::infinity();
+      Last& before = last.try_emplace({is_known, landmark}, Last{times[k], kNever}).first->second;
+      if (times[k] > before.time_s) before = {times[k], times[k] - before.time_s};
       for (int part = 0; part < 2; ++part) {
-        const double kept = time_s[part] > 0.0 ? exponential(-gap_s / time_s[part]) : 0.0;
-        steps[k].sightings[i].sd_scale[part] = 1.0 / std::sqrt(1.0 - kept);
+        const double kept = time_s[part] > 0.0 ? exponential(-before.gap_s / time_s[part]) : 0.0;
+        seen.sd_scale[part] = 1.0 / std::sqrt(1.0 - kept);
       }
     }
   }

@@ -20,23 +20,25 @@ struct LastingErrors {
 };
 
 /// Correlation from which on errors are taken to last.
-inline constexpr double kHangsTogether = 0.5;
+inline constexpr double kCorrelated = 0.5;
 
 /// Finds how long errors last from pairs of sightings of a landmark that follow each other.
 ///
 /// Of a sensor whose errors are their own the innovations of a filter that is right are independent, however
-/// many there are. Here they are those of an iterated EKF, in standard deviations. Their correlation is taken
-/// over pairs within twice the median gap; one that is chance, or below kHangsTogether, is taken for none.
+/// many there are. Here they are those of an iterated EKF, in standard deviations. A filter that is told too
+/// precise an odometry lags behind, and its innovations are correlated as well: it is told the odometry's
+/// noise that the log has (fit_noise). Correlations are taken over pairs within twice the median gap; one
+/// that is chance, or below kCorrelated, is taken for none.
 ///
 /// @param config as the filter is told
 /// @param start world_from_robot before the first control
 LastingErrors find_lasting_errors(const FilterConfig& config, const Pose& start,
                                   std::span<const BatchStep> steps);
 
-/// Makes the standard deviations of sightings larger, so that many in close order weigh no more than they
-/// know: the variance of a sighting that comes `gap` after the last one of its landmark is multiplied by (1 +
-/// r) / (1 - r), where r = exp(-gap / time). The mean of a long series then has the variance that it really
-/// has.
+/// Makes the standard deviations of sightings larger, so that many in close order weigh little more than one:
+/// the variance of a sighting that comes `gap` after the last one of its landmark is divided by 1 - exp(-gap
+/// / time). A landmark then counts about once in the time that its errors last. Sightings of one instant have
+/// the same gap.
 ///
 /// @param time_s of (range, bearing); 0 = each error is its own
 /// @param steps whose sightings receive RangeBearing::sd_scale; whose each is, is decided by an iterated EKF

@@ -23,20 +23,8 @@ constexpr double kPriorSd = 2.0;      ///< of a factor's logarithm, around 0
 /// elsewhere, do not show; near enough that the fourth derivative does not.
 constexpr double kOff = 0.04;
 
-FilterConfig with_factors(FilterConfig config, const LogFactors& factors) {
-  const double speed = exponential(factors[0]), turn_rate = exponential(factors[1]);
-  const Eigen::Vector2d sensor(exponential(factors[2]), exponential(factors[3]));
-  OdometryNoise& odometry = config.odometry_noise;
-  for (double* const sd : {&odometry.v_constant_mps, &odometry.v_per_v, &odometry.v_per_w}) *sd *= speed;
-  for (double* const sd : {&odometry.w_constant_radps, &odometry.w_per_v, &odometry.w_per_w})
-    *sd *= turn_rate;
-  config.stated_sd_scale.array() *= sensor.array();
-  if (config.noise_law) {
-    config.noise_law->range_sd_m *= sensor[0];
-    config.noise_law->range_sd_per_m2 *= sensor[0];
-    config.noise_law->bearing_sd_rad *= sensor[1];
-  }
-  return without_floor(std::move(config));
+FilterConfig told(const FilterConfig& config, const LogFactors& factors) {
+  return without_floor(with_factors(config, factors));
 }
 
 using FrameLikelihoods = Eigen::VectorXd;  ///< natural logarithm, by frame
@@ -54,7 +42,12 @@ FrameLikelihoods likelihoods(const FilterConfig& config, const Pose& start, cons
 
 /// @param by_frame slopes: a row a frame, a column a factor
 Eigen::Matrix4d information_of(const LogFactors& curvature, const Eigen::MatrixXd& by_frame) {
-  Eigen::Matrix4d products = by_frame.transpose() * by_frame;
+  Eigen::Matrix4d products =
+      Eigen::Matrix4d::Zero();  // added frame by frame: the same bits on every processor
+  for (Eigen::Index k = 0; k < by_frame.rows(); ++k) {
+    const LogFactors slope = by_frame.row(k);
+    products += slope * slope.transpose();
+  }
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   for (int i = 0; i < kNoiseFactors; ++i) {
     for (int j = 0; j < kNoiseFactors; ++j) {
@@ -68,31 +61,45 @@ Eigen::Matrix4d information_of(const LogFactors& curvature, const Eigen::MatrixX
 
 }  // namespace
 
+FilterConfig with_factors(FilterConfig config, const LogFactors& factors) {
+  const double speed = exponential(factors[0]), turn_rate = exponential(factors[1]);
+  const Eigen::Vector2d sensor(exponential(factors[2]), exponential(factors[3]));
+  OdometryNoise& odometry = config.odometry_noise;
+  for (double* const sd : {&odometry.v_constant_mps, &odometry.v_per_v, &odometry.v_per_w}) *sd *= speed;
+  for (double* const sd : {&odometry.w_constant_radps, &odometry.w_per_v, &odometry.w_per_w})
+    *sd *= turn_rate;
+  config.stated_sd_scale.array() *= sensor.array();
+  if (config.noise_law) {
+    config.noise_law->range_sd_m *= sensor[0];
+    config.noise_law->range_sd_per_m2 *= sensor[0];
+    config.noise_law->bearing_sd_rad *= sensor[1];
+  }
+  return config;
+}
+
 NoiseEvidence& NoiseEvidence::operator+=(const NoiseEvidence& other) {
   slope += other.slope;
   information += other.information;
-  frames += other.frames;
   refused += other.refused;
   return *this;
 }
 
 NoiseEvidence noise_evidence(const FilterConfig& config, const Pose& start, std::span<const BatchStep> steps,
                              const LogFactors& factors) {
-  const FilterConfig told = with_factors(config, factors);
-  const DecidedLog log = decide(told, start, steps);
-  const FrameLikelihoods here = likelihoods(told, start, log);
+  const FilterConfig at = told(config, factors);
+  const DecidedLog log = decide(at, start, steps);
+  const FrameLikelihoods here = likelihoods(at, start, log);
   Eigen::MatrixXd by_frame(here.size(), kNoiseFactors);
   LogFactors curvature;
   for (int k = 0; k < kNoiseFactors; ++k) {
     const LogFactors off = LogFactors::Unit(k) * kOff;
-    const FrameLikelihoods above = likelihoods(with_factors(config, factors + off), start, log);
-    const FrameLikelihoods below = likelihoods(with_factors(config, factors - off), start, log);
+    const FrameLikelihoods above = likelihoods(told(config, factors + off), start, log);
+    const FrameLikelihoods below = likelihoods(told(config, factors - off), start, log);
     by_frame.col(k) = (above - below) / (2.0 * kOff);
     curvature[k] = -(above - 2.0 * here + below).sum() / (kOff * kOff);
   }
   return {.slope = by_frame.colwise().sum(),
           .information = information_of(curvature, by_frame),
-          .frames = here.size(),
           .refused = log.refused};
 }
 
@@ -104,9 +111,10 @@ NoiseFit fit_noise(const std::function<NoiseEvidence(const LogFactors&)>& eviden
     const Eigen::Matrix4d information = fit.evidence.information + kPrior * Eigen::Matrix4d::Identity();
     const LogFactors slope = fit.evidence.slope - kPrior * fit.factors;
     const LogFactors step = information.ldlt().solve(slope);
+    if (!step.allFinite()) return fit;
+    fit.factors += step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
     fit.converged = step.dot(slope) < kConverged;
     if (fit.converged || fit.steps == kMostSteps) return fit;
-    fit.factors += step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
   }
 }
 

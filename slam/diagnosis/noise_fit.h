@@ -21,11 +21,13 @@ struct NoiseEvidence {
   LogFactors slope = LogFactors::Zero();
   /// Minus the second derivatives; rows of what logs cannot tell are zero.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  long frames = 0;   ///< that showed anything
   long refused = 0;  ///< sightings that contradicted their landmarks and are left out
 
   NoiseEvidence& operator+=(const NoiseEvidence& other);
 };
+
+/// @return settings whose noise is larger by the factors, a noise law's as well
+FilterConfig with_factors(FilterConfig config, const LogFactors& factors);
 
 /// Replays a log with some factors on the noise and with each a little off.
 ///

@@ -11,9 +11,9 @@ namespace stereobench::test {
 
 /// What the module gives: OpenCV's own functions.
 struct PictureCodecs {
-  decltype(&cv::imread) read;
-  decltype(&cv::imwrite) write;
-  decltype(&cv::imencode) encode;
+  cv::Mat (*read)(const cv::String&, int);
+  bool (*write)(const cv::String&, cv::InputArray, const std::vector<int>&);
+  bool (*encode)(const cv::String&, cv::InputArray, std::vector<uchar>&, const std::vector<int>&);
   cv::Mat (*decode)(cv::InputArray, int);
 };
 

@@ -48,7 +48,7 @@ TEST(Assumptions, EachIsALineThatSaysWhatToDo) {
   EXPECT_THAT(line_of(facts), ElementsAre(AllOf(HasSubstr("no true path"), HasSubstr("groundtruth.csv"))));
   facts = complete();
   facts.lasting_errors = {.time_s = {4.5, 0.0}, .correlation = {0.9, 0.0}, .gap_s = 0.3};
-  EXPECT_THAT(line_of(facts), ElementsAre(AllOf(HasSubstr("ranges last 4.5 s"), HasSubstr("one in 10"),
+  EXPECT_THAT(line_of(facts), ElementsAre(AllOf(HasSubstr("ranges last 4.5 s"), HasSubstr("10 sightings"),
                                                 HasSubstr("--sighting-correlation-s"))));
   for (const DelaySource source : {DelaySource::kNoIdentities, DelaySource::kFewPairs}) {
     facts = complete();

@@ -1,6 +1,8 @@
 // Filters that are told the wrong noise are found out by what they see.
 #include "harness/noise_check/noise_check.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "tests/harness/commands/program.h"
@@ -15,7 +17,7 @@ using testing::Not;
 // Mutations: a warning for what may be right; none for what is far too precise; the ends of an interval
 // exchanged.
 TEST(NoiseTable, WarnsOfWhatIsToldWronglyBeyondDoubt) {
-  NoiseCheck check{.factors = {}, .logs = 3};
+  NoiseCheck check{.factors = {}, .logs = 3, .converged = true};
   EXPECT_THAT(noise_table(check), IsEmpty());
   check.factors[0] = {3.0, 2.5, 3.6};
   check.factors[1] = {1.3, 1.2, 1.4};
@@ -26,6 +28,22 @@ TEST(NoiseTable, WarnsOfWhatIsToldWronglyBeyondDoubt) {
   EXPECT_THAT(table, HasSubstr("warning: bearings are 2.0 times as precise as filters are told (1.6 to 2.5"));
   EXPECT_THAT(table, Not(HasSubstr("warning: turn rate")));
   EXPECT_THAT(table, Not(HasSubstr("ranges"))) << "of which nothing is known";
+  check.converged = false;
+  EXPECT_THAT(noise_table(check), HasSubstr("warning: no noise was found"));
+}
+
+// Two frames say nothing of four deviations. Mutation: the information of frames inverted as it is.
+TEST(NoiseCheck, OfTwoFramesClaimsNothing) {
+  SensorLog log;
+  for (int k = 0; k < 3; ++k) {
+    slam::RangeBearing seen{.range_m = 5.0 - k, .bearing_rad = 0.01 * k, .landmark_id = 1};
+    seen.covariance.diagonal().setConstant(1e-4);
+    log.steps.push_back({{slam::Control{1.0, 0.0, 1.0}}, {seen}});
+  }
+  slam::FilterConfig config;
+  config.odometry_noise = {.v_constant_mps = 0.1, .w_constant_radps = 0.1};
+  for (const NoiseFactor& factor : check_noise({log}, config, 1).factors)
+    EXPECT_TRUE(std::isnan(factor.factor));
 }
 
 struct Lie {

@@ -56,12 +56,26 @@ TEST(LastingErrors, AreFoundInRangesThatHaveThem) {
   }
 }
 
-// Mutation: kHangsTogether 0.
+// Mutation: kCorrelated 0.
 TEST(LastingErrors, AreNotFoundWhereEachErrorIsItsOwn) {
   const Drive world;
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     EXPECT_TRUE(find_lasting_errors(config_of(world), {}, recorded(world, seed)).time_s.isZero()) << seed;
   EXPECT_TRUE(find_lasting_errors(config_of(world), {}, {}).time_s.isZero());
+}
+
+// A filter that trusts a poor odometry lags behind, and its innovations are correlated. Mutation: innovations
+// of the filter as it is told.
+TEST(LastingErrors, AreNotThoseOfAnOdometryThatIsToldTooPrecise) {
+  Drive world;
+  world.range_sd_m = 0.05;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const std::vector<BatchStep> steps = recorded(world, seed);
+    FilterConfig config = config_of(world);
+    config.odometry_noise.v_constant_mps /= 10.0;
+    config.odometry_noise.w_constant_radps /= 10.0;
+    EXPECT_TRUE(find_lasting_errors(config, {}, steps).time_s.isZero()) << seed;
+  }
 }
 
 // Mutations: the gap to any landmark's last sighting; variances for standard deviations; the first one
@@ -81,6 +95,25 @@ TEST(LastingErrors, WeighASightingByTheTimeSinceItsLandmarkWasSeen) {
   EXPECT_NEAR(steps[2].sightings[0].sd_scale[0], 1.0 / std::sqrt(1.0 - std::exp(-1.0)), 1e-12);
   EXPECT_NEAR(steps[2].sightings[1].sd_scale[0], 1.0 / std::sqrt(1.0 - std::exp(-1.5)), 1e-12);
   EXPECT_EQ(steps[2].sightings[0].sd_scale[1], 1.0);
+}
+
+// Outliers weigh no more than others, and sightings of one instant alike. Mutations: what a filter refuses
+// passed over; the second of an instant weighed by a gap of nothing.
+TEST(LastingErrors, WeighEverySightingOfALandmark) {
+  const Control second{0.0, 0.0, 1.0};
+  const auto seen = [](double range_m) {
+    RangeBearing one = sighting({range_m, 0.1}, 0.1, 0.01);
+    one.landmark_id = 5;
+    return one;
+  };
+  std::vector<BatchStep> steps(4, {{second}, {seen(4.0)}});
+  steps[2].sightings[0] = seen(9.0);
+  steps[3].sightings.push_back(seen(4.0));
+  weigh_by_gaps({}, {}, {2.0, 2.0}, steps);
+  const double weighed = 1.0 / std::sqrt(1.0 - std::exp(-0.5));
+  for (std::size_t k = 1; k < steps.size(); ++k)
+    for (const RangeBearing& one : steps[k].sightings)
+      EXPECT_TRUE(near(one.sd_scale, Eigen::Vector2d::Constant(weighed), 1e-12)) << "step " << k;
 }
 
 // What the weights are for. Errors of the last pose over 40 drives, with and without them.

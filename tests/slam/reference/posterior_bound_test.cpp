@@ -268,7 +268,7 @@ double bound_of_drive_m2(const Drive& world) {
   return sum_m2 / static_cast<double>(world.controls().size());
 }
 
-// No filter is better than the bound, and one that is right is not far from it. Squared errors of 100 drives;
+// No filter is better than the bound, and one that is right is not far from it. Squared errors of 40 drives;
 // their mean may lie three of its own standard deviations below.
 // Mutations seen to turn this red: the bound's odometry twice as noisy, or its sensor; poses and landmarks
 // without the correlation that driving gives them.
@@ -282,7 +282,7 @@ TEST(PosteriorBound, NoFilterBeatsItAndMappingFiltersComeNear) {
   FilterConfig config;
   config.particles = 30;
   config.odometry_noise = world.odometry_noise;
-  constexpr int kDrives = 100;
+  constexpr int kDrives = 40;
   for (const std::string& name : filter_names()) {
     double sum = 0.0;
     double squares = 0.0;
