@@ -20,7 +20,7 @@ TEST(SightingWeights, OfRealCamerasAgreeWithMotionCapture) {
   for (const char* log : {"ds7/robot2", "ds7/robot5"}) {
     RecordedLog recorded = read_log(data / log, {});
     weigh_sightings(recorded, config, std::nullopt);
-    EXPECT_NEAR(recorded.facts.lasting_errors.correlation[0], 0.93, 0.03) << log;
+    EXPECT_NEAR(recorded.facts.lasting_errors.correlation[0], 0.90, 0.05) << log;
     EXPECT_EQ(recorded.facts.lasting_errors.time_s[1], 0.0) << log;
     double largest = 0.0;
     for (const LogStep& step : recorded.log.steps)
