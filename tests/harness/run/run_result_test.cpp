@@ -52,7 +52,7 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   const auto json = run_json(result);
   EXPECT_EQ(keys_of(json),
             (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector", "vision", "bound",
-                                   "smoothing_bound", "batch", "filters", "comparisons"}));
+                                   "smoothing_bound", "batch", "noise", "filters", "comparisons"}));
   EXPECT_EQ(keys_of(json["renderer"]), (std::set<std::string>{"backend", "blur"}));
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);
