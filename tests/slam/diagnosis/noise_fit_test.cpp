@@ -42,7 +42,7 @@ std::vector<std::vector<BatchStep>> logs_of(const Drive& world, std::uint64_t fi
 
 // What filters are told wrongly comes out as a factor, and nothing else does. Four standard deviations,
 // pinned seeds. Mutations seen to turn this red: speed and turn rate exchanged; the determinant left out of
-// the likelihood; factors added once more; landmarks' first sightings counted.
+// the likelihood.
 TEST(NoiseFit, FindsWhatIsToldWrongly) {
   const Drive world = precise_drive();
   const auto logs = logs_of(world, 100, 3);
@@ -63,8 +63,8 @@ TEST(NoiseFit, FindsWhatIsToldWrongly) {
 }
 
 // Estimates scatter as much as they say: over 40 logs the sum of their squared Mahalanobis lengths is
-// chi-square with 160 degrees of freedom, of which 99.9 % lie between 108 and 224. Mutations seen to turn
-// this red: curvatures of a slope taken twice too large; each log counted twice.
+// chi-square with 160 degrees of freedom, of which 99.9 % lie between 108 and 224. Mutation seen to turn this
+// red: information counted twice.
 TEST(NoiseFit, ClaimsTheErrorsThatItMakes) {
   const Drive world = precise_drive();
   double sum = 0.0;
@@ -101,7 +101,8 @@ TEST(NoiseFit, NeedsNoIdentities) {
   EXPECT_TRUE(near(unknown.factors, known.factors, 0.02));
 }
 
-// Outliers are left out, and counted.
+// Outliers are left out, and counted. Mutations seen to turn this red: those that are refused kept; not
+// counted.
 TEST(NoiseFit, LeavesOutliersOut) {
   const Drive world = precise_drive();
   auto logs = logs_of(world, 500, 1);
