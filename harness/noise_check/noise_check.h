@@ -39,7 +39,7 @@ struct NoiseCheck {
 /// @param jobs processes; the result does not depend on them
 NoiseCheck check_noise(const std::vector<SensorLog>& logs, const slam::FilterConfig& config, int jobs);
 
-/// What stands in run.json; all null without a check.
+/// What stands in run.json. Factors that are not known are null; without a check there are 0 logs.
 nlohmann::ordered_json noise_json(const NoiseCheck& check);
 
 /// A row for each standard deviation, and a warning line for each that is told far too small or too large:
