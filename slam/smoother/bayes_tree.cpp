@@ -11,7 +11,7 @@ namespace stereobench::slam {
 namespace {
 
 /// Least change of a variable, in its conditional standard deviations, that is followed.
-constexpr double kFollowed = 1e-4;
+constexpr double kFollowed = 1e-2;
 
 /// What stands in for a direction of which nothing is known: one over its standard deviation, m or rad.
 constexpr double kUnknownWeight = 1e-6;
@@ -48,24 +48,31 @@ void BayesTree::replace(int index, const Factor& factor) {
 }
 
 std::vector<int> BayesTree::solve(std::span<const int> last) {
-  std::vector<int> changed;
-  if (touched_.empty()) return changed;
+  std::vector<int> solved;
+  if (touched_.empty()) return solved;
   Top top = take_off_top();
   order(top, last);
   eliminate(top);
   // From the root down: what a variable depends on is solved before it.
-  for (auto it = top.variables.rbegin(); it != top.variables.rend(); ++it) {
-    if (solve_node(*it)) changed.push_back(*it);
-  }
+  std::vector<int> moved;
+  const auto solve_one = [&](int variable) {
+    solved.push_back(variable);
+    if (!solve_node(variable)) return;
+    column_of(variable) = kTaken;
+    moved.push_back(variable);
+  };
+  const auto has_moved = [this](int variable) { return column_of(variable) == kTaken; };
+  for (auto it = top.variables.rbegin(); it != top.variables.rend(); ++it) solve_one(*it);
   std::vector<int> below = top.orphans;
   while (!below.empty()) {
     const int variable = below.back();
     below.pop_back();
-    if (!solve_node(variable)) continue;
-    changed.push_back(variable);
+    if (std::ranges::none_of(node(variable).separator, has_moved)) continue;
+    solve_one(variable);
     below.insert(below.end(), node(variable).children.begin(), node(variable).children.end());
   }
-  return changed;
+  for (const int variable : moved) column_of(variable) = kNotMet;
+  return solved;
 }
 
 /// Takes apart the nodes of what was touched, and all above them.

@@ -47,13 +47,17 @@ class BayesTree {
 
   const Factor& factor(int index) const { return factors_[static_cast<std::size_t>(index)]; }
 
+  /// @return the factors of a variable whose other variable is eliminated later, if there is one
+  std::span<const int> entering_at(int variable) const { return node(variable).factors; }
+
   /// Factors what was added and replaced since the last call, and finds the solution.
   ///
-  /// A variable that would change by less than 10^-4 of its conditional standard deviation stays as it is,
-  /// and so do those below it, until more has come together.
+  /// A variable that would change by less than 10^-2 of its conditional standard deviation stays as it is,
+  /// until more has come together. One is solved anew where it was eliminated anew, or where a variable of
+  /// its separator has changed.
   ///
   /// @param last variables that the next factors will concern: they are eliminated last
-  /// @return the variables whose solution has changed
+  /// @return the variables that were solved anew, changed or not
   std::vector<int> solve(std::span<const int> last);
 
   /// @return the solution of a variable; numbers that it does not have are 0

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace stereobench::slam {
@@ -31,8 +30,8 @@ bool is_finite(const BayesTree::Factor& factor) {
 
 PathGraph::PathGraph(const Pose& start) : start_(start) {}
 
-int PathGraph::add_variable(int numbers, const Eigen::Vector3d& guess, double reach_m) {
-  variables_.push_back({guess, {}, reach_m, guess});
+int PathGraph::add_variable(int numbers, const Eigen::Vector3d& guess) {
+  values_.push_back(guess);
   const int index = tree_.add_variable(numbers, guess);
   late_.push_back(index);
   return index;
@@ -41,51 +40,44 @@ int PathGraph::add_variable(int numbers, const Eigen::Vector3d& guess, double re
 void PathGraph::add_pose(const PoseBelief& motion, const Pose& guess) {
   late_.clear();
   const int from = pose_;
-  const double heading_rad = from == kStart ? start_.heading_rad : variable(from).value.z();
+  const double heading_rad = from == kStart ? start_.heading_rad : value(from).z();
   const double turned_rad = wrap_angle(guess.heading_rad - heading_rad);
-  pose_ = add_variable(3, {guess.x_m, guess.y_m, heading_rad + turned_rad}, 0.0);
+  pose_ = add_variable(3, {guess.x_m, guess.y_m, heading_rad + turned_rad});
   motions_.push_back({from, pose_, MotionResidual(motion)});
-  add({true, motions_.size() - 1});
+  add(true, motions_.size() - 1);
 }
 
 int PathGraph::add_landmark(const Eigen::Vector2d& guess) {
-  return add_variable(2, {guess.x(), guess.y(), 0.0}, std::numeric_limits<double>::infinity());
+  return add_variable(2, {guess.x(), guess.y(), 0.0});
 }
 
 void PathGraph::add_sighting(int landmark, const Observation& observation) {
   late_.push_back(landmark);
   sightings_.push_back({pose_, landmark, SightingResidual(observation)});
-  add({false, sightings_.size() - 1});
+  add(false, sightings_.size() - 1);
 }
 
-void PathGraph::add(const FactorKind& kind) {
-  factors_.push_back(kind);
-  const std::size_t index = factors_.size() - 1;
-  const BayesTree::Factor rows = linearise(index).factor;
-  if (!is_finite(rows)) {
+void PathGraph::add(bool is_motion, std::size_t index) {
+  factors_.push_back({is_motion, index, {}});
+  const std::size_t factor = factors_.size() - 1;
+  const BayesTree::Factor rows = linearise(factor).factor;
+  if (is_finite(rows)) {
+    factors_.back().linearised = sight_of(factor);
+    tree_.add(rows);
+  } else {
     ++refused_;
     factors_.pop_back();
-    return;
   }
-  tree_.add(rows);
-  variable(rows.first).factors.push_back(index);
-  if (rows.second == BayesTree::kNone) return;
-  Variable& other = variable(rows.second);
-  other.factors.push_back(index);
-  if (kind.is_motion) return;
-  // Its residual is off by the square of a shift over the range, in the units of its slopes.
-  const double range_m = (variable(rows.first).value - other.value).head<2>().norm();
-  other.reach_m = std::min(other.reach_m, std::sqrt(kCurved * range_m / rows.by_second.norm()));
 }
 
 PathGraph::Linear PathGraph::linearise(std::size_t factor) const {
   Linear linear;
   BayesTree::Factor& rows = linear.factor;
-  if (const auto [is_motion, index] = factors_[factor]; is_motion) {
+  if (const auto& [is_motion, index, linearised] = factors_[factor]; is_motion) {
     const Motion& motion = motions_[index];
     const bool starts = motion.from == kStart;
-    const Eigen::Vector3d& to = variable(motion.to).value;
-    const auto at = motion.residual.at(starts ? start_ : pose_of(variable(motion.from).value), pose_of(to));
+    const Eigen::Vector3d& to = value(motion.to);
+    const auto at = motion.residual.at(starts ? start_ : pose_of(value(motion.from)), pose_of(to));
     linear.residual = at.residual;
     rows.first = motion.to;
     rows.rows = 3;
@@ -94,10 +86,10 @@ PathGraph::Linear PathGraph::linearise(std::size_t factor) const {
     if (starts) return linear;
     rows.second = motion.from;
     rows.by_second = at.by_from;
-    rows.target += at.by_from * variable(motion.from).value;
+    rows.target += at.by_from * value(motion.from);
   } else {
     const Sighted& sighted = sightings_[index];
-    const Eigen::Vector3d& pose = variable(sighted.pose).value;
+    const Eigen::Vector3d& pose = value(sighted.pose);
     const Eigen::Vector2d place = landmark(sighted.landmark);
     const auto at = sighted.residual.at(pose_of(pose), place);
     linear.residual.head<2>() = at.residual;
@@ -132,20 +124,51 @@ std::vector<int> PathGraph::changed_variables() {
 /// @return the factors that a change to the tree's solution may bend, each once
 std::vector<std::size_t> PathGraph::concerned_by(std::span<const int> changed) const {
   std::vector<std::size_t> concerned;
-  for (const int index : changed) {
-    const Variable& moved = variable(index);
-    if ((tree_.solution(index) - moved.looked_at).head<2>().norm() < moved.reach_m) continue;
-    concerned.insert(concerned.end(), moved.factors.begin(), moved.factors.end());
+  for (const int variable : changed) {
+    const std::span<const int> factors = tree_.entering_at(variable);
+    concerned.insert(concerned.end(), factors.begin(), factors.end());
   }
-  std::ranges::sort(concerned);
-  concerned.erase(std::ranges::unique(concerned).begin(), concerned.end());
   return concerned;
+}
+
+PathGraph::Sight PathGraph::sight_of(std::size_t factor) const {
+  const auto& [is_motion, index, linearised] = factors_[factor];
+  if (!is_motion) {
+    const Sighted& sighted = sightings_[index];
+    return {landmark(sighted.landmark) - value(sighted.pose).head<2>(), 0.0};
+  }
+  const Motion& motion = motions_[index];
+  const Eigen::Vector3d start(start_.x_m, start_.y_m, start_.heading_rad);
+  const Eigen::Vector3d& from = motion.from == kStart ? start : value(motion.from);
+  const Eigen::Vector3d& to = value(motion.to);
+  return {(to - from).head<2>(), 0.5 * (from.z() + to.z())};
+}
+
+/// @return its residual as its slopes say it
+Eigen::Vector3d PathGraph::foreseen(std::size_t factor) const {
+  const BayesTree::Factor& rows = tree_.factor(static_cast<int>(factor));
+  Eigen::Vector3d residual = rows.by_first * value(rows.first) - rows.target;
+  if (rows.second != BayesTree::kNone) residual += rows.by_second * value(rows.second);
+  return residual;
+}
+
+/// Whether the rest of a factor's Taylor series is below kCurved by a bound.
+bool PathGraph::is_as_linear(std::size_t factor) const {
+  const Sight& then = factors_[factor].linearised;
+  const Sight now = sight_of(factor);
+  const double slope = tree_.factor(static_cast<int>(factor)).by_first.leftCols<2>().norm();
+  const double moved_m = (now.apart - then.apart).norm();
+  if (!factors_[factor].is_motion)  // the second derivatives of range and bearing are slope / range at most
+    return slope * moved_m * moved_m < kCurved * (then.apart.norm() - moved_m);
+  const double turned_rad = std::abs(now.heading_rad - then.heading_rad);
+  return slope * turned_rad * (moved_m + turned_rad * now.apart.norm()) < kCurved;
 }
 
 PathGraph::Residuals PathGraph::residuals_of(std::span<const std::size_t> factors) const {
   Residuals residuals;
   residuals.reserve(factors.size());
-  for (const std::size_t factor : factors) residuals.push_back(linearise(factor).residual);
+  for (const std::size_t factor : factors)
+    residuals.push_back(is_as_linear(factor) ? foreseen(factor) : linearise(factor).residual);
   return residuals;
 }
 
@@ -161,10 +184,7 @@ std::vector<std::size_t> PathGraph::curved(std::span<const std::size_t> factors,
                                            const Residuals& residuals) const {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    const BayesTree::Factor& then = tree_.factor(static_cast<int>(factors[i]));
-    Eigen::Vector3d foreseen = then.by_first * variable(then.first).value - then.target;
-    if (then.second != BayesTree::kNone) foreseen += then.by_second * variable(then.second).value;
-    if ((foreseen - residuals[i]).norm() > kCurved) found.push_back(factors[i]);
+    if ((foreseen(factors[i]) - residuals[i]).norm() > kCurved) found.push_back(factors[i]);
   }
   return found;
 }
@@ -172,7 +192,9 @@ std::vector<std::size_t> PathGraph::curved(std::span<const std::size_t> factors,
 void PathGraph::linearise_anew(std::span<const std::size_t> factors) {
   for (const std::size_t factor : factors) {
     const BayesTree::Factor rows = linearise(factor).factor;
-    if (is_finite(rows)) tree_.replace(static_cast<int>(factor), rows);
+    if (!is_finite(rows)) continue;
+    factors_[factor].linearised = sight_of(factor);
+    tree_.replace(static_cast<int>(factor), rows);
   }
 }
 
@@ -200,10 +222,10 @@ std::vector<std::size_t> PathGraph::go_part_of_the_way(const Go& go, std::span<c
 bool PathGraph::step(std::span<const int> changed) {
   const std::vector<std::size_t> concerned = concerned_by(changed);
   std::vector<Eigen::Vector3d> before;
-  for (const int v : changed) before.push_back(variable(v).value);
+  for (const int v : changed) before.push_back(value(v));
   const auto go = [&](double part) {
     for (std::size_t i = 0; i < changed.size(); ++i)
-      variable(changed[i]).value = before[i] + part * (tree_.solution(changed[i]) - before[i]);
+      value(changed[i]) = before[i] + part * (tree_.solution(changed[i]) - before[i]);
   };
   go(1.0);
   const Residuals all_the_way = residuals_of(concerned);
@@ -224,18 +246,14 @@ bool PathGraph::step(std::span<const int> changed) {
       bent = go_part_of_the_way(go, concerned, limit);
     }
   }
-  for (const int v : changed) {
-    Variable& moved = variable(v);
-    tree_.hold(v, moved.value);
-    if (!((moved.value - moved.looked_at).head<2>().norm() < moved.reach_m)) moved.looked_at = moved.value;
-  }
+  for (const int v : changed) tree_.hold(v, value(v));
   linearise_anew(bent);
   return !bent.empty();
 }
 
 Pose PathGraph::pose() const {
   if (pose_ == kStart) return start_;
-  Pose pose = pose_of(variable(pose_).value);
+  Pose pose = pose_of(value(pose_));
   pose.heading_rad = wrap_angle(pose.heading_rad);
   return pose;
 }

@@ -42,7 +42,7 @@ class PathGraph {
 
   /// @return the last pose, or the start
   Pose pose() const;
-  Eigen::Vector2d landmark(int variable) const { return this->variable(variable).value.head<2>(); }
+  Eigen::Vector2d landmark(int variable) const { return value(variable).head<2>(); }
 
   /// @param landmarks variables, each once
   /// @return of the last pose (x, y, heading; zeros for the start) and landmarks, in their order
@@ -64,29 +64,32 @@ class PathGraph {
     int landmark;
     SightingResidual residual;
   };
-  struct FactorKind {
+  /// What the curvature of a factor's residual depends on.
+  struct Sight {
+    Eigen::Vector2d apart = Eigen::Vector2d::Zero();  ///< from its pose to what it sees, in the world
+    double heading_rad = 0.0;                         ///< of a motion: half way of its turn
+  };
+  struct GraphFactor {
     bool is_motion;
     std::size_t index;  ///< among those of its kind
+    Sight linearised;   ///< where its slopes were taken
   };
   /// Residual and slopes of a factor at some values.
   struct Linear {
     Eigen::Vector3d residual = Eigen::Vector3d::Zero();
     BayesTree::Factor factor;
   };
-  struct Variable {
-    Eigen::Vector3d value;             ///< a pose's heading is not wrapped
-    std::vector<std::size_t> factors;  ///< that concern it
-    double reach_m;                    ///< a landmark that moves less leaves its factors as good as linear
-    Eigen::Vector3d looked_at;         ///< where it was when its factors were last looked at
-  };
 
   using Residuals = std::vector<Eigen::Vector3d>;
 
-  const Variable& variable(int index) const { return variables_[static_cast<std::size_t>(index)]; }
-  Variable& variable(int index) { return variables_[static_cast<std::size_t>(index)]; }
-  int add_variable(int numbers, const Eigen::Vector3d& guess, double reach_m);
-  void add(const FactorKind& kind);
+  const Eigen::Vector3d& value(int variable) const { return values_[static_cast<std::size_t>(variable)]; }
+  Eigen::Vector3d& value(int variable) { return values_[static_cast<std::size_t>(variable)]; }
+  int add_variable(int numbers, const Eigen::Vector3d& guess);
+  void add(bool is_motion, std::size_t index);
   Linear linearise(std::size_t factor) const;
+  Sight sight_of(std::size_t factor) const;
+  Eigen::Vector3d foreseen(std::size_t factor) const;
+  bool is_as_linear(std::size_t factor) const;
   Residuals residuals_of(std::span<const std::size_t> factors) const;
   static double cost_of(const Residuals& residuals);
   std::vector<std::size_t> curved(std::span<const std::size_t> factors, const Residuals& residuals) const;
@@ -100,14 +103,14 @@ class PathGraph {
 
   Pose start_;
   BayesTree tree_;
-  std::vector<Variable> variables_;
+  std::vector<Eigen::Vector3d> values_;  ///< by variable; a pose's heading is not wrapped
   std::vector<Motion> motions_;
   std::vector<Sighted> sightings_;
-  std::vector<FactorKind> factors_;  ///< by index in the tree
-  int pose_ = kStart;                ///< the last one
-  std::vector<int> late_;            ///< variables that the last frame concerned
-  std::vector<int> behind_;          ///< variables that are not at the tree's solution
-  bool is_fresh_ = false;            ///< whether what the last step concerned was linearised where it stands
+  std::vector<GraphFactor> factors_;  ///< by index in the tree
+  int pose_ = kStart;                 ///< the last one
+  std::vector<int> late_;             ///< variables that the last frame concerned
+  std::vector<int> behind_;           ///< variables that are not at the tree's solution
+  bool is_fresh_ = false;             ///< whether what the last step concerned was linearised where it stands
   long refused_ = 0;
 };
 

@@ -119,10 +119,11 @@ class GrowingProblem {
 class BayesTreeLaw : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, BayesTreeLaw, testing::Range<std::uint64_t>(0, 4));
 
-// At each step, and with factors of long ago replaced. What stays where it is may be off by 10^-4 of a
-// deviation, time and again. Mutations seen to turn this red: what a child passes is left out; rows beyond
-// the columns are cut off before they are made triangular; a replaced factor touches its first variable
-// alone; factors of what is taken off are forgotten.
+// At each step, and with factors of long ago replaced. Each variable is off by at most kFollowed conditional
+// deviations given those that are eliminated later: the squares of that add up to the error's length.
+// Mutations seen to turn this red: what a child passes is left out; rows beyond the columns are cut off
+// before they are made triangular; a replaced factor touches its first variable alone; factors of what is
+// taken off are forgotten; a variable is looked at only where its parent has moved, not all its separator.
 TEST_P(BayesTreeLaw, SolvesLikeTheDenseProblem) {
   GrowingProblem problem(GetParam());
   for (int step = 0; step < 60; ++step) {
@@ -136,7 +137,7 @@ TEST_P(BayesTreeLaw, SolvesLikeTheDenseProblem) {
       const int n = problem.numbers_of(v);
       off.segment(at, n) = problem.tree.solution(v).head(n) - dense.solution.segment(at, n);
     }
-    EXPECT_LE(off.dot(dense.information * off), 1e-6 * static_cast<double>(off.size())) << step;
+    EXPECT_LE(off.dot(dense.information * off), 1e-4 * static_cast<double>(problem.variables())) << step;
   }
   EXPECT_EQ(problem.tree.repairs(), 0);
 }

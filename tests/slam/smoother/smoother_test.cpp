@@ -21,7 +21,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, SmootherLaw, testing::Range<std::uint64_t>(0, 6)
 // At each step the pose and its covariance are those of the optimum over all controls' errors and landmarks
 // up to then, worked out densely and with numeric derivatives. Two motions that no sighting parts are one to
 // first order, and slopes are as good as right: both together move it by less than a seventh of its
-// deviation. Mutations: kCurved = 10; a motion's covariance ten times as large.
+// deviation. Mutations: kCurved = 10; a motion's covariance ten times as large; sightings taken for linear a
+// hundred times too far, motions always; steps judged by what slopes foresee alone.
 TEST_P(SmootherLaw, IsTheOptimumOfAllUpToNow) {
   for (const int controls : {1, 3}) {
     const Course measured = Course(GetParam(), controls).measured(GetParam());
@@ -75,7 +76,8 @@ TEST(Smoother, IsAsGoodAsItClaims) {
 
 // Landmarks move by metres after they were first seen, and what was seen of them from the start, where the
 // pose is certain, bends. Mutations: factors of landmarks never looked at again; the reader's belief kept
-// from frame to frame, which is the iterated EKF. Steps halved along slopes of long ago stay green.
+// from frame to frame, which is the iterated EKF; factors looked at only where the variable that is eliminated
+// first has moved, and not the other. Steps halved along slopes of long ago stay green.
 TEST(Smoother, IsHonestWhereBearingsArePoor) {
   Drive poor = drive_with_poor_bearings();
   poor.looks_at_start = true;
