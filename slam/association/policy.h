@@ -1,6 +1,8 @@
 /// The settings of the rules by which all filters give sightings to landmarks and keep their maps.
 #pragma once
 
+#include <algorithm>
+
 #include "slam/association/existence.h"
 #include "slam/association/sighting.h"
 #include "slam/math/gaussian.h"
@@ -9,15 +11,26 @@ namespace stereobench::slam {
 
 /// What the rules of association.h, contradiction.h and map_management.h are told.
 struct AssociationPolicy {
+  static constexpr double kFarControl_sd = 3.0;
+
   explicit AssociationPolicy(const FilterConfig& config)
       : gate_probability(config.gate_probability),
         gate(chi_square_2_quantile(config.gate_probability)),
         near_m(0.5 * config.colour_spacing_m),
         association(config.association),
-        existence(config.sector) {}
+        existence(config.sector) {
+    const OdometryNoise& noise = config.odometry_noise;
+    const double scale = 1.0 + kFarControl_sd * std::max(noise.v_per_v, noise.w_per_w);
+    motion_scale = scale * scale;
+  }
 
   /// @return whether the spacing of colours is known, so that landmarks nearby exclude new ones
   bool near_excludes() const { return near_m > 0.0; }
+
+  /// @return a motion that landmarks without an identity are searched with
+  PoseBelief search_motion(const PoseBelief& motion) const {
+    return {motion.mean, motion_scale * motion.covariance};
+  }
 
   /// @return whether a sighting can be of no other landmark than the one that it was given to
   bool is_certain(const Sighting& sighting) const { return sighting.slot == kUnknown && near_excludes(); }
@@ -25,6 +38,10 @@ struct AssociationPolicy {
   double gate_probability;
   double gate;    ///< squared Mahalanobis length of that probability, beyond which sightings are refused
   double near_m;  ///< within this distance there is one landmark of a colour; 0 = not known
+  /// How much larger than believed the covariance of a motion may be, for the search for a landmark without
+  /// an identity. Noise in proportion to a control is believed in proportion to the reported one. Where that
+  /// is kFarControl_sd standard deviations too small, so is the noise.
+  double motion_scale = 1.0;
   Association association;
   Existence existence;
 };

@@ -91,7 +91,8 @@ void BlockSlam::take_up_known(Hypothesis& mine, std::span<const Sighting> frame)
 /// The same of those without an identity that its sightings may be of, or that should be seen.
 void BlockSlam::take_up_near(Hypothesis& mine, std::span<const Sighting> frame) const {
   const JointBelief& before = mine.now.belief();
-  const PoseBelief predicted = follow(PoseBelief{before.pose, before.covariance.pose()}, motion_);
+  const PoseBelief predicted =
+      follow(PoseBelief{before.pose, before.covariance.pose()}, policy_.search_motion(motion_));
   std::vector<SightingPlace> places;
   for (const Sighting& sighting : frame)
     if (sighting.slot == kUnknown)

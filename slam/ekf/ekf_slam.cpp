@@ -14,8 +14,9 @@ namespace stereobench::slam {
 struct EkfSlam::View {
   static constexpr bool kClaimsLookalikes = true;
   EkfSlam& filter;
+  Eigen::Matrix3d room = Eigen::Matrix3d::Zero();  ///< of the pose, beside its covariance
 
-  PoseBelief pose() const { return {filter.belief_.pose, filter.belief_.covariance.pose()}; }
+  PoseBelief pose() const { return {filter.belief_.pose, filter.belief_.covariance.pose() + room}; }
 
   int landmark_of(int slot) const {
     const auto found = std::ranges::find(filter.map_, slot, &Mapped::slot);
@@ -32,7 +33,12 @@ struct EkfSlam::View {
 
   JointInnovation innovation(std::size_t j, const Observation& observation) const {
     long& repairs = filter.counters_.covariance_repairs;
-    return slam::innovation(filter.belief_, static_cast<int>(j), observation, repairs);
+    JointInnovation seen = slam::innovation(filter.belief_, static_cast<int>(j), observation, repairs);
+    if (room.isZero(0.0)) return seen;
+    const auto by_pose = seen.slope.leftCols<3>();
+    seen.covariance += by_pose * room * by_pose.transpose();
+    seen.factor = Factor2(seen.covariance, repairs);
+    return seen;
   }
 
   Misfit misfit(std::size_t j, const Landmark&, const Observation& observation) const {
@@ -51,7 +57,9 @@ struct EkfSlam::View {
     const auto tie = [this, all, candidates](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
       const int one = candidates[a].landmark;
       const int other = candidates[b].landmark;
-      return all[a].slope * filter.belief_.covariance.between(one, other) * all[b].slope.transpose();
+      Eigen::Matrix<double, 5, 5> shared = filter.belief_.covariance.between(one, other);
+      shared.topLeftCorner<3, 3>() += room;
+      return all[a].slope * shared * all[b].slope.transpose();
     };
     return {std::move(pairings), tie};
   }
@@ -137,8 +145,9 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   if (frame.empty()) return;
   std::optional<JointBelief> before;
   if (linearisation_ != Linearisation::kOnce) before = belief_;
+  const Eigen::Matrix3d moved = follow(belief_.pose, motion).covariance;
   follow(belief_, motion);
-  Decided decided = decide(frame);
+  Decided decided = decide(frame, policy_.search_motion({{}, moved}).covariance - moved);
   if (before)
     correct_iterated(decided, *std::move(before), motion);
   else
@@ -152,9 +161,10 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].outcome = decided.targets[k].outcome;
 }
 
-EkfSlam::Decided EkfSlam::decide(std::span<const Sighting> frame) {
+/// @param room of the pose that landmarks without an identity are searched with, beside its covariance
+EkfSlam::Decided EkfSlam::decide(std::span<const Sighting> frame, const Eigen::Matrix3d& room) {
   Decided decided{frame, targets_, {}};
-  associate(policy_, View{*this}, frame, decided.targets, counters_.joint_searches_cut);
+  associate(policy_, View{*this, room}, frame, decided.targets, counters_.joint_searches_cut);
   order_by_age(decided.targets, decided.order);
   return decided;
 }

@@ -118,7 +118,7 @@ class EkfSlam {
   struct View;
 
   Landmark landmark(std::size_t j) const;
-  Decided decide(std::span<const Sighting> frame);
+  Decided decide(std::span<const Sighting> frame, const Eigen::Matrix3d& room);
   void correct_iterated(Decided& decided, JointBelief before, const PoseBelief& motion);
   std::optional<FrameMode> leave_out_outliers(const Decided& decided, const JointBelief& before,
                                               const ChordBelief& motion, std::vector<std::size_t>& used);

@@ -133,7 +133,8 @@ template <class Model>
 Posterior PoseCorrection<Model>::correct(const Particle& particle, const PoseBelief& predicted,
                                          const ChordBelief& motion, std::span<const Sighting> frame,
                                          std::span<Target> targets, FilterCounters& counters) {
-  const PredictedParticle<Model> belief{particle, predicted, model_, counters.covariance_repairs};
+  const PoseBelief searched = policy_.search_motion(predicted);
+  const PredictedParticle<Model> belief{particle, searched, model_, counters.covariance_repairs};
   associate(policy_, belief, frame, targets, counters.joint_searches_cut);
   doubt(particle, frame, targets);
   order_by_age(targets, order_);

@@ -72,7 +72,7 @@ void Smoother::update(std::span<const RangeBearing> sightings) {
 /// @return landmarks, as indices, that sightings may be of or that should be seen
 std::vector<std::size_t> Smoother::may_be_seen(std::span<const Sighting> frame) const {
   const PoseBelief before{graph_.pose(), reader_.belief().covariance.pose()};
-  const PoseBelief predicted = follow(before, reader_.motion());
+  const PoseBelief predicted = follow(before, policy_.search_motion(reader_.motion()));
   const double spread_m = std::sqrt(predicted.covariance.topLeftCorner<2, 2>().trace());
   const double looks_m = policy_.existence.range_m() + kFar * spread_m;
   std::vector<bool> taken(map_.size(), false);

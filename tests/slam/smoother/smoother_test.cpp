@@ -76,8 +76,8 @@ TEST(Smoother, IsAsGoodAsItClaims) {
 
 // Landmarks move by metres after they were first seen, and what was seen of them from the start, where the
 // pose is certain, bends. Mutations: factors of landmarks never looked at again; the reader's belief kept
-// from frame to frame, which is the iterated EKF; factors looked at only where the variable that is eliminated
-// first has moved, and not the other. Steps halved along slopes of long ago stay green.
+// from frame to frame, which is the iterated EKF; factors looked at only where the variable that is
+// eliminated first has moved, and not the other. Steps halved along slopes of long ago stay green.
 TEST(Smoother, IsHonestWhereBearingsArePoor) {
   Drive poor = drive_with_poor_bearings();
   poor.looks_at_start = true;
