@@ -90,7 +90,7 @@ Trajectory ours_from(const NumberTable& table) {
     const auto [sine, cosine] = slam::sine_cosine(number_in(table, row, 3));
     PoseInSpace pose;
     pose.rotation.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
-    pose.position_m << number_in(table, row, 1), number_in(table, row, 2), 0.0;
+    pose.position_m = Eigen::Vector3d(number_in(table, row, 1), number_in(table, row, 2), 0.0);
     trajectory.poses.push_back(pose);
   }
   return trajectory;
