@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "slam/association/existence.h"
 #include "slam/association/sighting.h"
@@ -11,7 +12,8 @@ namespace stereobench::slam {
 
 /// What the rules of association.h, contradiction.h and map_management.h are told.
 struct AssociationPolicy {
-  static constexpr double kFarControl_sd = 3.0;
+  /// By what share of the true control a reported one may be too small, at most.
+  static constexpr double kMostMissing = 0.6;
 
   explicit AssociationPolicy(const FilterConfig& config)
       : gate_probability(config.gate_probability),
@@ -20,8 +22,9 @@ struct AssociationPolicy {
         association(config.association),
         existence(config.sector) {
     const OdometryNoise& noise = config.odometry_noise;
-    const double scale = 1.0 + kFarControl_sd * std::max(noise.v_per_v, noise.w_per_w);
-    motion_scale = scale * scale;
+    const double share = std::max(noise.v_per_v, noise.w_per_w);
+    const double missing = share > 0.0 ? std::min(std::sqrt(gate) * share, kMostMissing) : 0.0;
+    motion_scale = 1.0 / ((1.0 - missing) * (1.0 - missing));
   }
 
   /// @return whether the spacing of colours is known, so that landmarks nearby exclude new ones
@@ -39,8 +42,8 @@ struct AssociationPolicy {
   double gate;    ///< squared Mahalanobis length of that probability, beyond which sightings are refused
   double near_m;  ///< within this distance there is one landmark of a colour; 0 = not known
   /// How much larger than believed the covariance of a motion may be, for the search for a landmark without
-  /// an identity. Noise in proportion to a control is believed in proportion to the reported one. Where that
-  /// is kFarControl_sd standard deviations too small, so is the noise.
+  /// an identity. Noise in proportion to a control is believed in proportion to the reported one,
+  /// r = (1 + share z) true. With z at the gate, -g, the error g share true is g share r / (1 - g share).
   double motion_scale = 1.0;
   Association association;
   Existence existence;
