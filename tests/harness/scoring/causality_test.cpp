@@ -4,7 +4,6 @@
 #include "harness/drive/recording.h"
 #include "harness/experiment/experiment.h"
 #include "harness/scoring/replay.h"
-#include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {
 namespace {
@@ -24,7 +23,7 @@ std::vector<Case> all_cases() {
 /// A part of a drive through open_field, and what filters make of it.
 class Causality : public testing::TestWithParam<Case> {
  protected:
-  MeasurementLog log_ = record(read_experiment(scenario_path("open_field"),
+  MeasurementLog log_ = record(read_experiment(STEREOBENCH_SOURCE_DIR "/assets/scenarios/open_field.yaml",
                                                {"identity=" + GetParam().identity, "path.speed_mps=2",
                                                 "oracle.miss_probability=0.1", "oracle.false_per_look=0.3"}),
                                3, {})
@@ -83,8 +82,9 @@ TEST_P(Causality, FalseTruthChangesNoEstimate) {
     EXPECT_EQ(run.last.landmarks[i].position_m, misled.last.landmarks[i].position_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Causality, testing::ValuesIn(all_cases()),
-                         [](const auto& info) { return info.param.filter + "_" + info.param.identity; });
+INSTANTIATE_TEST_SUITE_P(All, Causality, testing::ValuesIn(all_cases()), [](const auto& tested) {
+  return tested.param.filter + "_" + tested.param.identity;
+});
 
 }  // namespace
 }  // namespace stereobench::harness
