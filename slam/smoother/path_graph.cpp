@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/models/measurement.h"
+#include "slam/models/noise_law.h"
+
 namespace stereobench::slam {
 namespace {
 
@@ -53,7 +56,9 @@ int PathGraph::add_landmark(const Eigen::Vector2d& guess) {
 
 void PathGraph::add_sighting(int landmark, const Observation& observation) {
   late_.push_back(landmark);
-  sightings_.push_back({pose_, landmark, SightingResidual(observation)});
+  Observation believed = observation;
+  believed.noise = noise_at(observation, predict_sighting(pose_of(value(pose_)), this->landmark(landmark)));
+  sightings_.push_back({pose_, landmark, SightingResidual(believed)});
   add(false, sightings_.size() - 1);
 }
 
@@ -158,8 +163,8 @@ bool PathGraph::is_as_linear(std::size_t factor) const {
   const Sight now = sight_of(factor);
   const double slope = tree_.factor(static_cast<int>(factor)).by_first.leftCols<2>().norm();
   const double moved_m = (now.apart - then.apart).norm();
-  if (!factors_[factor].is_motion)  // the second derivatives of range and bearing are slope / range at most
-    return slope * moved_m * moved_m < kCurved * (then.apart.norm() - moved_m);
+  // Half the second derivatives of range and bearing, for moves below 0.4 of the range.
+  if (!factors_[factor].is_motion) return slope * moved_m * moved_m < kCurved * (then.apart.norm() - moved_m);
   const double turned_rad = std::abs(now.heading_rad - then.heading_rad);
   return slope * turned_rad * (moved_m + turned_rad * now.apart.norm()) < kCurved;
 }

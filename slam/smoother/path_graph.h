@@ -34,7 +34,7 @@ class PathGraph {
   int add_landmark(const Eigen::Vector2d& guess);
 
   /// @param landmark a landmark's variable, seen from the last pose
-  /// @param observation with the noise that is believed of it
+  /// @param observation whose noise is read at the range where the landmark is now (noise_at())
   void add_sighting(int landmark, const Observation& observation);
 
   /// Goes to the mode of all that was added.

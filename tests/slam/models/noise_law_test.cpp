@@ -154,14 +154,29 @@ TEST(NoiseLaw, WhatIsFusedAtThePredictedRangeIsNotShort) {
   const double sd_m = kGrowth * 225.0;
   const double standard_error_m = sd_m / std::sqrt(200.0 * 200.0);
   const double second_order_m = 4.0 * sd_m * sd_m / 15.0;
-  for (const std::string name : {"ekf", "fastslam1", "fastslam2", "ufastslam", "ufastslam_kim",
-                                 "fastslam2_block", "ufastslam_block"}) {
+  for (const std::string name : {"ekf", "iekf", "smoother", "fastslam1", "fastslam2", "ufastslam",
+                                 "ufastslam_kim", "fastslam2_block", "ufastslam_block"}) {
     FilterConfig config{.particles = 1, .gate_probability = 1.0};
     EXPECT_NEAR(fused_offset_m(name, config, true), -second_order_m, 0.15 * second_order_m) << name;
     config.noise_law = {.range_sd_per_m2 = kGrowth, .bearing_sd_rad = 1e-3};
     EXPECT_NEAR(fused_offset_m(name, config, false), second_order_m * std::log(200.0) / 200.0,
                 5.0 * standard_error_m)
         << name;
+  }
+}
+
+// Mutation: the smoother's graph told the noise without its growth.
+TEST(NoiseLaw, IsClaimedOfWhatWasSeenOnce) {
+  FilterConfig config{.particles = 1};
+  config.noise_law = {.range_sd_per_m2 = kGrowth, .bearing_sd_rad = 1e-3};
+  for (const std::string name :
+       {"ekf", "iekf", "smoother", "fastslam2", "ufastslam", "fastslam2_block", "ufastslam_block"}) {
+    Filter filter = make_filter(name, config, {}, 1);
+    RangeBearing seen = sighting({15.0, 0.0}, 99.0, 1e-3);
+    seen.landmark_id = 1;
+    update(filter, std::vector<RangeBearing>{seen});
+    const double claimed_sd_m = std::sqrt(estimate(filter).landmarks.at(0).covariance(0, 0));
+    EXPECT_NEAR(claimed_sd_m, kGrowth * 225.0, 0.02 * kGrowth * 225.0) << name;
   }
 }
 
