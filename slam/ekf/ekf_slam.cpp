@@ -147,7 +147,7 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   if (linearisation_ != Linearisation::kOnce) before = belief_;
   const Eigen::Matrix3d moved = follow(belief_.pose, motion).covariance;
   follow(belief_, motion);
-  Decided decided = decide(frame, policy_.search_motion({{}, moved}).covariance - moved);
+  Decided decided = decide(frame, (policy_.motion_scale - 1.0) * moved);
   if (before)
     correct_iterated(decided, *std::move(before), motion);
   else

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ constexpr double kRangeSd_m = 0.1;
 constexpr double kBearingSd_rad = 0.02;
 const OdometryNoise kOdometry{0.1, 0.0, 0.0, 0.035, 0.0, 0.0};
 
-/// Landmarks around rows of a length, as many as a number of steps passes by.
+/// Landmarks between and beside rows.
 std::vector<Eigen::Vector2d> field(double length_m, int rows) {
   RandomStream jitter(1, Stream::kOracle);
   std::vector<Eigen::Vector2d> places;
@@ -127,10 +128,14 @@ void drive(const std::string& name, double length_m, int steps) {
 }  // namespace stereobench::slam
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: {} FILTER ROW_LENGTH_M STEPS\n", argv[0]);
+  try {
+    if (argc != 4 || !(std::stod(argv[2]) >= 10.0) || std::stoi(argv[3]) < 1)
+      throw std::invalid_argument(
+          "usage: stereobench_long_drives FILTER ROW_LENGTH_M STEPS, rows of 10 m or more");
+    stereobench::slam::drive(argv[1], std::stod(argv[2]), std::stoi(argv[3]));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "stereobench_long_drives: {}\n", error.what());
     return 2;
   }
-  stereobench::slam::drive(argv[1], std::stod(argv[2]), std::stoi(argv[3]));
   return 0;
 }

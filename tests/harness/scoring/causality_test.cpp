@@ -1,4 +1,7 @@
 // An estimate depends on the log up to its step, and on nothing that only a simulator knows.
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "harness/drive/recording.h"
