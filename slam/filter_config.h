@@ -73,6 +73,7 @@ struct FilterConfig {
   double colour_spacing_m = 0.0;
 
   Association association = Association::kJoint;
+  bool merge_doubles = true;  ///< see AssociationPolicy
   SensorSector sector;
 
   /// Whether updates leave an UpdateReport. It changes nothing else.

@@ -16,6 +16,7 @@ struct Candidate {
   double cost = 0.0;  ///< minus twice the log likelihood; the smaller the better
   bool gated =
       false;  ///< beyond the gate, and a candidate only because nothing else of its colour can be near
+  bool loose = false;  ///< so uncertain to each other that other landmarks may well be as near
 };
 
 /// Decides for each sighting of a frame, best pair first; a landmark is given to one sighting only.

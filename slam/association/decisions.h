@@ -15,6 +15,16 @@ struct Decision {
   int origin = kUnknown;  ///< the sighting that founded the landmark it was held against; kUnknown: none
 };
 
+/// Two landmarks that turned out to be one, by the sightings that founded them.
+struct Merged {
+  int kept = kUnknown;
+  int dropped = kUnknown;
+};
+
+/// @return decisions as they stand once landmarks were merged: what was held against the dropped one, or
+/// found it, is held against the one that was kept
+std::vector<Decision> after_merging(std::span<const Decision> decisions, std::span<const Merged> merged);
+
 /// The decisions of the last update by the particle that the frame left heaviest, and that particle's map.
 struct Decisions {
   std::vector<Decision> sightings;  ///< those that could be used, in their order

@@ -51,11 +51,24 @@ bool Existence::should_be_seen(const Pose& robot, const LandmarkBelief& landmark
          std::abs(expected.y()) + kWithin * sd.y() < sector_.half_angle_rad;
 }
 
-double Existence::cost_of_new(const Observation& observation) const {
+/// @param per_m2 density on the ground of what is seen
+double Existence::cost_of(const Observation& observation, double per_m2) const {
   if (!is_tracked()) return std::numeric_limits<double>::infinity();
   constexpr double kNearest = 1e-3;  // of the sector's range
   const double range_m = std::max(observation.range_bearing.x(), kNearest * sector_.range_m);
-  return -2.0 * logarithm((kNewPerLook / area_m2_ + clutter_per_m2_) * range_m);
+  return -2.0 * logarithm(per_m2 * range_m);
+}
+
+double Existence::cost_of_new(const Observation& observation) const {
+  return cost_of(observation, kNewPerLook / area_m2_ + clutter_per_m2_);
+}
+
+double Existence::cost_of_other(const Observation& observation, std::size_t shown) const {
+  return cost_of(observation, static_cast<double>(shown) / area_m2_ + clutter_per_m2_);
+}
+
+double Existence::cost_of_place(std::size_t shown) const {
+  return -2.0 * logarithm(static_cast<double>(shown) / area_m2_ + clutter_per_m2_);
 }
 
 }  // namespace stereobench::slam

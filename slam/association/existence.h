@@ -1,6 +1,8 @@
 /// Whether what a map holds is there at all: log odds, landmark by landmark.
 #pragma once
 
+#include <cstddef>
+
 #include "slam/filter_config.h"
 #include "slam/models/belief.h"
 
@@ -37,10 +39,19 @@ class Existence {
   /// landmarks and clutter. Infinite where no sector is declared.
   double cost_of_new(const Observation& observation) const;
 
+  /// The same of any landmark, where a look shows so many. Infinite where no sector is declared.
+  double cost_of_other(const Observation& observation, std::size_t shown) const;
+
+  /// Minus twice the log density of landmarks on the ground, 1/m^2, where a look shows so many.
+  double cost_of_place(std::size_t shown) const;
+
   double range_m() const { return sector_.range_m; }
 
   /// A landmark that nothing is matched with any more.
   static bool is_dead(float log_odds) { return log_odds < kDead; }
+
+  /// @return log odds of one
+  static float dead() { return kDead - 1.0F; }
 
   /// A landmark that is there with 95 %: it may correct poses, and is reported.
   static bool is_believed(float log_odds) { return log_odds >= kBelieved; }
@@ -49,6 +60,8 @@ class Existence {
   static constexpr float kDead = -6.0F;
   static constexpr float kBelieved = 3.0F;
   static constexpr float kSurest = 10.0F;  ///< so that what has gone can be forgotten
+
+  double cost_of(const Observation& observation, double per_m2) const;
 
   SensorSector sector_;
   double area_m2_ = 0.0;

@@ -44,7 +44,8 @@ class MapManagement {
   ///     the end or in a vacant place, which is then taken from the list
   ///   - `set_log_odds(std::size_t j, float)`
   ///   - `kClaimsLookalikes`: whether a second such sighting of a frame, of the same landmark, is new
-  /// @param targets kAdd becomes kIgnore for what is no new landmark
+  ///   - `LandmarkBelief seen_from_robot(std::size_t j, const Landmark&)`: as if the pose were exact
+  /// @param targets kAdd becomes kIgnore for what is no new landmark, kDouble becomes kAdd
   template <class Map>
   void update(Map& map, std::span<const Sighting> frame, std::span<Target> targets, long& gated);
 
@@ -52,7 +53,7 @@ class MapManagement {
   template <class Map>
   void survey(const Map& map, std::span<const Sighting> frame, std::span<const Target> targets);
   template <class Map>
-  Outcome add(Map& map, const Sighting& sighting);
+  Outcome add(Map& map, const Sighting& sighting, bool may_be_double);
   template <class Map>
   bool may_be_mapped(const Map& map, const Sighting& sighting, const Eigen::Vector2d& place);
   template <class Map>
@@ -74,8 +75,9 @@ void MapManagement::update(Map& map, std::span<const Sighting> frame, std::span<
                            long& gated) {
   survey(map, frame, targets);
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    if (targets[k].outcome != Outcome::kAdd) continue;
-    targets[k].outcome = add(map, frame[k]);
+    const bool may_be_double = targets[k].outcome == Outcome::kDouble;
+    if (targets[k].outcome != Outcome::kAdd && !may_be_double) continue;
+    targets[k].outcome = add(map, frame[k], may_be_double);
     if (targets[k].outcome == Outcome::kIgnore) ++gated;
   }
   for (const auto& [j, log_odds] : unseen_) map.set_log_odds(j, log_odds);
@@ -102,22 +104,24 @@ void MapManagement::survey(const Map& map, std::span<const Sighting> frame, std:
         const float log_odds = landmark.status.log_odds;
         if (Existence::is_dead(log_odds)) {
           vacant_.push_back(static_cast<int>(j));
-        } else if (!is_claimed(j) && existence.should_be_seen(robot, landmark.belief)) {
+        } else if (!is_claimed(j) && existence.should_be_seen(robot, map.seen_from_robot(j, landmark))) {
           unseen_.emplace_back(j, existence.unseen(log_odds));
         }
       });
 }
 
+/// @param may_be_double whether it is added even so
 /// @return kAdd, or kIgnore for what is no new landmark
 template <class Map>
-Outcome MapManagement::add(Map& map, const Sighting& sighting) {
+Outcome MapManagement::add(Map& map, const Sighting& sighting, bool may_be_double) {
   const bool has_identity = sighting.slot != kUnknown;
   if (const int landmark = has_identity ? map.landmark_of(sighting.slot) : kUnknown; landmark >= 0) {
     map.see_again(landmark, sighting);
     return Outcome::kAdd;
   }
   const Landmark landmark{map.found(sighting.observation), founded_by(sighting, policy_.existence)};
-  if (!has_identity && may_be_mapped(map, sighting, landmark.belief.mean)) return Outcome::kIgnore;
+  if (!has_identity && !may_be_double && may_be_mapped(map, sighting, landmark.belief.mean))
+    return Outcome::kIgnore;
   const int place = map.add(sighting, landmark, vacant_);
   if (!has_identity) claimed_.push_back(place);
   return Outcome::kAdd;

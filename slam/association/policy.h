@@ -20,6 +20,8 @@ struct AssociationPolicy {
         gate(chi_square_2_quantile(config.gate_probability)),
         near_m(0.5 * config.colour_spacing_m),
         association(config.association),
+        merges(config.merge_doubles && config.association == Association::kJoint &&
+               !(config.colour_spacing_m > 0.0) && config.sector.range_m > 0.0),
         existence(config.sector) {
     const OdometryNoise& noise = config.odometry_noise;
     const double share = std::max(noise.v_per_v, noise.w_per_w);
@@ -46,6 +48,9 @@ struct AssociationPolicy {
   /// r = (1 + share z) true. With z at the gate, -g, the error g share true is g share r / (1 - g share).
   double motion_scale = 1.0;
   Association association;
+  /// Whether what may be an old landmark is a new one until the map as a whole tells that it is not. It takes
+  /// a belief that ties landmarks to each other, and a sensor that says how many there are.
+  bool merges;
   Existence existence;
 };
 

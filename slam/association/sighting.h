@@ -23,6 +23,7 @@ enum class Outcome {
   kMove,     ///< the landmark turned out to be wrong and is found anew
   kRefuse,   ///< contradicts its landmark and is not believed
   kIgnore,   ///< a double of another sighting, or too near a landmark to be new and too far to be it
+  kDouble,   ///< may be of several landmarks: a new one until the map tells which of them it is
 };
 
 /// A sighting's outcome, and the index of its landmark in the particle's map; -1 where it has none.

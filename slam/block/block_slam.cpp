@@ -21,6 +21,7 @@ constexpr double kFar = 4.0;
 /// A block's EKF leaves no reports of its own.
 FilterConfig within_block(FilterConfig config) {
   config.report_updates = false;
+  config.merge_doubles = false;  // landmarks keep their places
   return config;
 }
 
@@ -245,7 +246,7 @@ std::vector<LandmarkBelief> BlockSlam::learn(const Hypothesis& mine, std::span<c
 void BlockSlam::write_back(const Hypothesis& mine, std::span<const LandmarkBelief> learnt,
                            Particle& particle) {
   for (std::size_t j = 0; j < learnt.size(); ++j) {
-    const auto& [slot, status] = mine.now.map()[j];
+    const auto& [slot, status, first_seen, last_seen] = mine.now.map()[j];
     LandmarkMap& map = slot == kUnknown ? particle.classed : particle.known;
     if (mine.shown[j].in_map == kUnknown)
       map.push_back({learnt[j], status});

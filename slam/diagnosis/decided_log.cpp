@@ -15,12 +15,25 @@ class Names {
     if (outcome == Outcome::kAdd) return number;
     if (origin == kUnknown) return kUnknown;
     if (outcome == Outcome::kMove) return renamed_[origin] = number;
+    return now(origin);
+  }
+
+  void merge(const Merged& merged) { kept_[now(merged.dropped)] = now(merged.kept); }
+
+  /// @return the name of a landmark once all is known
+  int at_last(int name) const {
+    for (auto found = kept_.find(name); found != kept_.end(); found = kept_.find(name)) name = found->second;
+    return name;
+  }
+
+ private:
+  int now(int origin) const {
     const auto found = renamed_.find(origin);
     return found == renamed_.end() ? origin : found->second;
   }
 
- private:
   std::map<int, int> renamed_;  ///< landmarks that were found anew, by origin
+  std::map<int, int> kept_;     ///< in place of names that were dropped
 };
 
 }  // namespace
@@ -48,7 +61,14 @@ DecidedLog decide(const FilterConfig& config, const Pose& start, std::span<const
       decided.sightings.push_back(step.sightings[k]);
       decided.sightings.back().landmark_id = landmark;
     }
+    for (const Merged& merged : filter.merged()) names.merge(merged);
     first += static_cast<int>(step.sightings.size());
+  }
+  for (BatchStep& step : log.steps) {
+    for (RangeBearing& sighting : step.sightings) sighting.landmark_id = names.at_last(sighting.landmark_id);
+  }
+  for (std::vector<int>& landmarks : log.landmarks) {
+    for (int& landmark : landmarks) landmark = names.at_last(landmark);
   }
   return log;
 }

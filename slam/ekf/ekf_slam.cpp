@@ -5,14 +5,22 @@
 
 #include "slam/association/contradiction.h"
 #include "slam/ekf/joint_moments.h"
+#include "slam/ekf/map_merging.h"
 #include "slam/models/measurement.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::slam {
+namespace {
+
+/// Over so many frames odometry keeps landmarks together that are laid over the map.
+constexpr int kRecentFrames = 20;
+
+}  // namespace
 
 /// The belief and its landmarks, as the rules of association and of the map read and write them.
 struct EkfSlam::View {
   static constexpr bool kClaimsLookalikes = true;
+  static constexpr bool kTiesLandmarks = true;
   EkfSlam& filter;
   Eigen::Matrix3d room = Eigen::Matrix3d::Zero();  ///< of the pose, beside its covariance
 
@@ -33,7 +41,10 @@ struct EkfSlam::View {
 
   JointInnovation innovation(std::size_t j, const Observation& observation) const {
     long& repairs = filter.counters_.covariance_repairs;
-    JointInnovation seen = slam::innovation(filter.belief_, static_cast<int>(j), observation, repairs);
+    const int landmark = static_cast<int>(j);
+    JointInnovation seen = filter.policy_.merges
+                               ? innovation_at_sighting(filter.belief_, landmark, observation, repairs)
+                               : slam::innovation(filter.belief_, landmark, observation, repairs);
     if (room.isZero(0.0)) return seen;
     const auto by_pose = seen.slope.leftCols<3>();
     seen.covariance += by_pose * room * by_pose.transpose();
@@ -49,9 +60,9 @@ struct EkfSlam::View {
   JointInnovations innovations(std::span<const Candidate> candidates, std::span<const Sighting> frame) const {
     std::vector<Pairing> pairings;
     std::vector<JointInnovation> all;
-    for (const auto& [sighting, landmark, cost, gated] : candidates) {
-      all.push_back(innovation(static_cast<std::size_t>(landmark),
-                               frame[static_cast<std::size_t>(sighting)].observation));
+    for (const Candidate& pair : candidates) {
+      all.push_back(innovation(static_cast<std::size_t>(pair.landmark),
+                               frame[static_cast<std::size_t>(pair.sighting)].observation));
       pairings.push_back({all.back().residual, all.back().covariance});
     }
     const auto tie = [this, all, candidates](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
@@ -62,6 +73,16 @@ struct EkfSlam::View {
       return all[a].slope * shared * all[b].slope.transpose();
     };
     return {std::move(pairings), tie};
+  }
+
+  LandmarkBelief seen_from_robot(std::size_t j, const Landmark& landmark) const {
+    const Eigen::Vector2d& place = landmark.belief.mean;
+    Eigen::Matrix<double, 2, 5> apart = Eigen::Matrix<double, 2, 5>::Zero();
+    apart.leftCols<2>() = -Eigen::Matrix2d::Identity();
+    apart.col(2) = heading_lever(filter.belief_.pose, place) * -1.0;
+    apart.rightCols<2>().setIdentity();
+    const auto joint = filter.belief_.covariance.pose_and_landmark(static_cast<int>(j));
+    return {place, apart * joint * apart.transpose()};
   }
 
   LandmarkBelief found(const Observation& observation) const {
@@ -82,7 +103,7 @@ struct EkfSlam::View {
       j = vacant.front();
       vacant.erase(vacant.begin());
     }
-    filter.map_[static_cast<std::size_t>(j)] = {sighting.slot, landmark.status};
+    filter.map_[static_cast<std::size_t>(j)] = {sighting.slot, landmark.status, filter.frames_};
     filter.find_landmark(j, sighting.observation);
     return j;
   }
@@ -141,8 +162,10 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   targets_.assign(frame.size(), {});
   expected_.assign(frame.size(), {});
   used_.clear();
+  merged_.clear();
   drift_.setZero();
   if (frame.empty()) return;
+  ++frames_;
   std::optional<JointBelief> before;
   if (linearisation_ != Linearisation::kOnce) before = belief_;
   const Eigen::Matrix3d moved = follow(belief_.pose, motion).covariance;
@@ -159,6 +182,8 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   View view{*this};
   management_.update(view, frame, decided.targets, counters_.gated_measurements);
   for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].outcome = decided.targets[k].outcome;
+  for (const UsedSighting& used : used_) map_[static_cast<std::size_t>(used.landmark)].last_seen = frames_;
+  if (policy_.merges) merge_doubles(frame.size());
 }
 
 /// @param room of the pose that landmarks without an identity are searched with, beside its covariance
@@ -234,6 +259,32 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
                 policy_.existence);
 }
 
+/// Makes one of landmarks that were seen of late and older ones, where the map tells which is which; then of
+/// all others that this tells.
+void EkfSlam::merge_doubles(std::size_t shown) {
+  if (merge_doubles(kRecentFrames, shown)) merge_doubles(frames_, shown);
+}
+
+/// @param recent frames
+/// @return whether there were any
+bool EkfSlam::merge_doubles(int recent, std::size_t shown) {
+  std::vector<LandmarkSeen> seen;
+  for (const auto& [slot, status, first_seen, last_seen] : map_)
+    seen.push_back({slot, status, frames_ - first_seen, frames_ - last_seen});
+  const std::size_t before = merged_.size();
+  for (const auto& [kept, dropped] :
+       find_doubles(policy_, belief_, seen, recent, shown, counters_.joint_searches_cut)) {
+    Mapped& old = map_[static_cast<std::size_t>(kept)];
+    Mapped& late = map_[static_cast<std::size_t>(dropped)];
+    if (Existence::is_dead(old.status.log_odds)) continue;  // it was itself another's double
+    merge(belief_, dropped, kept, counters_.covariance_repairs);
+    merged_.push_back({old.status.origin, late.status.origin});
+    old.last_seen = late.last_seen;
+    late.status.log_odds = Existence::dead();
+  }
+  return merged_.size() > before;
+}
+
 Landmark EkfSlam::landmark(std::size_t j) const {
   return {{belief_.landmarks[j], belief_.covariance.landmark(static_cast<int>(j))}, map_[j].status};
 }
@@ -251,15 +302,15 @@ bool EkfSlam::is_reported(const Mapped& landmark) {
 }
 
 LandmarkEstimate EkfSlam::reported(const Mapped& landmark, const LandmarkBelief& belief) const {
-  const auto& [slot, status] = landmark;
+  const auto& [slot, status, first_seen, last_seen] = landmark;
   RangeBearing seen{.colour_class = status.colour_class};
   if (slot != kUnknown) seen = reader_.first_sighting(static_cast<std::size_t>(slot));
   return {seen.landmark_id, seen.colour_class, belief.mean, belief.covariance, status.origin};
 }
 
 Decisions EkfSlam::last_decisions() const {
-  Decisions decisions{decided_, {}};
-  for (const auto& [slot, status] : map_) {
+  Decisions decisions{after_merging(decided_, merged_), {}};
+  for (const auto& [slot, status, first_seen, last_seen] : map_) {
     if (!Existence::is_dead(status.log_odds)) decisions.mapped.push_back(status.origin);
   }
   return decisions;

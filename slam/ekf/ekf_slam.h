@@ -43,6 +43,9 @@ struct UsedSighting {
 /// the mean. Gate, association by colour and contradictions follow the rules of PoseCorrection, and what is
 /// there and what is new those of MapManagement.
 ///
+/// Where landmarks have no identities and the sensor's sector is declared, those that were found twice are
+/// merged (find_doubles).
+///
 /// Iterated (Bell and Cathey, 1993), it finds the mode of a frame first (frame_mode), and leaves out the
 /// sightings that all others speak against.
 class EkfSlam {
@@ -61,6 +64,8 @@ class EkfSlam {
   struct Mapped {
     int slot = kUnknown;
     LandmarkStatus status;
+    int first_seen = 0;  ///< counted in frames
+    int last_seen = 0;
   };
 
   // An update in parts, for an estimator that has beliefs of its own and reads its frames with this filter.
@@ -102,6 +107,9 @@ class EkfSlam {
   /// The sightings of the last frame that corrected or found a landmark, with its index in map().
   const std::vector<UsedSighting>& used() const { return used_; }
 
+  /// The landmarks that the last frame showed to be others.
+  std::span<const Merged> merged() const { return merged_; }
+
   /// @return what had to be repaired or refused since the last call
   FilterCounters take_counters() { return std::exchange(counters_, {}); }
 
@@ -133,6 +141,8 @@ class EkfSlam {
   void expect_of_refused(const Decided& decided);
   void find_landmark(int landmark, const Observation& observation);
   void learn(const Target& target, const Sighting& sighting);
+  void merge_doubles(std::size_t shown);
+  bool merge_doubles(int recent, std::size_t shown);
 
   FilterConfig config_;
   Linearisation linearisation_;
@@ -148,7 +158,9 @@ class EkfSlam {
   std::vector<Target> targets_;
   std::vector<ExpectedSighting> expected_;
   std::vector<UsedSighting> used_;
+  std::vector<Merged> merged_;
   Eigen::Matrix3d drift_ = Eigen::Matrix3d::Zero();
+  int frames_ = 0;
   FilterCounters counters_;
   UpdateReport report_;  ///< of the last update
 };

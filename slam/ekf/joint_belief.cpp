@@ -31,6 +31,27 @@ JointInnovation against(const JointBelief& belief, int landmark, const Eigen::Ma
           sighting_residual(observation.range_bearing, expected)};
 }
 
+/// The Kalman update by the covariances of all with what is seen.
+void correct(JointBelief& belief, JointCovariance::Columns& with_seen, const Factor2& factor,
+             const Eigen::Vector2d& off, long& repairs) {
+  JointCovariance::Columns& whitened = with_seen;
+  factor.whiten_in_place(whitened);
+  const Eigen::Vector2d residual = factor.whiten<1>(off.transpose()).transpose();
+  if (!std::isfinite(whitened.squaredNorm() * residual.squaredNorm())) {
+    ++repairs;
+    return;
+  }
+  const auto shift = [&]<int kRows>(Eigen::Index row, std::integral_constant<int, kRows>) {
+    return whitened.col(0).segment<kRows>(row) * residual.x() +
+           whitened.col(1).segment<kRows>(row) * residual.y();
+  };
+  belief.pose = boxplus(belief.pose, shift(0, std::integral_constant<int, 3>()));
+  for (std::size_t j = 0; j < belief.landmarks.size(); ++j)
+    belief.landmarks[j] +=
+        shift(JointCovariance::row_of(static_cast<int>(j)), std::integral_constant<int, 2>());
+  belief.covariance.subtract(whitened, repairs);
+}
+
 }  // namespace
 
 void follow(JointBelief& belief, const PoseBelief& motion) {
@@ -57,6 +78,16 @@ JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int
   return against(belief, landmark, slope, linear.expected + slope * off, observation, repairs);
 }
 
+JointInnovation innovation_at_sighting(const JointBelief& belief, int landmark,
+                                       const Observation& observation, long& repairs) {
+  const Eigen::Vector2d place = locate(belief.pose, observation.range_bearing);
+  const LinearSighting linear = linearise_sighting(belief.pose, place);
+  const Eigen::Vector2d off = belief.landmarks[static_cast<std::size_t>(landmark)] - place;
+  const Eigen::Matrix<double, 2, 5> slope = slope_of(linear);
+  const Eigen::Vector2d expected = linear.expected + slope.rightCols<2>() * off;
+  return against(belief, landmark, slope, expected, observation, repairs);
+}
+
 ExpectedSighting expectation(const JointInnovation& seen, const Observation& observation,
                              double squared_length) {
   return {true, observation.range_bearing - seen.residual, seen.covariance,
@@ -64,23 +95,25 @@ ExpectedSighting expectation(const JointInnovation& seen, const Observation& obs
 }
 
 void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs) {
-  JointCovariance::Columns whitened;
-  belief.covariance.with_sighting(landmark, seen.slope, seen.near, whitened);
-  seen.factor.whiten_in_place(whitened);
-  const Eigen::Vector2d residual = seen.factor.whiten<1>(seen.residual.transpose()).transpose();
-  if (!std::isfinite(whitened.squaredNorm() * residual.squaredNorm())) {
-    ++repairs;
-    return;
-  }
-  const auto shift = [&]<int kRows>(Eigen::Index row, std::integral_constant<int, kRows>) {
-    return whitened.col(0).segment<kRows>(row) * residual.x() +
-           whitened.col(1).segment<kRows>(row) * residual.y();
+  JointCovariance::Columns with_seen;
+  belief.covariance.with_sighting(landmark, seen.slope, seen.near, with_seen);
+  correct(belief, with_seen, seen.factor, seen.residual, repairs);
+}
+
+Pairing apart(const JointBelief& belief, int one, int other) {
+  const auto place = [&](int j) -> const Eigen::Vector2d& {
+    return belief.landmarks[static_cast<std::size_t>(j)];
   };
-  belief.pose = boxplus(belief.pose, shift(0, std::integral_constant<int, 3>()));
-  for (std::size_t j = 0; j < belief.landmarks.size(); ++j)
-    belief.landmarks[j] +=
-        shift(JointCovariance::row_of(static_cast<int>(j)), std::integral_constant<int, 2>());
-  belief.covariance.subtract(whitened, repairs);
+  const Eigen::Matrix2d shared = belief.covariance.between(one, other).bottomRightCorner<2, 2>();
+  return {place(one) - place(other),
+          belief.covariance.landmark(one) + belief.covariance.landmark(other) - shared - shared.transpose()};
+}
+
+void merge(JointBelief& belief, int one, int other, long& repairs) {
+  const Pairing off = apart(belief, one, other);
+  JointCovariance::Columns with_way;
+  belief.covariance.with_difference(one, other, with_way);
+  correct(belief, with_way, Factor2(off.covariance, repairs), off.residual, repairs);
 }
 
 void place(JointBelief& belief, int landmark, const LandmarkBelief& found, long& repairs) {

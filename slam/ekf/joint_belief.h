@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "slam/association/joint_compatibility.h"
 #include "slam/association/sighting.h"
 #include "slam/ekf/joint_covariance.h"
 #include "slam/math/gaussian.h"
@@ -51,8 +52,19 @@ JointInnovation innovation(const JointBelief& belief, int landmark, const Observ
 JointInnovation innovation(const JointBelief& belief, const JointBelief& at, int landmark,
                            const Observation& observation, long& repairs);
 
+/// The same, linearised at the place that the sighting points at: what it says of a shift of the pose does
+/// not bend, however near the landmark.
+JointInnovation innovation_at_sighting(const JointBelief& belief, int landmark,
+                                       const Observation& observation, long& repairs);
+
 /// The Kalman update in gain form, O(n^2): K = P H' S^-1, so a singular P is nothing special.
 void correct(JointBelief& belief, int landmark, const JointInnovation& seen, long& repairs);
+
+/// How far a landmark is from another, which would be nothing if they were one.
+Pairing apart(const JointBelief& belief, int one, int other);
+
+/// Learns that two landmarks are at one place: the Kalman update.
+void merge(JointBelief& belief, int one, int other, long& repairs);
 
 /// Takes a landmark for what is seen now: one that is new, or one whose place turned out to be wrong.
 ///

@@ -132,6 +132,13 @@ void JointCovariance::with_sighting(int index, const Eigen::Matrix<double, 2, 5>
   for (Eigen::Index i = first + 2; i < size_; ++i) along(i, row(i)[first], row(i)[first + 1]);
 }
 
+void JointCovariance::with_difference(int from, int to, Columns& product) const {
+  product.resize(size_, 2);
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    for (Eigen::Index j = 0; j < 2; ++j) product(i, j) = at(i, row_of(to) + j) - at(i, row_of(from) + j);
+  }
+}
+
 void JointCovariance::subtract(const Columns& whitened, long& repairs) {
   using Pair = Eigen::Map<Eigen::Vector2d>;
   using Known = Eigen::Map<const Eigen::Vector2d>;

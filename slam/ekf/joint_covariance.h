@@ -57,6 +57,11 @@ class JointCovariance {
   void with_sighting(int index, const Eigen::Matrix<double, 2, 5>& slope,
                      const Eigen::Matrix<double, 2, 5>& near, Columns& product) const;
 
+  /// P H' for the way from one landmark to another, in O(n).
+  ///
+  /// @param product receives it
+  void with_difference(int from, int to, Columns& product) const;
+
   /// P - W W', in O(n^2) / 2.
   ///
   /// @param whitened W = P H' L^-T, where L L' is the sighting's covariance

@@ -38,6 +38,10 @@ struct DrawnParticle {
     return {squared_length, squared_length + factor.log_det_2_pi()};
   }
 
+  const LandmarkBelief& seen_from_robot(std::size_t, const Landmark& landmark) const {
+    return landmark.belief;
+  }
+
   LandmarkBelief found(const Observation& observation) const {
     return model.found(particle.pose, observation, repairs);
   }

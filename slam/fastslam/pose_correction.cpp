@@ -41,6 +41,7 @@ struct Innovation {
 /// A particle's map beside its predicted pose, as the rule of association reads them.
 template <class Model>
 struct PredictedParticle {
+  static constexpr bool kTiesLandmarks = false;
   const Particle& particle;
   const PoseBelief& predicted;
   const Model& model;

@@ -14,6 +14,9 @@ namespace {
 /// linearised anew.
 constexpr double kCurved = 0.02;
 
+/// One over the standard deviation of what is left between two landmarks that are one, 1/m.
+constexpr double kSamePlaceWeight = 1e6;
+
 constexpr int kMostSteps = 20;  ///< in a frame; the next one goes on
 constexpr int kMostHalvings = 10;
 
@@ -47,7 +50,7 @@ void PathGraph::add_pose(const PoseBelief& motion, const Pose& guess) {
   const double turned_rad = wrap_angle(guess.heading_rad - heading_rad);
   pose_ = add_variable(3, {guess.x_m, guess.y_m, heading_rad + turned_rad});
   motions_.push_back({from, pose_, MotionResidual(motion)});
-  add(true, motions_.size() - 1);
+  add(Kind::kMotion, motions_.size() - 1);
 }
 
 int PathGraph::add_landmark(const Eigen::Vector2d& guess) {
@@ -59,11 +62,18 @@ void PathGraph::add_sighting(int landmark, const Observation& observation) {
   Observation believed = observation;
   believed.noise = noise_at(observation, predict_sighting(pose_of(value(pose_)), this->landmark(landmark)));
   sightings_.push_back({pose_, landmark, SightingResidual(believed)});
-  add(false, sightings_.size() - 1);
+  add(Kind::kSighting, sightings_.size() - 1);
 }
 
-void PathGraph::add(bool is_motion, std::size_t index) {
-  factors_.push_back({is_motion, index, {}});
+void PathGraph::add_same_place(int one, int other) {
+  late_.push_back(one);
+  late_.push_back(other);
+  same_places_.push_back({one, other});
+  add(Kind::kSamePlace, same_places_.size() - 1);
+}
+
+void PathGraph::add(Kind kind, std::size_t index) {
+  factors_.push_back({kind, index, {}});
   const std::size_t factor = factors_.size() - 1;
   const BayesTree::Factor rows = linearise(factor).factor;
   if (is_finite(rows)) {
@@ -76,35 +86,58 @@ void PathGraph::add(bool is_motion, std::size_t index) {
 }
 
 PathGraph::Linear PathGraph::linearise(std::size_t factor) const {
+  const auto& [kind, index, linearised] = factors_[factor];
+  switch (kind) {
+    case Kind::kMotion:
+      return linearise(motions_[index]);
+    case Kind::kSighting:
+      return linearise(sightings_[index]);
+    case Kind::kSamePlace:
+      break;
+  }
+  const auto& [one, other] = same_places_[index];
+  Linear linear;
+  linear.residual.head<2>() = kSamePlaceWeight * (landmark(one) - landmark(other));
+  BayesTree::Factor& rows = linear.factor;
+  rows.first = one;
+  rows.second = other;
+  rows.rows = 2;
+  rows.by_first.topLeftCorner<2, 2>() = kSamePlaceWeight * Eigen::Matrix2d::Identity();
+  rows.by_second.topLeftCorner<2, 2>() = -kSamePlaceWeight * Eigen::Matrix2d::Identity();
+  return linear;
+}
+
+PathGraph::Linear PathGraph::linearise(const Motion& motion) const {
   Linear linear;
   BayesTree::Factor& rows = linear.factor;
-  if (const auto& [is_motion, index, linearised] = factors_[factor]; is_motion) {
-    const Motion& motion = motions_[index];
-    const bool starts = motion.from == kStart;
-    const Eigen::Vector3d& to = value(motion.to);
-    const auto at = motion.residual.at(starts ? start_ : pose_of(value(motion.from)), pose_of(to));
-    linear.residual = at.residual;
-    rows.first = motion.to;
-    rows.rows = 3;
-    rows.by_first = at.by_to;
-    rows.target = at.by_to * to - at.residual;
-    if (starts) return linear;
-    rows.second = motion.from;
-    rows.by_second = at.by_from;
-    rows.target += at.by_from * value(motion.from);
-  } else {
-    const Sighted& sighted = sightings_[index];
-    const Eigen::Vector3d& pose = value(sighted.pose);
-    const Eigen::Vector2d place = landmark(sighted.landmark);
-    const auto at = sighted.residual.at(pose_of(pose), place);
-    linear.residual.head<2>() = at.residual;
-    rows.first = sighted.pose;
-    rows.second = sighted.landmark;
-    rows.rows = 2;
-    rows.by_first.topRows<2>() = at.by_pose;
-    rows.by_second.topLeftCorner<2, 2>() = at.by_landmark;
-    rows.target.head<2>() = at.by_pose * pose + at.by_landmark * place - at.residual;
-  }
+  const bool starts = motion.from == kStart;
+  const Eigen::Vector3d& to = value(motion.to);
+  const auto at = motion.residual.at(starts ? start_ : pose_of(value(motion.from)), pose_of(to));
+  linear.residual = at.residual;
+  rows.first = motion.to;
+  rows.rows = 3;
+  rows.by_first = at.by_to;
+  rows.target = at.by_to * to - at.residual;
+  if (starts) return linear;
+  rows.second = motion.from;
+  rows.by_second = at.by_from;
+  rows.target += at.by_from * value(motion.from);
+  return linear;
+}
+
+PathGraph::Linear PathGraph::linearise(const Sighted& sighted) const {
+  Linear linear;
+  BayesTree::Factor& rows = linear.factor;
+  const Eigen::Vector3d& pose = value(sighted.pose);
+  const Eigen::Vector2d place = landmark(sighted.landmark);
+  const auto at = sighted.residual.at(pose_of(pose), place);
+  linear.residual.head<2>() = at.residual;
+  rows.first = sighted.pose;
+  rows.second = sighted.landmark;
+  rows.rows = 2;
+  rows.by_first.topRows<2>() = at.by_pose;
+  rows.by_second.topLeftCorner<2, 2>() = at.by_landmark;
+  rows.target.head<2>() = at.by_pose * pose + at.by_landmark * place - at.residual;
   return linear;
 }
 
@@ -137,8 +170,9 @@ std::vector<std::size_t> PathGraph::concerned_by(std::span<const int> changed) c
 }
 
 PathGraph::Sight PathGraph::sight_of(std::size_t factor) const {
-  const auto& [is_motion, index, linearised] = factors_[factor];
-  if (!is_motion) {
+  const auto& [kind, index, linearised] = factors_[factor];
+  if (kind == Kind::kSamePlace) return {};
+  if (kind == Kind::kSighting) {
     const Sighted& sighted = sightings_[index];
     return {landmark(sighted.landmark) - value(sighted.pose).head<2>(), 0.0};
   }
@@ -159,12 +193,14 @@ Eigen::Vector3d PathGraph::foreseen(std::size_t factor) const {
 
 /// Whether the rest of a factor's Taylor series is below kCurved by a bound.
 bool PathGraph::is_as_linear(std::size_t factor) const {
+  const Kind kind = factors_[factor].kind;
+  if (kind == Kind::kSamePlace) return true;
   const Sight& then = factors_[factor].linearised;
   const Sight now = sight_of(factor);
   const double slope = tree_.factor(static_cast<int>(factor)).by_first.leftCols<2>().norm();
   const double moved_m = (now.apart - then.apart).norm();
   // Half the second derivatives of range and bearing, for moves below 0.4 of the range.
-  if (!factors_[factor].is_motion) return slope * moved_m * moved_m < kCurved * (then.apart.norm() - moved_m);
+  if (kind == Kind::kSighting) return slope * moved_m * moved_m < kCurved * (then.apart.norm() - moved_m);
   const double turned_rad = std::abs(now.heading_rad - then.heading_rad);
   return slope * turned_rad * (moved_m + turned_rad * now.apart.norm()) < kCurved;
 }

@@ -37,6 +37,9 @@ class PathGraph {
   /// @param observation whose noise is read at the range where the landmark is now (noise_at())
   void add_sighting(int landmark, const Observation& observation);
 
+  /// Two landmarks are at one place.
+  void add_same_place(int one, int other);
+
   /// Goes to the mode of all that was added.
   void solve();
 
@@ -69,8 +72,13 @@ class PathGraph {
     Eigen::Vector2d apart = Eigen::Vector2d::Zero();  ///< from its pose to what it sees, in the world
     double heading_rad = 0.0;                         ///< of a motion: half way of its turn
   };
+  enum class Kind { kMotion, kSighting, kSamePlace };
+  struct SamePlace {
+    int one;
+    int other;
+  };
   struct GraphFactor {
-    bool is_motion;
+    Kind kind;
     std::size_t index;  ///< among those of its kind
     Sight linearised;   ///< where its slopes were taken
   };
@@ -85,8 +93,10 @@ class PathGraph {
   const Eigen::Vector3d& value(int variable) const { return values_[static_cast<std::size_t>(variable)]; }
   Eigen::Vector3d& value(int variable) { return values_[static_cast<std::size_t>(variable)]; }
   int add_variable(int numbers, const Eigen::Vector3d& guess);
-  void add(bool is_motion, std::size_t index);
+  void add(Kind kind, std::size_t index);
   Linear linearise(std::size_t factor) const;
+  Linear linearise(const Motion& motion) const;
+  Linear linearise(const Sighted& sighted) const;
   Sight sight_of(std::size_t factor) const;
   Eigen::Vector3d foreseen(std::size_t factor) const;
   bool is_as_linear(std::size_t factor) const;
@@ -106,6 +116,7 @@ class PathGraph {
   std::vector<Eigen::Vector3d> values_;  ///< by variable; a pose's heading is not wrapped
   std::vector<Motion> motions_;
   std::vector<Sighted> sightings_;
+  std::vector<SamePlace> same_places_;
   std::vector<GraphFactor> factors_;  ///< by index in the tree
   int pose_ = kStart;                 ///< the last one
   std::vector<int> late_;             ///< variables that the last frame concerned

@@ -65,6 +65,8 @@ void Smoother::update(std::span<const RangeBearing> sightings) {
     if (outcome == Outcome::kAdd || outcome == Outcome::kMove) seen[k] = variable_found_by(frame[k]);
     if (seen[k] != kUnknown) graph_.add_sighting(seen[k], frame[k].observation);
   }
+  for (const auto& [kept, dropped] : reader_.merged())
+    graph_.add_same_place(variable_of(kept), variable_of(dropped));
   graph_.solve();
   assume({});
 }
@@ -166,7 +168,7 @@ Estimate Smoother::estimate() const {
 }
 
 Decisions Smoother::last_decisions() const {
-  Decisions decisions{{reader_.decided().begin(), reader_.decided().end()}, {}};
+  Decisions decisions{after_merging(reader_.decided(), reader_.merged()), {}};
   for (const Mapped& landmark : map_) {
     if (!Existence::is_dead(landmark.kept.status.log_odds))
       decisions.mapped.push_back(landmark.kept.status.origin);

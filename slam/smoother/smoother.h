@@ -18,6 +18,7 @@ namespace stereobench::slam {
 /// management are those of EkfSlam. What it uses of the frame then goes into the graph.
 ///
 /// A landmark that turns out to be elsewhere is a new one for the graph; what was seen of it before stays.
+/// Two that turn out to be one are tied to one place.
 class Smoother {
  public:
   Smoother(const FilterConfig& config, const Pose& start);

@@ -15,6 +15,9 @@ namespace stereobench::slam {
 namespace {
 
 constexpr double kProbability = 0.99;
+// There is nothing else that a sighting can be of, so that the largest set is the likeliest.
+const std::vector<double> kNothingElse(12, 1e3);
+
 using Chosen = std::set<std::pair<int, int>>;  // (sighting, landmark)
 
 // Sightings against landmarks, all off by one error of the pose and by noise of their own.
@@ -129,12 +132,12 @@ TEST(JointCompatibility, FindsWhatTryingEverythingFinds) {
   int compared = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Frame frame(seed, 4, 4);
-    if (!compete(frame.candidates)) continue;
+    if (!is_open(frame.candidates)) continue;
     const auto expected = by_brute_force(frame);
     if (!expected) continue;
     std::vector<Candidate> kept = frame.candidates;
     long cut = 0;
-    keep_joint(kept, frame.pairings, frame.tie(), kProbability, cut);
+    keep_joint(kept, frame.pairings, frame.tie(), kNothingElse, kProbability, cut);
     const Chosen chosen = within_gate(kept);
     EXPECT_EQ(cut, 0);
     EXPECT_LE(chosen.size(), expected->size()) << "seed " << seed;
@@ -155,11 +158,11 @@ TEST(JointCompatibility, DoesNotCareForTheOrderOfCandidates) {
     std::ranges::reverse(turned.by_pose);
     long cut = 0;
     Frame straight = frame;
-    keep_joint(straight.candidates, frame.pairings, frame.tie(), kProbability, cut);
+    keep_joint(straight.candidates, frame.pairings, frame.tie(), kNothingElse, kProbability, cut);
     const Tie tie = [&](std::size_t a, std::size_t b) -> Eigen::Matrix2d {
       return turned.by_pose[a] * turned.by_pose[b].transpose();
     };
-    keep_joint(turned.candidates, turned.pairings, tie, kProbability, cut);
+    keep_joint(turned.candidates, turned.pairings, tie, kNothingElse, kProbability, cut);
     EXPECT_EQ(within_gate(straight.candidates), within_gate(turned.candidates)) << "seed " << seed;
   }
 }
@@ -183,15 +186,67 @@ TEST(JointCompatibility, WhatBelongsTogetherIsShiftedTogether) {
   assign(all, false, greedy);
   EXPECT_EQ(greedy[0].landmark, 1) << "likeliest alone";
   long cut = 0;
-  keep_joint(candidates, pairings, tie, kProbability, cut);
+  keep_joint(candidates, pairings, tie, kNothingElse, kProbability, cut);
   EXPECT_EQ(within_gate(candidates), (Chosen{{0, 0}, {1, 1}}));
 }
 
-TEST(JointCompatibility, WithoutCompetitorsNothingCompetes) {
+TEST(JointCompatibility, WithoutCompetitorsNothingIsOpen) {
   const std::vector<Candidate> candidates = {{0, 0, 1.0, false}, {1, 1, 1.0, false}, {1, 0, 9.0, true}};
-  EXPECT_FALSE(compete(candidates));
-  EXPECT_TRUE(compete(std::vector<Candidate>{{0, 0, 1.0, false}, {1, 0, 1.0, false}}));
-  EXPECT_TRUE(compete(std::vector<Candidate>{{0, 0, 1.0, false}, {0, 1, 1.0, false}}));
+  EXPECT_FALSE(is_open(candidates));
+  EXPECT_TRUE(is_open(std::vector<Candidate>{{0, 0, 1.0, false}, {1, 0, 1.0, false}}));
+  EXPECT_TRUE(is_open(std::vector<Candidate>{{0, 0, 1.0, false}, {0, 1, 1.0, false}}));
+  EXPECT_TRUE(is_open(std::vector<Candidate>{{0, 0, 1.0, false, true}}));
+}
+
+// Posts in a row, a metre apart, seen from a pose that is off by so much along it: what was seen is the whole
+// row or, shifted by one, all but one of them.
+struct Row {
+  std::vector<Candidate> candidates;
+  std::vector<Pairing> pairings;
+  std::vector<double> costs;
+  const Tie tie = [](std::size_t, std::size_t) -> Eigen::Matrix2d { return Eigen::Matrix2d::Identity(); };
+
+  // @param as_other minus twice the log density of other posts
+  Row(int posts, double off_m, double as_other) : costs(static_cast<std::size_t>(posts), as_other) {
+    constexpr double kNoise = 1e-4;
+    for (int sighting = 0; sighting < posts; ++sighting) {
+      for (int landmark = 0; landmark < posts; ++landmark) {
+        const Eigen::Vector2d residual(sighting - landmark + off_m, 0.0);
+        const double variance = 1.0 + kNoise;
+        const double length = residual.squaredNorm() / variance;
+        if (length > chi_square_2_quantile(kProbability)) continue;
+        candidates.push_back(
+            {sighting, landmark, length + 2.0 * std::log(2.0 * M_PI * variance), false, true});
+        pairings.push_back({residual, variance * Eigen::Matrix2d::Identity()});
+      }
+    }
+  }
+
+  std::vector<int> unsure() {
+    long cut = 0;
+    return keep_joint(candidates, pairings, tie, costs, kProbability, cut);
+  }
+};
+
+// A shift by a whole metre leaves a post without a partner, which costs as_other in place of -15. The first
+// pair costs 2 log(2 pi) and the square of the shift that is left.
+TEST(JointCompatibility, IsSureWhereOneShiftFitsAlone) {
+  Row row(3, 0.4, 5.0);
+  EXPECT_TRUE(row.unsure().empty());
+  EXPECT_EQ(within_gate(row.candidates), (Chosen{{0, 0}, {1, 1}, {2, 2}}));
+}
+
+TEST(JointCompatibility, IsUnsureWhereAnotherShiftFitsAsWell) {
+  // Other posts are so common that a post beyond the row is no surprise.
+  Row row(3, 0.4, -12.0);
+  EXPECT_EQ(row.unsure(), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(JointCompatibility, IsUnsureOfALoosePairAlone) {
+  Row row(1, 0.1, 5.0);
+  EXPECT_EQ(row.unsure(), (std::vector<int>{0})) << "another post has exp(-2.5) against 1 / (2 pi)";
+  Row sure(1, 0.1, 30.0);
+  EXPECT_TRUE(sure.unsure().empty());
 }
 
 // Twelve sightings of twelve landmarks on one spot: 13 billion ways. Mutation: no limit, by which it does not
@@ -201,13 +256,14 @@ TEST(JointCompatibility, GivesUpInTimeAndSaysSo) {
   std::vector<Pairing> pairings;
   for (int k = 0; k < 12; ++k) {
     for (int j = 0; j < 12; ++j) {
-      candidates.push_back({k, j, 0.01 * (k + j), false});
+      candidates.push_back({k, j, 0.01 * (k + j), false, true});
       pairings.push_back({Eigen::Vector2d(0.01 * k, 0.01 * j), Eigen::Matrix2d::Identity()});
     }
   }
   const Tie tie = [](std::size_t, std::size_t) -> Eigen::Matrix2d { return Eigen::Matrix2d::Zero(); };
   long cut = 0;
-  keep_joint(candidates, pairings, tie, kProbability, cut);
+  const std::vector<int> unsure = keep_joint(candidates, pairings, tie, kNothingElse, kProbability, cut);
+  EXPECT_EQ(unsure.size(), 12u);
   EXPECT_EQ(cut, 1);
   EXPECT_EQ(candidates.size(), 144u);
 }
