@@ -10,9 +10,6 @@
 namespace stereobench::slam {
 namespace {
 
-/// Least change of a variable, in its conditional standard deviations, that is followed.
-constexpr double kFollowed = 1e-2;
-
 /// What stands in for a direction of which nothing is known: one over its standard deviation, m or rad.
 constexpr double kUnknownWeight = 1e-6;
 
@@ -21,7 +18,10 @@ constexpr double kUnknownWeight = 1e-6;
 int BayesTree::add_variable(int numbers, const Eigen::Vector3d& guess) {
   Node added;
   added.numbers = numbers;
-  added.held.head(numbers) = added.solution.head(numbers) = guess.head(numbers);
+  added.held.head(numbers) = guess.head(numbers);
+  followed_.solution.push_back(added.held);
+  followed_.solved.push_back(0);
+  followed_.moved.push_back(0);
   nodes_.push_back(std::move(added));
   column_.push_back(kNotMet);
   const int variable = static_cast<int>(nodes_.size()) - 1;
@@ -47,31 +47,17 @@ void BayesTree::replace(int index, const Factor& factor) {
   touch(factor);
 }
 
-std::vector<int> BayesTree::solve(std::span<const int> last) {
+std::vector<int> BayesTree::solve(std::span<const int> last, std::size_t most) {
   std::vector<int> solved;
-  if (touched_.empty()) return solved;
-  Top top = take_off_top();
-  order(top, last);
-  eliminate(top);
-  // From the root down: what a variable depends on is solved before it.
-  std::vector<int> moved;
-  const auto solve_one = [&](int variable) {
-    solved.push_back(variable);
-    if (!solve_node(variable)) return;
-    column_of(variable) = kTaken;
-    moved.push_back(variable);
-  };
-  const auto has_moved = [this](int variable) { return column_of(variable) == kTaken; };
-  for (auto it = top.variables.rbegin(); it != top.variables.rend(); ++it) solve_one(*it);
-  std::vector<int> below = top.orphans;
-  while (!below.empty()) {
-    const int variable = below.back();
-    below.pop_back();
-    if (std::ranges::none_of(node(variable).separator, has_moved)) continue;
-    solve_one(variable);
-    below.insert(below.end(), node(variable).children.begin(), node(variable).children.end());
+  if (!touched_.empty()) {
+    Top top = take_off_top();
+    order(top, last);
+    eliminate(top);
+    // From the root down: what a variable depends on is solved before it.
+    solved.assign(top.variables.rbegin(), top.variables.rend());
+    for (const int v : solved) solve_node(v, followed_);
+    follow(std::move(top.orphans), most, solved);
   }
-  for (const int variable : moved) column_of(variable) = kNotMet;
   return solved;
 }
 
@@ -245,84 +231,6 @@ void BayesTree::eliminate(int variable, std::span<const int> children) {
   } else {
     own.passed = rows.bottomRightCorner(rows.rows() - own.numbers, separator_columns + 1);
   }
-}
-
-/// @return whether the solution has changed enough to be followed
-bool BayesTree::solve_node(int variable) {
-  Node& own = node(variable);
-  const auto n = static_cast<Eigen::Index>(own.numbers);
-  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
-  pull.head(n) = own.density.rightCols<1>();
-  Eigen::Index column = n;
-  for (const int s : own.separator) {
-    const auto numbers = static_cast<Eigen::Index>(node(s).numbers);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index j = 0; j < numbers; ++j) pull(i) -= own.density(i, column + j) * node(s).solution(j);
-    }
-    column += numbers;
-  }
-  Eigen::Vector3d solution = Eigen::Vector3d::Zero();
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
-    double rest = pull(i);
-    for (Eigen::Index j = i + 1; j < n; ++j) rest -= own.density(i, j) * solution(j);
-    solution(i) = rest / own.density(i, i);
-  }
-  if (!solution.allFinite()) return false;
-  if (!((own.density.topLeftCorner(n, n) * (solution - own.solution).head(n)).norm() > kFollowed))
-    return false;
-  own.solution = solution;
-  return true;
-}
-
-/// @return they themselves too, in the order of elimination
-std::vector<int> BayesTree::ancestors_of(std::span<const int> variables) const {
-  std::vector<int> all;
-  std::vector<bool> met(nodes_.size(), false);
-  for (const int variable : variables) {
-    for (int v = variable; v != kNone && !met[static_cast<std::size_t>(v)]; v = node(v).parent) {
-      met[static_cast<std::size_t>(v)] = true;
-      all.push_back(v);
-    }
-  }
-  std::ranges::sort(all, {}, [this](int v) { return node(v).rank; });
-  return all;
-}
-
-/// With Y = R^-T E, where E picks the variables, R^-1 R^-T between them is Y' Y.
-Eigen::MatrixXd BayesTree::covariance(std::span<const int> variables) const {
-  const std::vector<int> path = ancestors_of(variables);
-  std::vector<Eigen::Index> row_of(nodes_.size(), -1);
-  Eigen::Index rows = 0;
-  for (const int v : path) {
-    row_of[static_cast<std::size_t>(v)] = rows;
-    rows += node(v).numbers;
-  }
-  Eigen::Index columns = 0;
-  for (const int v : variables) columns += node(v).numbers;
-  Rows y = Rows::Zero(rows, columns);
-  Eigen::Index column = 0;
-  for (const int v : variables) {
-    for (int i = 0; i < node(v).numbers; ++i) y(row_of[static_cast<std::size_t>(v)] + i, column++) = 1.0;
-  }
-  for (const int v : path) {
-    const Node& own = node(v);
-    const Eigen::Index at = row_of[static_cast<std::size_t>(v)];
-    for (Eigen::Index i = 0; i < own.numbers; ++i) {
-      for (Eigen::Index j = 0; j < i; ++j) y.row(at + i) -= own.density(j, i) * y.row(at + j);
-      y.row(at + i) /= own.density(i, i);
-    }
-    Eigen::Index from = own.numbers;
-    for (const int s : own.separator) {
-      const Eigen::Index above = row_of[static_cast<std::size_t>(s)];
-      for (Eigen::Index j = 0; j < node(s).numbers; ++j, ++from) {
-        for (Eigen::Index i = 0; i < own.numbers; ++i)
-          y.row(above + j) -= own.density(i, from) * y.row(at + i);
-      }
-    }
-  }
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(columns, columns);
-  covariance.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose());
-  return covariance.selfadjointView<Eigen::Lower>();
 }
 
 }  // namespace stereobench::slam

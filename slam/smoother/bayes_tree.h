@@ -1,6 +1,7 @@
 /// Sparse least squares that is solved anew at the cost of what changed: the Bayes tree.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace stereobench::slam {
 class BayesTree {
  public:
   static constexpr int kNone = -1;
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
   /// Rows of unit variance: by_first * first + by_second * second = target. Rows and columns beyond what is
   /// used are not read.
@@ -35,6 +37,7 @@ class BayesTree {
   /// it are read
   /// @return the variable's index: they are counted from 0
   int add_variable(int numbers, const Eigen::Vector3d& guess);
+  std::size_t variable_count() const { return nodes_.size(); }
 
   /// @return the factor's index: they are counted from 0
   int add(const Factor& factor);
@@ -54,14 +57,25 @@ class BayesTree {
   ///
   /// A variable that would change by less than 10^-2 of its conditional standard deviation stays as it is,
   /// until more has come together. One is solved anew where it was eliminated anew, or where a variable of
-  /// its separator has changed.
+  /// its separator has changed. Of the latter some may be left behind, for catch_up().
   ///
   /// @param last variables that the next factors will concern: they are eliminated last
+  /// @param most how many variables may be solved anew that were not eliminated anew
   /// @return the variables that were solved anew, changed or not
-  std::vector<int> solve(std::span<const int> last);
+  std::vector<int> solve(std::span<const int> last, std::size_t most = kAll);
+
+  /// Solves variables anew that were left behind, and what they depend on: none is ever solved before those.
+  ///
+  /// @return the variables that were solved anew, changed or not
+  std::vector<int> catch_up(std::span<const int> variables);
 
   /// @return the solution of a variable; numbers that it does not have are 0
-  const Eigen::Vector3d& solution(int variable) const { return node(variable).solution; }
+  const Eigen::Vector3d& solution(int variable) const {
+    return followed_.solution[static_cast<std::size_t>(variable)];
+  }
+
+  /// @return the solution of all variables, none of them left
+  std::vector<Eigen::Vector3d> settled() const;
 
   /// The joint covariance of variables at the solution, in their order. Exact for the linear problem, and
   /// positive semidefinite by construction. Costs grow with the paths from them to the root.
@@ -84,8 +98,15 @@ class BayesTree {
     std::vector<int> factors;    ///< that entered here
     Rows density;                ///< R, S, d: R x + S separator = d
     Rows passed;                 ///< what is known of the separator from here and below, beside the target
-    Eigen::Vector3d solution = Eigen::Vector3d::Zero();
     Eigen::Vector3d held = Eigen::Vector3d::Zero();  ///< where nothing else is known
+  };
+
+  /// How far back substitution has come, by variable. Times count solved variables.
+  struct Followed {
+    std::vector<Eigen::Vector3d> solution;
+    std::vector<long> solved;  ///< when it was solved last
+    std::vector<long> moved;   ///< when it was changed last
+    long time = 0;
   };
 
   /// What is to be eliminated anew.
@@ -110,11 +131,14 @@ class BayesTree {
   Eigen::Index find_separator(int variable, std::span<const int> children);
   Rows assemble(int variable, std::span<const int> children);
   void write(const Factor& factor, Eigen::Index row, Rows& rows);
-  bool solve_node(int variable);
+  void solve_node(int variable, Followed& followed) const;
+  bool is_behind(int variable, const Followed& followed) const;
+  void follow(std::vector<int> below, std::size_t most, std::vector<int>& solved);
   std::vector<int> ancestors_of(std::span<const int> variables) const;
 
   std::vector<Node> nodes_;
   std::vector<Factor> factors_;
+  Followed followed_;
   std::vector<int> waiting_;  ///< factors that have not entered
   std::vector<int> touched_;  ///< variables of factors that are new or replaced
   int next_rank_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "slam/models/measurement.h"
@@ -23,6 +24,10 @@ constexpr int kMostHalvings = 10;
 /// By how much a step may raise the cost: its rounding.
 constexpr double kRounding = 1e-9;
 constexpr double kLeastCost = 1e-6;
+
+/// By what share a graph grows until all of it is linearised anew. What that costs grows with the graph, and
+/// so does the number of steps between: a step costs the same on average.
+constexpr double kGrowth = 0.03;
 
 Pose pose_of(const Eigen::Vector3d& value) {
   return {value.x(), value.y(), value.z()};
@@ -143,20 +148,39 @@ PathGraph::Linear PathGraph::linearise(const Sighted& sighted) const {
 
 void PathGraph::solve() {
   is_fresh_ = false;
+  if (tree_.variable_count() >= renewed_from_) renew();
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<int> changed = changed_variables();
     if (changed.empty() || !step(changed)) return;
   }
 }
 
+/// Brings all to where it belongs now, and linearises all of it there. Factors that were linearised at
+/// different headings disagree on which way is ahead, and together claim to know the heading better than they
+/// do.
+void PathGraph::renew() {
+  std::vector<int> all(values_.size());
+  std::iota(all.begin(), all.end(), 0);
+  catch_up(all);
+  std::vector<std::size_t> factors(factors_.size());
+  std::iota(factors.begin(), factors.end(), 0U);
+  linearise_anew(factors);
+  renewed_from_ = static_cast<std::size_t>((1.0 + kGrowth) * static_cast<double>(all.size()));
+}
+
 /// @return the variables whose values are not the tree's solution
 std::vector<int> PathGraph::changed_variables() {
-  std::vector<int> changed = tree_.solve(late_);
+  std::vector<int> changed = tree_.solve(late_, kMostOfThePast);
   changed.insert(changed.end(), behind_.begin(), behind_.end());
   behind_.clear();
   std::ranges::sort(changed);
   changed.erase(std::ranges::unique(changed).begin(), changed.end());
   return changed;
+}
+
+void PathGraph::catch_up(std::span<const int> variables) {
+  const std::vector<int> changed = tree_.catch_up(variables);
+  if (!changed.empty()) step(changed);
 }
 
 /// @return the factors that a change to the tree's solution may bend, each once
@@ -297,6 +321,13 @@ Pose PathGraph::pose() const {
   Pose pose = pose_of(value(pose_));
   pose.heading_rad = wrap_angle(pose.heading_rad);
   return pose;
+}
+
+std::vector<Eigen::Vector3d> PathGraph::settled() const {
+  std::vector<Eigen::Vector3d> settled = tree_.settled();
+  for (std::size_t v = 0; v < settled.size(); ++v)
+    if (settled[v] == tree_.solution(static_cast<int>(v))) settled[v] = values_[v];
+  return settled;
 }
 
 Eigen::MatrixXd PathGraph::covariance(std::span<const int> landmarks) const {

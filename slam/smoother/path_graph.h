@@ -40,12 +40,19 @@ class PathGraph {
   /// Two landmarks are at one place.
   void add_same_place(int one, int other);
 
-  /// Goes to the mode of all that was added.
+  /// Goes to the mode of all that was added. Of a long past most is left behind, until somebody asks for it
+  /// or the graph has grown by a share: then all of it is linearised anew.
   void solve();
+
+  /// Brings variables of the past to where they belong now.
+  void catch_up(std::span<const int> variables);
 
   /// @return the last pose, or the start
   Pose pose() const;
   Eigen::Vector2d landmark(int variable) const { return value(variable).head<2>(); }
+
+  /// @return all values, by variable, where they belong now
+  std::vector<Eigen::Vector3d> settled() const;
 
   /// @param landmarks variables, each once
   /// @return of the last pose (x, y, heading; zeros for the start) and landmarks, in their order
@@ -56,6 +63,9 @@ class PathGraph {
 
  private:
   static constexpr int kStart = -1;
+
+  /// How many variables of the past may be solved anew at once; those beyond are left behind.
+  static constexpr std::size_t kMostOfThePast = 300;
 
   struct Motion {
     int from;  ///< variable, or kStart
@@ -104,6 +114,7 @@ class PathGraph {
   static double cost_of(const Residuals& residuals);
   std::vector<std::size_t> curved(std::span<const std::size_t> factors, const Residuals& residuals) const;
   void linearise_anew(std::span<const std::size_t> factors);
+  void renew();
   std::vector<int> changed_variables();
   std::vector<std::size_t> concerned_by(std::span<const int> changed) const;
   template <class Go>
@@ -117,11 +128,12 @@ class PathGraph {
   std::vector<Motion> motions_;
   std::vector<Sighted> sightings_;
   std::vector<SamePlace> same_places_;
-  std::vector<GraphFactor> factors_;  ///< by index in the tree
-  int pose_ = kStart;                 ///< the last one
-  std::vector<int> late_;             ///< variables that the last frame concerned
-  std::vector<int> behind_;           ///< variables that are not at the tree's solution
-  bool is_fresh_ = false;             ///< whether what the last step concerned was linearised where it stands
+  std::vector<GraphFactor> factors_;           ///< by index in the tree
+  int pose_ = kStart;                          ///< the last one
+  std::vector<int> late_;                      ///< variables that the last frame concerned
+  std::vector<int> behind_;                    ///< variables that are not at the tree's solution
+  std::size_t renewed_from_ = kMostOfThePast;  ///< from how many variables on all is linearised anew
+  bool is_fresh_ = false;  ///< whether what the last step concerned was linearised where it stands
   long refused_ = 0;
 };
 

@@ -104,13 +104,13 @@ std::vector<std::size_t> Smoother::may_be_seen(std::span<const Sighting> frame) 
 void Smoother::assume(std::span<const std::size_t> near) {
   std::vector<int> variables;
   std::vector<EkfSlam::Mapped> kept;
-  JointBelief belief{.pose = graph_.pose()};
   for (const std::size_t j : near) {
-    const Mapped& landmark = map_[j];
-    kept.push_back(landmark.kept);
-    variables.push_back(landmark.variable);
-    belief.landmarks.push_back(graph_.landmark(landmark.variable));
+    kept.push_back(map_[j].kept);
+    variables.push_back(map_[j].variable);
   }
+  graph_.catch_up(variables);
+  JointBelief belief{.pose = graph_.pose()};
+  for (const int variable : variables) belief.landmarks.push_back(graph_.landmark(variable));
   belief.covariance = JointCovariance(graph_.covariance(variables));
   reader_.assume(std::move(belief), std::move(kept));
 }
@@ -157,12 +157,13 @@ Estimate Smoother::estimate_without_map() const {
 
 Estimate Smoother::estimate() const {
   Estimate estimate = estimate_without_map();
+  const std::vector<Eigen::Vector3d> places = graph_.settled();
   for (const Mapped& landmark : map_) {
     if (!EkfSlam::is_reported(landmark.kept)) continue;
     const std::vector<int> variables{landmark.variable};
     const Eigen::Matrix2d covariance = graph_.covariance(variables).bottomRightCorner<2, 2>();
-    estimate.landmarks.push_back(
-        reader_.reported(landmark.kept, {graph_.landmark(landmark.variable), covariance}));
+    estimate.landmarks.push_back(reader_.reported(
+        landmark.kept, {places[static_cast<std::size_t>(landmark.variable)].head<2>(), covariance}));
   }
   return estimate;
 }

@@ -1,6 +1,7 @@
 #include "slam/smoother/bayes_tree.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ class GrowingProblem {
     tree.replace(index, factor);
   }
 
-  std::vector<int> solve() { return tree.solve(last_); }
+  std::vector<int> solve(std::size_t most = BayesTree::kAll) { return tree.solve(last_, most); }
 
   /// R and the solution, by variable, of the dense problem.
   struct Dense {
@@ -140,6 +141,44 @@ TEST_P(BayesTreeLaw, SolvesLikeTheDenseProblem) {
     EXPECT_LE(off.dot(dense.information * off), 1e-4 * static_cast<double>(problem.variables())) << step;
   }
   EXPECT_EQ(problem.tree.repairs(), 0);
+}
+
+// What was left of the past comes in when it is asked for: the same as if it had been solved at once. Each
+// variable is then off by at most kFollowed conditional deviations. Mutations: catch_up() solves what it is
+// asked for without what that depends on; settled() in the order of the variables.
+TEST_P(BayesTreeLaw, BringsInWhatItLeftBehind) {
+  GrowingProblem problem(GetParam());
+  const auto squared_error = [&problem](const auto& solution) {
+    const GrowingProblem::Dense dense = problem.dense();
+    Eigen::VectorXd off(dense.solution.size());
+    for (int v = 0; v < problem.variables(); ++v) {
+      const int n = problem.numbers_of(v);
+      const Eigen::Index at = dense.at[static_cast<std::size_t>(v)];
+      off.segment(at, n) = solution(v).head(n) - dense.solution.segment(at, n);
+    }
+    return off.dot(dense.information * off);
+  };
+  double largest_before = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    problem.grow();
+    if (step % 4 == 3) problem.replace_one();
+    problem.solve(2);
+    const auto bound = 1e-4 * static_cast<double>(problem.variables());
+    const auto held = [&](int v) { return problem.tree.solution(v); };
+    largest_before = std::max(largest_before, squared_error(held) / bound);
+    const std::vector<Eigen::Vector3d> settled = problem.tree.settled();
+    EXPECT_LE(squared_error([&](int v) { return settled[static_cast<std::size_t>(v)]; }), bound) << step;
+    if (step % 10 != 9) continue;
+    const int asked = problem.any(problem.landmarks());
+    problem.tree.catch_up(std::vector<int>{asked});
+    EXPECT_LE((held(asked) - settled[static_cast<std::size_t>(asked)]).norm(), 1e-12) << step;
+    std::vector<int> all(static_cast<std::size_t>(problem.variables()));
+    std::iota(all.begin(), all.end(), 0);
+    problem.tree.catch_up(all);
+    EXPECT_LE(squared_error(held), bound) << step;
+    EXPECT_TRUE(problem.tree.catch_up(all).empty());
+  }
+  EXPECT_GT(largest_before, 10.0);
 }
 
 // Mutation: the columns of a separator taken in the order of their variables.
