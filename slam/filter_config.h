@@ -39,10 +39,10 @@ enum class Association {
 
 /// What a filter believes of its sensor: how far and wide it sees, and how well.
 struct SensorSector {
-  double range_m = 0.0;         ///< 0 = nothing is declared, and every landmark is real
-  double half_angle_rad = 0.0;  ///< to each side of straight ahead
-  double miss_probability = 0.0;
-  double false_per_look = 0.0;  ///< sightings of nothing, on average
+  double range_m = 0.0;           ///< 0 = nothing is declared, and every landmark is real
+  double half_angle_rad = 0.0;    ///< to each side of straight ahead
+  double miss_probability = 0.0;  ///< 1 = what is not seen may be hidden, and says nothing
+  double false_per_look = 0.0;    ///< sightings of nothing, on average
 };
 
 /// Settings of a filter; dead reckoning reads the odometry's noise only.

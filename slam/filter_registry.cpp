@@ -34,8 +34,8 @@ void check(const SensorSector& sector) {
           "sector must be finite and >= 0");
   require((sector.range_m > 0.0) == (sector.half_angle_rad > 0.0),
           "sector must have both a range and an angle, or neither");
-  require(sector.miss_probability >= 0.0 && sector.miss_probability < 1.0,
-          "sector.miss_probability must be in [0, 1)");
+  require(sector.miss_probability >= 0.0 && sector.miss_probability <= 1.0,
+          "sector.miss_probability must be in [0, 1]");
 }
 
 void check(const FilterConfig& config) {

@@ -1,5 +1,7 @@
 #include "harness/experiment/filter_config.h"
 
+#include "worlds/visibility/visibility.h"
+
 namespace stereobench::harness {
 
 slam::SensorSector sector_of(const worlds::OracleSensor& sensor) {
@@ -19,6 +21,10 @@ slam::FilterConfig filter_config(const Experiment& experiment) {
   config.association = experiment.association;
   if (scenario.sensor == worlds::SensorKind::kOracle)
     config.sector = believed.sector.value_or(sector_of(scenario.oracle));
+  if (scenario.sensor == worlds::SensorKind::kStereo && scenario.identity == worlds::Identity::kNone) {
+    const auto [range_m, half_angle_rad] = worlds::view_sector(scenario);
+    config.sector = {range_m, half_angle_rad, 1.0, 0.0};  // what is not seen may be hidden
+  }
   return config;
 }
 

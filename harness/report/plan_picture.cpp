@@ -39,21 +39,6 @@ Eigen::AlignedBox2d extent_of(const worlds::World& world, const worlds::GroundTr
   return {box.min() - Eigen::Vector2d(edge_m, edge_m), box.max() + Eigen::Vector2d(edge_m, edge_m)};
 }
 
-/// How far, and how wide, the robot looks.
-struct Sector {
-  double reach_m = 0.0;
-  double half_angle_rad = 0.0;
-};
-
-Sector sector_of(const worlds::Scenario& scenario) {
-  if (scenario.sensor == worlds::SensorKind::kOracle)
-    return {scenario.oracle.max_range_m, scenario.oracle.field_of_view_rad / 2.0};
-  const vision::Intrinsics& camera = scenario.rig.intrinsics;
-  const double radius_m = scenario.world.balls.front().radius_m;  // stereo: one for all
-  return {camera.focal_px * radius_m / worlds::kLeastRadius_px,
-          std::atan(0.5 * camera.width_px / camera.focal_px)};
-}
-
 /// How far one sees from a point along a direction: to the nearest line that hides what is behind it.
 double free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double reach_m,
               std::span<const FloorLine> lines) {
@@ -72,7 +57,7 @@ double free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, dou
 }
 
 void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<const FloorLine> lines) {
-  const Sector sector = sector_of(scenario);
+  const worlds::ViewSector sector = worlds::view_sector(scenario);
   const std::size_t steps = scenario.path.size();
   const std::size_t count = std::min(kSectors, steps);
   for (std::size_t i = 0; i < count; ++i) {
@@ -82,7 +67,7 @@ void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<
       const double angle_rad = step.pose.heading_rad + sector.half_angle_rad * k / 60.0;
       const Eigen::Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
       corners.push_back(corners.front() +
-                        free_m(corners.front(), direction, sector.reach_m, lines) * direction);
+                        free_m(corners.front(), direction, sector.range_m, lines) * direction);
     }
     sheet.polygon(corners, "fill=\"#4a90d9\" fill-opacity=\"0.1\" stroke=\"#4a90d9\" stroke-opacity=\"0.3\"");
   }

@@ -94,6 +94,14 @@ bool in_sector(const OracleSensor& sensor, const slam::Pose& pose, const Ball& b
 
 }  // namespace
 
+ViewSector view_sector(const Scenario& scenario) {
+  if (scenario.sensor == SensorKind::kOracle)
+    return {scenario.oracle.max_range_m, 0.5 * scenario.oracle.field_of_view_rad};
+  const vision::Intrinsics& camera = scenario.rig.intrinsics;
+  return {camera.focal_px * scenario.world.ball_radius_m() / kLeastRadius_px,
+          slam::arc_tangent(0.5 * camera.width_px, camera.focal_px)};
+}
+
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                    const Eigen::Vector2d& d) {
   const auto sides_differ = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r,

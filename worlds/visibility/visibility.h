@@ -22,6 +22,16 @@ inline constexpr double kBorder_px = 2.0;       ///< between its outline and the
 std::vector<int> balls_in_view(const Scenario& scenario, const World& world,
                                const slam::Pose& world_from_robot, double slack_m = 0.0);
 
+/// How far, and how wide to each side, a robot looks, if nothing hides what is there.
+struct ViewSector {
+  double range_m = 0.0;
+  double half_angle_rad = 0.0;
+};
+
+/// By stereo, as far as a ball of the nominal radius is large enough, and as wide as the picture of the left
+/// camera; by the oracle, its sector.
+ViewSector view_sector(const Scenario& scenario);
+
 /// Whether the lines from a to b and from c to d have a point in common.
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                    const Eigen::Vector2d& d);

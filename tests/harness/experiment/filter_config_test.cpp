@@ -1,5 +1,7 @@
 #include "harness/experiment/filter_config.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace stereobench::harness {
@@ -19,6 +21,21 @@ TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
   EXPECT_EQ(filter_config(experiment).sector.false_per_look, 0.1);
   experiment.scenario.sensor = worlds::SensorKind::kStereo;
   EXPECT_EQ(filter_config(experiment).sector.range_m, 0.0);
+}
+
+// Cameras do not see through walls. Mutations: a sector for known identities, too; misses that count.
+TEST(FilterConfigOfAnExperiment, SaysHowFarCamerasSeeWhereNothingElseTellsLandmarksApart) {
+  Experiment experiment;
+  experiment.scenario.sensor = worlds::SensorKind::kStereo;
+  experiment.scenario.rig.intrinsics.focal_px = 500.0;
+  experiment.scenario.rig.intrinsics.width_px = 1000;
+  experiment.scenario.world.balls.resize(1);
+  experiment.scenario.world.balls.front().radius_m = 0.05;
+  experiment.scenario.identity = worlds::Identity::kNone;
+  const slam::SensorSector sector = filter_config(experiment).sector;
+  EXPECT_NEAR(sector.range_m, 5.0, 1e-12);
+  EXPECT_NEAR(sector.half_angle_rad, std::atan(1.0), 1e-12);
+  EXPECT_EQ(sector.miss_probability, 1.0);
 }
 
 // Mutations: the true noise in any case; none where nothing is said.

@@ -41,6 +41,19 @@ TEST(Existence, SightingsSpeakForALandmarkAndLooksWithoutOneAgainstIt) {
   EXPECT_LE(looks, 10) << "what was seen a thousand times can go";
 }
 
+// Mutation: a floor alone under what may be missed, which forgets what is behind a corner.
+TEST(Existence, WhatMayBeHiddenIsNotForgotten) {
+  SensorSector sector = kSector;
+  sector.miss_probability = 1.0;
+  sector.false_per_look = 0.0;
+  const Existence existence(sector);
+  float odds = existence.founded();
+  EXPECT_TRUE(Existence::is_believed(odds));
+  for (int look = 0; look < 10000; ++look) odds = existence.unseen(odds);
+  EXPECT_TRUE(Existence::is_believed(odds));
+  EXPECT_EQ(existence.seen(odds, observed(5.0, 0.0)), odds);
+}
+
 // The better the sensor, the less can clutter pass for a landmark. Mutation: the clutter of the whole
 // sector in place of that of the gate.
 TEST(Existence, APreciseSightingSaysMore) {
