@@ -22,7 +22,8 @@ slam::FilterConfig filter_config(const Experiment& experiment) {
   if (scenario.sensor == worlds::SensorKind::kOracle)
     config.sector = believed.sector.value_or(sector_of(scenario.oracle));
   if (scenario.sensor == worlds::SensorKind::kStereo && scenario.identity == worlds::Identity::kNone) {
-    const auto [range_m, half_angle_rad] = worlds::view_sector(scenario);
+    const auto [range_m, half_angle_rad] =
+        worlds::view_sector(scenario.believed_rig, scenario.world.ball_radius_m());
     config.sector = {range_m, half_angle_rad, 1.0, 0.0};  // what is not seen may be hidden
   }
   return config;

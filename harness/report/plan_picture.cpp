@@ -39,6 +39,12 @@ Eigen::AlignedBox2d extent_of(const worlds::World& world, const worlds::GroundTr
   return {box.min() - Eigen::Vector2d(edge_m, edge_m), box.max() + Eigen::Vector2d(edge_m, edge_m)};
 }
 
+worlds::ViewSector sector_of(const worlds::Scenario& scenario) {
+  if (scenario.sensor == worlds::SensorKind::kOracle)
+    return {scenario.oracle.max_range_m, 0.5 * scenario.oracle.field_of_view_rad};
+  return worlds::view_sector(scenario.rig, scenario.world.ball_radius_m());
+}
+
 /// How far one sees from a point along a direction: to the nearest line that hides what is behind it.
 double free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double reach_m,
               std::span<const FloorLine> lines) {
@@ -57,7 +63,7 @@ double free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, dou
 }
 
 void draw_sectors(PlanSheet& sheet, const worlds::Scenario& scenario, std::span<const FloorLine> lines) {
-  const worlds::ViewSector sector = worlds::view_sector(scenario);
+  const worlds::ViewSector sector = sector_of(scenario);
   const std::size_t steps = scenario.path.size();
   const std::size_t count = std::min(kSectors, steps);
   for (std::size_t i = 0; i < count; ++i) {

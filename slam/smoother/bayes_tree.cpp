@@ -48,16 +48,14 @@ void BayesTree::replace(int index, const Factor& factor) {
 }
 
 std::vector<int> BayesTree::solve(std::span<const int> last, std::size_t most) {
-  std::vector<int> solved;
-  if (!touched_.empty()) {
-    Top top = take_off_top();
-    order(top, last);
-    eliminate(top);
-    // From the root down: what a variable depends on is solved before it.
-    solved.assign(top.variables.rbegin(), top.variables.rend());
-    for (const int v : solved) solve_node(v, followed_);
-    follow(std::move(top.orphans), most, solved);
-  }
+  if (touched_.empty()) return {};
+  Top top = take_off_top();
+  order(top, last);
+  eliminate(top);
+  // From the root down: what a variable depends on is solved before it.
+  std::vector<int> solved(top.variables.rbegin(), top.variables.rend());
+  for (const int v : solved) solve_node(v, followed_);
+  follow(std::move(top.orphans), most, solved);
   return solved;
 }
 

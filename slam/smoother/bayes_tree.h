@@ -37,7 +37,6 @@ class BayesTree {
   /// it are read
   /// @return the variable's index: they are counted from 0
   int add_variable(int numbers, const Eigen::Vector3d& guess);
-  std::size_t variable_count() const { return nodes_.size(); }
 
   /// @return the factor's index: they are counted from 0
   int add(const Factor& factor);

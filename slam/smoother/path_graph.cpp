@@ -148,7 +148,7 @@ PathGraph::Linear PathGraph::linearise(const Sighted& sighted) const {
 
 void PathGraph::solve() {
   is_fresh_ = false;
-  if (tree_.variable_count() >= renewed_from_) renew();
+  if (values_.size() >= renewed_from_) renew();
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<int> changed = changed_variables();
     if (changed.empty() || !step(changed)) return;

@@ -94,11 +94,9 @@ bool in_sector(const OracleSensor& sensor, const slam::Pose& pose, const Ball& b
 
 }  // namespace
 
-ViewSector view_sector(const Scenario& scenario) {
-  if (scenario.sensor == SensorKind::kOracle)
-    return {scenario.oracle.max_range_m, 0.5 * scenario.oracle.field_of_view_rad};
-  const vision::Intrinsics& camera = scenario.rig.intrinsics;
-  return {camera.focal_px * scenario.world.ball_radius_m() / kLeastRadius_px,
+ViewSector view_sector(const vision::StereoRig& rig, double ball_radius_m) {
+  const vision::Intrinsics& camera = rig.intrinsics;
+  return {camera.focal_px * ball_radius_m / kLeastRadius_px,
           slam::arc_tangent(0.5 * camera.width_px, camera.focal_px)};
 }
 

@@ -28,9 +28,8 @@ struct ViewSector {
   double half_angle_rad = 0.0;
 };
 
-/// By stereo, as far as a ball of the nominal radius is large enough, and as wide as the picture of the left
-/// camera; by the oracle, its sector.
-ViewSector view_sector(const Scenario& scenario);
+/// As far as a ball is large enough to be measured, and as wide as the picture of the left camera.
+ViewSector view_sector(const vision::StereoRig& rig, double ball_radius_m);
 
 /// Whether the lines from a to b and from c to d have a point in common.
 bool segments_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,

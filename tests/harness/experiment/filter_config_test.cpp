@@ -23,12 +23,13 @@ TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
   EXPECT_EQ(filter_config(experiment).sector.range_m, 0.0);
 }
 
-// Cameras do not see through walls. Mutations: a sector for known identities, too; misses that count.
+// Cameras do not see through walls. Mutations: a sector for known identities, too; misses
+// that count; the true rig.
 TEST(FilterConfigOfAnExperiment, SaysHowFarCamerasSeeWhereNothingElseTellsLandmarksApart) {
   Experiment experiment;
   experiment.scenario.sensor = worlds::SensorKind::kStereo;
-  experiment.scenario.rig.intrinsics.focal_px = 500.0;
-  experiment.scenario.rig.intrinsics.width_px = 1000;
+  experiment.scenario.believed_rig.intrinsics.focal_px = 500.0;
+  experiment.scenario.believed_rig.intrinsics.width_px = 1000;
   experiment.scenario.world.balls.resize(1);
   experiment.scenario.world.balls.front().radius_m = 0.05;
   experiment.scenario.identity = worlds::Identity::kNone;

@@ -67,8 +67,7 @@ class Lap {
 };
 
 // A loop that closes moves more variables than a frame may solve anew. Poses at once, and the map when it is
-// asked for, are those of the whole log at once. Mutations: a map of what was left behind; landmarks that a
-// frame sees again not brought up to where they belong.
+// asked for, are those of the whole log at once. Mutation: the past is never linearised anew as a whole.
 TEST(LongPast, FollowsWhenALoopCloses) {
   const Lap lap;
   const FilterConfig config{.odometry_noise = lap.noise, .gate_probability = 1.0};
@@ -90,6 +89,35 @@ TEST(LongPast, FollowsWhenALoopCloses) {
       EXPECT_LE(astray.dot(one.covariance.ldlt().solve(astray)), 0.01) << k << ", " << i;
     }
   }
+}
+
+// A straight drive of 612 m by an odometer whose scale alone is uncertain, and one last look at the first
+// landmark, 9.5 m farther back: all that lies between moves by its share, and most is left behind. The next
+// frame sees some of it, far from where it was left. Mutation: landmarks that a frame may show are not
+// brought to where they belong first.
+TEST(LongPast, IsBroughtInBeforeItIsSeenAgain) {
+  constexpr int kSteps = 612;  // the graph is not linearised anew as a whole in the last two frames
+  constexpr double kFarther_m = 9.5;
+  Smoother smoother({.odometry_noise = {0.1, 0.0, 0.0, 1e-7, 0.0, 0.0}, .range_floor_m = 0.0}, {});
+  const auto see = [](int id, double x_m) {
+    RangeBearing one{.range_m = std::hypot(x_m, 3.0), .bearing_rad = std::atan2(3.0, x_m), .landmark_id = id};
+    one.covariance = Eigen::Vector2d(1e-4, 1e-8).asDiagonal();
+    return one;
+  };
+  const double stretch = 1.0 + kFarther_m / (kSteps - 1);
+  for (int k = 1; k <= kSteps + 1; ++k) {
+    smoother.predict({1.0, 0.0, 1.0});
+    std::vector<RangeBearing> frame{see(k, 0.0)};
+    if (k == kSteps) frame.push_back(see(1, -(kSteps - 1) * stretch));
+    if (k == kSteps + 1) {
+      for (int id = kSteps / 6; id < kSteps; id += kSteps / 6)
+        frame.push_back(see(id, -(kSteps - id) * stretch - 1.0));
+    }
+    smoother.update(frame);
+  }
+  const std::vector<Decision> last = smoother.last_decisions().sightings;
+  ASSERT_EQ(last.size(), 6U);
+  for (std::size_t i = 1; i < last.size(); ++i) EXPECT_EQ(last[i].outcome, Outcome::kUse) << i;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "slam/smoother/path_graph.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
