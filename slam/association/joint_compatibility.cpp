@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "slam/association/joint_factor.h"
+#include "slam/association/lookalike_sets.h"
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "slam/math/gaussian.h"
@@ -28,54 +31,6 @@ constexpr double kUnlikely = 14.0;
 constexpr double kLeastCost = -1e3;
 
 using Indices = std::vector<std::size_t>;
-
-/// The joint covariance of pairs, factored row by row as pairs come and go at its end.
-class JointFactor {
- public:
-  JointFactor(std::span<const Pairing> pairings, const Tie& tie) : pairings_(pairings), tie_(tie) {}
-
-  std::size_t size() const { return chosen_.size(); }
-  double squared_length() const { return chosen_.empty() ? 0.0 : chosen_.back().squared_length; }
-  double cost() const { return chosen_.empty() ? 0.0 : chosen_.back().cost; }
-
-  void push(std::size_t pair) {
-    std::vector<Eigen::Matrix2d> row;
-    Eigen::Matrix2d rest = pairings_[pair].covariance;
-    Eigen::Vector2d residual = pairings_[pair].residual;
-    for (const Row& before : chosen_) {
-      Eigen::Matrix2d block = tie_(pair, before.pair);
-      for (std::size_t i = 0; i < row.size(); ++i) block -= row[i] * before.blocks[i].transpose();
-      row.push_back(before.factor.whiten<2>(block));
-      rest -= row.back() * row.back().transpose();
-      residual -= row.back() * before.white;
-    }
-    long repaired = 0;  // of a search, not of a belief
-    const Factor2 factor(rest, repaired);
-    const Eigen::Vector2d white = factor.whiten<1>(residual.transpose()).transpose();
-    const double length = white.squaredNorm();
-    chosen_.push_back({pair, std::move(row), factor, white, squared_length() + length,
-                       cost() + length + factor.log_det_2_pi()});
-  }
-  void pop() { chosen_.pop_back(); }
-
-  Indices pairs() const {
-    Indices list;
-    for (const Row& row : chosen_) list.push_back(row.pair);
-    return list;
-  }
-
- private:
-  struct Row {
-    std::size_t pair;
-    std::vector<Eigen::Matrix2d> blocks;  ///< of the factor, left of the diagonal
-    Factor2 factor;                       ///< its block on the diagonal
-    Eigen::Vector2d white;                ///< the residual, whitened
-    double squared_length, cost;          ///< of all pairs up to here
-  };
-  std::span<const Pairing> pairings_;
-  const Tie& tie_;
-  std::vector<Row> chosen_;
-};
 
 /// Depth first over the sightings that have a choice; what is far less likely than the best so far is left.
 class SetSearch {
@@ -167,9 +122,17 @@ class SetSearch {
 
 bool has_rival(const Candidate& one, std::span<const Candidate> candidates) {
   if (one.gated || one.loose) return !one.gated;
-  return std::ranges::any_of(candidates, [&](const Candidate& other) {
-    return !other.gated && (one.sighting == other.sighting) != (one.landmark == other.landmark);
-  });
+  return std::ranges::any_of(candidates,
+                             [&](const Candidate& other) { return !other.gated && compete(one, other); });
+}
+
+/// @return the sightings that have one which is loose, in their order
+std::vector<int> loose_sightings(std::span<const Candidate> candidates) {
+  std::set<int> sightings;
+  for (const Candidate& one : candidates) {
+    if (one.loose && !one.gated) sightings.insert(one.sighting);
+  }
+  return {sightings.begin(), sightings.end()};
 }
 
 /// The candidates that have a rival, by sighting: those with the fewest choices first. The order does not
@@ -228,6 +191,10 @@ std::vector<double> least_costs(std::span<const Candidate> candidates, std::span
 
 }  // namespace
 
+bool compete(const Candidate& one, const Candidate& other) {
+  return (one.sighting == other.sighting) != (one.landmark == other.landmark);
+}
+
 bool is_open(std::span<const Candidate> candidates) {
   return std::ranges::any_of(candidates, [&](const Candidate& one) { return has_rival(one, candidates); });
 }
@@ -246,16 +213,18 @@ std::vector<int> keep_joint(std::vector<Candidate>& candidates, std::span<const 
   }
   const double degrees = 2.0 * static_cast<double>(factor.size());
   if (factor.size() > 0 && factor.squared_length() > approximate_chi_square_quantile(probability, degrees))
-    return {};
+    return loose_sightings(candidates);
   SetSearch search(candidates, as_other, factor, probability);
   const std::vector<Indices> choices = choices_of(candidates, open);
   const bool ended =
       search.run(choices, least_costs(candidates, pairings, tie, factor.pairs(), choices, as_other));
+  const bool elsewhere =
+      ended && fits_elsewhere(candidates, pairings, tie, search.best(), probability, kUnlikely);
   std::vector<int> unsure;
   for (const Indices& choice : choices) {
     const auto& [sighting, landmark, cost, gated, loose] = candidates[choice.front()];
     if (!loose) continue;
-    if (!ended || search.probability_of(sighting) < 1.0 - kDoubt) unsure.push_back(sighting);
+    if (!ended || elsewhere || search.probability_of(sighting) < 1.0 - kDoubt) unsure.push_back(sighting);
   }
   std::ranges::sort(unsure);
   if (!ended) {

@@ -21,6 +21,9 @@ struct Pairing {
 /// both are off by the same error of the pose.
 using Tie = std::function<Eigen::Matrix2d(std::size_t, std::size_t)>;
 
+/// @return whether two pairs share exactly one of sighting and landmark: at most one of them is right
+bool compete(const Candidate& one, const Candidate& other);
+
 /// @return whether two landmarks within the gate compete for a sighting, two sightings for a landmark, or a
 /// loose one with any other
 bool is_open(std::span<const Candidate> candidates);
@@ -40,7 +43,8 @@ bool is_open(std::span<const Candidate> candidates);
 /// @param probability of the quantile
 /// @param cut incremented when the search took too many steps
 /// @return the sightings with loose candidates, in their order, of which the likeliest set is not sure: what
-/// it says of them has less than 99.9 % among all compatible sets, or the search did not come to its end
+/// it says of them has less than 99.9 % among all compatible sets, or what is seen fits elsewhere too
+/// (fits_elsewhere), or the search did not come to its end, or it had no ground to begin with
 std::vector<int> keep_joint(std::vector<Candidate>& candidates, std::span<const Pairing> pairings,
                             const Tie& tie, std::span<const double> as_other, double probability, long& cut);
 

@@ -183,7 +183,8 @@ void EkfSlam::use(std::span<const Sighting> frame, const PoseBelief& motion) {
   management_.update(view, frame, decided.targets, counters_.gated_measurements);
   for (std::size_t k = 0; k < frame.size(); ++k) decided_[k].outcome = decided.targets[k].outcome;
   for (const UsedSighting& used : used_) map_[static_cast<std::size_t>(used.landmark)].last_seen = frames_;
-  if (policy_.merges) merge_doubles(frame.size());
+  // What was seen of late tells which places are one, and that tells it of all others.
+  if (policy_.merges && merge_doubles(kRecentFrames, frame.size())) merge_doubles(frame.size());
 }
 
 /// @param room of the pose that landmarks without an identity are searched with, beside its covariance
@@ -259,12 +260,8 @@ void EkfSlam::learn(const Target& target, const Sighting& sighting) {
                 policy_.existence);
 }
 
-/// Makes one of landmarks that were seen of late and older ones, where the map tells which is which; then of
-/// all others that this tells.
-void EkfSlam::merge_doubles(std::size_t shown) {
-  if (merge_doubles(kRecentFrames, shown)) merge_doubles(frames_, shown);
-}
-
+/// Makes one of landmarks that were seen of late and older ones, where the map tells which is which.
+///
 /// @param recent frames
 /// @return whether there were any
 bool EkfSlam::merge_doubles(int recent, std::size_t shown) {
@@ -276,7 +273,8 @@ bool EkfSlam::merge_doubles(int recent, std::size_t shown) {
        find_doubles(policy_, belief_, seen, recent, shown, counters_.joint_searches_cut)) {
     Mapped& old = map_[static_cast<std::size_t>(kept)];
     Mapped& late = map_[static_cast<std::size_t>(dropped)];
-    if (Existence::is_dead(old.status.log_odds)) continue;  // it was itself another's double
+    // One of them was itself another's double.
+    if (Existence::is_dead(old.status.log_odds) || Existence::is_dead(late.status.log_odds)) continue;
     merge(belief_, dropped, kept, counters_.covariance_repairs);
     merged_.push_back({old.status.origin, late.status.origin});
     old.last_seen = late.last_seen;

@@ -85,6 +85,11 @@ class EkfSlam {
   /// @return whether a landmark is sure enough to be part of an estimate
   static bool is_reported(const Mapped& landmark);
 
+  /// @return whether it may have been found twice: it has no identity, and is not dead
+  static bool may_be_double(const Mapped& landmark) {
+    return landmark.slot == kUnknown && !Existence::is_dead(landmark.status.log_odds);
+  }
+
   /// @return what an estimate says of it
   LandmarkEstimate reported(const Mapped& landmark, const LandmarkBelief& belief) const;
 
@@ -93,6 +98,11 @@ class EkfSlam {
 
   /// The same where somebody else keeps the motion since the last update.
   void use(std::span<const Sighting> frame, const PoseBelief& motion);
+
+  /// Makes one of landmarks that were found twice, however long ago; merged() then names these too.
+  /// @param shown how many landmarks a look shows
+  /// @return whether there were any
+  bool merge_doubles(std::size_t shown) { return merge_doubles(frames_, shown); }
 
   const JointBelief& belief() const { return belief_; }    ///< at the last update
   const PoseBelief& motion() const { return motion_; }     ///< since then, in the robot's frame of that time
@@ -141,7 +151,6 @@ class EkfSlam {
   void expect_of_refused(const Decided& decided);
   void find_landmark(int landmark, const Observation& observation);
   void learn(const Target& target, const Sighting& sighting);
-  void merge_doubles(std::size_t shown);
   bool merge_doubles(int recent, std::size_t shown);
 
   FilterConfig config_;

@@ -21,11 +21,12 @@ bool is_searched(const LandmarkSeen& landmark) {
 }
 
 /// Two that the same frame showed last are two.
-bool may_be_double(const LandmarkSeen& late, const LandmarkSeen& old) {
+bool may_be_same(const LandmarkSeen& late, const LandmarkSeen& old) {
   return is_searched(old) && old.status.colour_class == late.status.colour_class &&
          old.first_ago > late.first_ago && old.last_ago != late.last_ago;
 }
 
+/// A pair that competes with another is loose, however near it is.
 Doubles possible_doubles(const AssociationPolicy& policy, const JointBelief& belief,
                          std::span<const LandmarkSeen> seen, int recent, double as_other) {
   Doubles found;
@@ -35,7 +36,7 @@ Doubles possible_doubles(const AssociationPolicy& policy, const JointBelief& bel
   for (std::size_t i = 0; i < found.recent.size(); ++i) {
     const LandmarkSeen& late = seen[static_cast<std::size_t>(found.recent[i])];
     for (std::size_t j = 0; j < seen.size(); ++j) {
-      if (!may_be_double(late, seen[j])) continue;
+      if (!may_be_same(late, seen[j])) continue;
       const int old = static_cast<int>(j);
       const Pairing off = apart(belief, found.recent[i], old);
       long repaired = 0;  // for a comparison only
@@ -48,6 +49,9 @@ Doubles possible_doubles(const AssociationPolicy& policy, const JointBelief& bel
       found.pairings.push_back(off);
     }
   }
+  const std::vector<Candidate> all = found.candidates;
+  for (Candidate& one : found.candidates)
+    one.loose |= std::ranges::any_of(all, [&](const Candidate& other) { return compete(one, other); });
   return found;
 }
 

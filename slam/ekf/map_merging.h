@@ -23,7 +23,8 @@ struct LandmarkSeen {
 ///
 /// What was seen of late hangs together by odometry over a short way. It is laid over the old map as a whole,
 /// as a frame is laid over the map (keep_joint), with the density of landmarks on the ground for those that
-/// have no partner. A loose pair that has less than 99.9 % among all ways to do this stays two.
+/// have no partner. A pair that is loose, or competes with another, stays two where it has less than 99.9 %
+/// among all ways to do this, or where what was seen fits elsewhere too.
 ///
 /// @param seen the landmarks of the belief, in their order
 /// @param recent within so many frames

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "slam/association/landmark_search.h"
@@ -20,6 +22,9 @@ constexpr double kShareOfFrame = 0.03;
 
 /// Most of it, of the motion's own standard deviation: exact odometry stays exact.
 constexpr double kShareOfMotion = 0.1;
+
+/// Most landmarks that are looked at for doubles: what a covariance of all of them costs grows with its cube.
+constexpr std::size_t kMostDoubles = 100;
 
 /// A motion with room for a search. Where it is known not to leave a curve, steps along the curve are short.
 ///
@@ -68,7 +73,53 @@ void Smoother::update(std::span<const RangeBearing> sightings) {
   for (const auto& [kept, dropped] : reader_.merged())
     graph_.add_same_place(variable_of(kept), variable_of(dropped));
   graph_.solve();
+  if (!reader_.merged().empty()) merge_doubles(frame.size());
   assume({});
+}
+
+/// Makes one of landmarks anywhere that were found twice, once a loop is closed.
+///
+/// @param shown how many landmarks a look shows
+void Smoother::merge_doubles(std::size_t shown) {
+  const std::vector<std::size_t> near = may_be_doubles();
+  const std::size_t before = reader_.merged().size();
+  assume(near);
+  if (!reader_.merge_doubles(shown)) return;
+  take_over_map(near);
+  for (const auto& [kept, dropped] : reader_.merged().subspan(before))
+    graph_.add_same_place(variable_of(kept), variable_of(dropped));
+  graph_.solve();
+}
+
+/// @return landmarks, as indices, that lie so near to another that they may be one: the nearest pairs
+std::vector<std::size_t> Smoother::may_be_doubles() const {
+  struct Pair {
+    double squared_m2;
+    std::size_t one, other;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < map_.size(); ++i) {
+    if (!EkfSlam::may_be_double(map_[i].kept)) continue;
+    const Eigen::Vector2d place = graph_.landmark(map_[i].variable);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!EkfSlam::may_be_double(map_[j].kept) ||
+          map_[j].kept.status.colour_class != map_[i].kept.status.colour_class ||
+          map_[j].kept.last_seen == map_[i].kept.last_seen)
+        continue;
+      const double squared_m2 = (graph_.landmark(map_[j].variable) - place).squaredNorm();
+      if (squared_m2 <= policy_.gate * (map_[i].variance_m2 + map_[j].variance_m2))
+        pairs.push_back({squared_m2, i, j});
+    }
+  }
+  std::ranges::sort(pairs, [](const Pair& a, const Pair& b) {
+    return std::tie(a.squared_m2, a.one, a.other) < std::tie(b.squared_m2, b.one, b.other);
+  });
+  std::set<std::size_t> near;
+  for (const Pair& pair : pairs) {
+    if (near.size() >= kMostDoubles) break;
+    near.insert({pair.one, pair.other});
+  }
+  return {near.begin(), near.end()};
 }
 
 /// @return landmarks, as indices, that sightings may be of or that should be seen

@@ -41,6 +41,8 @@ class Smoother {
   std::vector<std::size_t> may_be_seen(std::span<const Sighting> frame) const;
   void assume(std::span<const std::size_t> near);
   void take_over_map(std::span<const std::size_t> near);
+  std::vector<std::size_t> may_be_doubles() const;
+  void merge_doubles(std::size_t shown);
   int variable_of(int origin) const;
   int variable_found_by(const Sighting& sighting) const;
 

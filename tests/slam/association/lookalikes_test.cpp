@@ -132,23 +132,33 @@ class Lookalikes : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Filters, Lookalikes, ::testing::Values("ekf", "iekf", "smoother"),
                          [](const auto& filter) { return std::string(filter.param); });
 
-// Ten drives of those that close their loop rightly: of 200 seeds 18 do not, and the first is 16
-// (docs/results.md). Mutations: no pair is loose; no sighting is unsure; doubles are never merged.
-TEST_P(Lookalikes, AreNotTakenForEachOther) {
+void expect_right_closures(const char* filter, std::uint64_t first, int drives) {
   CorridorOutcomes all;
-  constexpr int kDrives = 10;
-  for (std::uint64_t seed = 0; seed < kDrives; ++seed) {
-    const CorridorOutcomes one = CorridorDrive(GetParam(), seed).run();
+  int wrong_drives = 0;
+  for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(drives); ++seed) {
+    const CorridorOutcomes one = CorridorDrive(filter, seed).run();
+    wrong_drives += one.wrong > 0 ? 1 : 0;
     all.right += one.right;
-    all.wrong += one.wrong;
     all.twice += one.twice;
-    all.nees += one.nees / kDrives;
+    all.nees += one.nees / drives;
   }
-  EXPECT_EQ(all.wrong, 0);
-  EXPECT_GT(all.right, 1000 * kDrives);
-  EXPECT_EQ(all.twice, 0);
+  EXPECT_EQ(wrong_drives, 0);
+  EXPECT_GT(all.right, 1000 * drives);
+  EXPECT_LE(all.twice, 1 + drives / 20);
   EXPECT_GT(all.nees, 0.3);
   EXPECT_LT(all.nees, 2.0);
+}
+
+// Some that once closed their loop wrongly. Mutations seen to turn this red: no pair is loose; no sighting is
+// unsure; doubles are never merged; sets are not held against others that fit elsewhere; pairs of doubles
+// that compete are not loose; the smoother looks for doubles in what a frame may show alone.
+TEST_P(Lookalikes, AreNotTakenForEachOther) {
+  expect_right_closures(GetParam(), 15, 17);
+}
+
+// Takes a minute: --gtest_also_run_disabled_tests (docs/results.md).
+TEST_P(Lookalikes, DISABLED_AreNotTakenForEachOtherInTwoHundredDrives) {
+  expect_right_closures(GetParam(), 0, 200);
 }
 
 }  // namespace
