@@ -16,6 +16,10 @@ namespace {
 constexpr int kMostSteps = 20;
 constexpr double kConverged = 0.1;  ///< squared length of a step, in standard deviations of the factors
 
+/// Or no factor changes by more than 2 %. Where sensors are coarse, likelihoods jump where the mode of a
+/// frame does, and steps about such a place never end.
+constexpr double kFineStep = 0.02;
+
 constexpr double kLongestStep = 1.0;  ///< of a factor's logarithm
 constexpr double kPriorSd = 2.0;      ///< of a factor's logarithm, around 0
 
@@ -113,7 +117,7 @@ NoiseFit fit_noise(const std::function<NoiseEvidence(const LogFactors&)>& eviden
     const LogFactors step = information.ldlt().solve(slope);
     if (!step.allFinite()) return fit;
     fit.factors += step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
-    fit.converged = step.dot(slope) < kConverged;
+    fit.converged = step.dot(slope) < kConverged || step.cwiseAbs().maxCoeff() < kFineStep;
     if (fit.converged || fit.steps == kMostSteps) return fit;
   }
 }

@@ -52,6 +52,8 @@ struct NoiseFit {
 /// Looks for the most probable factors by Newton's method, from what the filter is told. A factor that logs
 /// hardly tell stays near 1: a priori each is within a factor of 7 in 68 % of cases.
 ///
+/// The search ends a tenth of a squared standard deviation, or 2 %, before the maximum.
+///
 /// @param evidence_at the sum over logs of noise_evidence
 NoiseFit fit_noise(const std::function<NoiseEvidence(const LogFactors&)>& evidence_at);
 
