@@ -49,6 +49,8 @@ struct SensorSector {
 struct FilterConfig {
   int particles = 100;           ///< M >= 1
   OdometryNoise odometry_noise;  ///< what the filter believes of its odometry
+  /// Of the start pose (x, y, heading), in the world. It changes what is claimed, and no estimate.
+  Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
 
   std::optional<NoiseLaw> noise_law;  ///< of all sightings; none = each is believed what it states
   /// By how much the standard deviations of (range, bearing) are larger than sightings state them.

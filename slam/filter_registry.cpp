@@ -4,11 +4,15 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "slam/block/block_slam.h"
 #include "slam/dead_reckoning.h"
 #include "slam/ekf/ekf_slam.h"
 #include "slam/fastslam/fast_slam.h"
+#include "slam/from_uncertain_start.h"
 #include "slam/models/noise_law.h"
 #include "slam/smoother/smoother.h"
 
@@ -21,6 +25,13 @@ void require(bool holds, const char* what) {
 
 bool is_sd(double value) {
   return std::isfinite(value) && value >= 0.0;
+}
+
+bool is_covariance(const Eigen::Matrix3d& matrix) {
+  constexpr double kRounding = 1e-9;
+  if (!matrix.allFinite() || !matrix.isApprox(matrix.transpose(), kRounding)) return false;
+  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix).eigenvalues();
+  return values.minCoeff() >= -kRounding * std::abs(values.maxCoeff());
 }
 
 void check(const OdometryNoise& noise) {
@@ -53,6 +64,7 @@ void check(const FilterConfig& config) {
             "noise_law must be finite and >= 0");
   }
   check(config.sector);
+  require(is_covariance(config.start_covariance), "start_covariance must be finite and semidefinite");
   const UnscentedParameters& unscented = config.unscented;
   require(std::isfinite(unscented.alpha) && unscented.alpha > 0.0, "unscented.alpha must be > 0");
   require(std::isfinite(unscented.beta) && std::isfinite(unscented.kappa) && unscented.kappa > -2.0,
@@ -142,7 +154,11 @@ Filter make_filter(const std::string& name, const FilterConfig& config, const Po
   check(config);
   require(std::isfinite(start.x_m) && std::isfinite(start.y_m) && std::isfinite(start.heading_rad),
           "the start pose must be finite");
-  if (const FilterKind* const kind = find_filter_kind(name)) return kind->start(config, start, seed);
+  if (const FilterKind* const kind = find_filter_kind(name)) {
+    Filter filter = kind->start(config, start, seed);
+    if (config.start_covariance.isZero(0.0)) return filter;
+    return FromUncertainStart(std::move(filter), UncertainStart(start, config.start_covariance));
+  }
   std::string known;
   for (const std::string& filter : filter_names()) known += (known.empty() ? "" : ", ") + filter;
   throw std::invalid_argument("make_filter: no filter '" + name + "'; there are " + known);

@@ -148,6 +148,12 @@ enum class Identity {
   kNone,         ///< a sighting says where something is, and nothing of what it is
 };
 
+/// How far off the start pose is that filters are told, as standard deviations: drawn for each seed.
+struct StartNoise {
+  double position_sd_m = 0.0;  ///< of x and of y
+  double heading_sd_rad = 0.0;
+};
+
 /// What can be seen, what looks, and how the robot moves. What is run in it is the harness's to say.
 struct Scenario {
   std::string name;
@@ -160,6 +166,7 @@ struct Scenario {
   double rows_within_px = 10.0;     ///< that this may be off by: vision matches balls within so many rows
   GroundTruth path;
   slam::OdometryNoise odometry_noise;  ///< what the odometry really has
+  StartNoise start_noise;
   SensorKind sensor = SensorKind::kStereo;
   OracleSensor oracle;
   CameraSensor camera;

@@ -106,12 +106,19 @@ std::vector<Field<Experiment>> believed_oracle_fields() {
                 "What filters are told of that sensor's sector and rates.")};
 }
 
-std::vector<Field<Experiment>> believed_noise_fields() {
+std::vector<Field<Experiment>> believed_odometry_fields() {
+  return {group("believed_odometry_noise", worlds::odometry_noise_keys(),
+                "Noise of the odometry that filters are told.")
+              .otherwise_as("odometry_noise")
+              .fills(&Experiment::believed, &FilterBeliefs::odometry_noise)};
+}
+
+std::vector<Field<Experiment>> believed_start_and_measurement_fields() {
   return {
-      group("believed_odometry_noise", worlds::odometry_noise_keys(),
-            "Noise of the odometry that filters are told.")
-          .otherwise_as("odometry_noise")
-          .fills(&Experiment::believed, &FilterBeliefs::odometry_noise),
+      group("believed_start_noise", worlds::start_noise_keys(),
+            "Noise of the start pose that filters are told.")
+          .otherwise_as("start_noise")
+          .fills(&Experiment::believed, &FilterBeliefs::start_noise),
       group("believed_measurement_noise", measurement_noise_keys(),
             "Noise of sightings that filters are told.")
           .otherwise_says("what each sighting states"),
@@ -126,7 +133,8 @@ std::vector<Field<Experiment>> all_fields() {
   insert_behind("identity", association_fields(), fields);
   insert_behind("shutter", detector_fields(), fields);
   insert_behind("oracle", believed_oracle_fields(), fields);
-  insert_behind("odometry_noise", believed_noise_fields(), fields);
+  insert_behind("odometry_noise", believed_odometry_fields(), fields);
+  insert_behind("start_noise", believed_start_and_measurement_fields(), fields);
   return fields;
 }
 

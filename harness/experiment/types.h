@@ -33,6 +33,7 @@ struct DetectorProgram {
 /// What filters are told of odometry and sensor, where that is not what is so.
 struct FilterBeliefs {
   std::optional<slam::OdometryNoise> odometry_noise;  ///< none: what the odometry really has
+  std::optional<worlds::StartNoise> start_noise;      ///< none: what the start really has
   std::optional<slam::NoiseLaw> measurement_noise;    ///< none: each sighting states its own
   /// By how much (range, bearing) are worse than sightings state.
   Eigen::Vector2d stated_sd_scale = Eigen::Vector2d::Ones();

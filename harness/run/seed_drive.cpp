@@ -7,6 +7,8 @@
 #include "harness/report/detection_picture.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
+#include "slam/math/random.h"
+#include "slam/models/belief.h"
 
 namespace stereobench::harness {
 namespace {
@@ -18,15 +20,12 @@ bool is_snapshot_step(std::size_t step, std::size_t count, std::size_t steps) {
   return false;
 }
 
-References replay_references(const Recording& recording, const Experiment& experiment, Timing& timing) {
-  const worlds::Scenario& scenario = experiment.scenario;
-  Stopwatch watch(timing);
-  References references;
-  references.bound = watch.time(
-      "reference.bound", [&] { return replay_bound(recording.log, scenario.path, scenario.odometry_noise); });
-  references.batch =
-      watch.time("reference.batch", [&] { return replay_batch(recording.log, filter_config(experiment)); });
-  return references;
+/// The start that filters are told.
+slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, std::uint64_t seed) {
+  slam::RandomStream random(seed, slam::Stream::kStart);
+  const double x = random.normal(), y = random.normal(), heading = random.normal();
+  return slam::boxplus(start,
+                       {noise.position_sd_m * x, noise.position_sd_m * y, noise.heading_sd_rad * heading});
 }
 
 }  // namespace
@@ -51,9 +50,16 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
                                               event.observations)});
   };
   drive.recording = record(*task.experiment, task.seed, listeners, task.backend, task.detector);
-  drive.runs = replay_filters(drive.recording.log, task.experiment->filters, filter_config(*task.experiment),
-                              task.seed, drive.recording.timing);
-  drive.references = replay_references(drive.recording, *task.experiment, drive.recording.timing);
+  const slam::FilterConfig config = filter_config(*task.experiment);
+  const worlds::Scenario& scenario = task.experiment->scenario;
+  MeasurementLog& log = drive.recording.log;
+  Stopwatch watch(drive.recording.timing);
+  drive.references.bound = watch.time("reference.bound", [&] {
+    return replay_bound(log, scenario.path, scenario.odometry_noise, start_covariance(scenario.start_noise));
+  });
+  log.start = told_start(log.start, scenario.start_noise, task.seed);
+  drive.runs = replay_filters(log, task.experiment->filters, config, task.seed, drive.recording.timing);
+  drive.references.batch = watch.time("reference.batch", [&] { return replay_batch(log, config); });
   return drive;
 }
 

@@ -5,6 +5,7 @@
 
 #include "harness/logs/sensor_log.h"
 #include "harness/scoring/measured_landmark.h"
+#include "slam/models/uncertain_start.h"
 #include "slam/reference/batch.h"
 #include "slam/reference/posterior_bound.h"
 
@@ -21,12 +22,13 @@ double rms(const std::vector<Matrix>& covariances, Size size_squared) {
 }  // namespace
 
 BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path,
-                      const slam::OdometryNoise& noise) {
+                      const slam::OdometryNoise& noise, const Eigen::Matrix3d& start_covariance) {
   if (path.size() != log.steps.size())
     throw std::invalid_argument("replay_bound: expected one step of the path for each step of the log");
   std::vector<Eigen::Vector2d> places;
   for (const LandmarkTruth& landmark : log.landmarks) places.push_back(landmark.position_m);
   slam::PosteriorBound bound(noise, log.start, places);
+  const slam::UncertainStart start(log.start, start_covariance);
   BoundRun run;
   for (std::size_t k = 0; k < path.size(); ++k) {
     for (const slam::Control& control : path[k].controls) bound.move(control);
@@ -37,11 +39,14 @@ BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path
       if (landmark) frame.push_back({static_cast<int>(*landmark), step.measurements[i].covariance});
     }
     bound.look(frame);
-    run.poses.push_back(bound.pose().covariance);
+    run.poses.push_back(start.of_pose(path[k].pose, bound.pose().covariance));
   }
-  run.smoothed_poses = bound.smoothed_poses();
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (const auto covariance = bound.landmark(static_cast<int>(i))) run.landmarks.push_back(*covariance);
+  for (const Eigen::Matrix3d& covariance : bound.smoothed_poses())
+    run.smoothed_poses.push_back(start.of_pose(path[run.smoothed_poses.size()].pose, covariance));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (const auto covariance = bound.landmark(static_cast<int>(i)))
+      run.landmarks.push_back(start.of_place(places[i], *covariance));
+  }
   return run;
 }
 

@@ -13,11 +13,16 @@ namespace stereobench::harness {
 /// covariance that it states, and of the landmark that it is of; where the log does not say, of the one that
 /// it names or, where it names a colour only, of the one of its colour nearest to where it was seen. Knowing
 /// identities is more than such a filter has, so it remains a bound.
+/// @param log which starts at the truth
 /// @param path the truth behind the log: poses and exact controls
 /// @param noise what the odometry really has
+/// @param start_covariance (x, y, heading) of the start that filters are told. Where its heading is uncertain
+/// the bound is that of estimators that take the told start for the likeliest, as all do here; an estimate
+/// that is drawn towards the start has a smaller mean squared error
 /// @throws std::invalid_argument when the path has not one step for each step of the log
 BoundRun replay_bound(const MeasurementLog& log, const worlds::GroundTruth& path,
-                      const slam::OdometryNoise& noise);
+                      const slam::OdometryNoise& noise,
+                      const Eigen::Matrix3d& start_covariance = Eigen::Matrix3d::Zero());
 
 /// Fits path and map to the whole log (slam::estimate_batch).
 /// @return a run named "batch" without covariances; `failed` when the search did not converge

@@ -19,7 +19,8 @@ enum class Stream : std::uint32_t {
   kFrameLoss,
   kCalibrationScene,
   kRandomise,
-  kBallRadius
+  kBallRadius,
+  kStart
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).

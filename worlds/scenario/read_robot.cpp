@@ -192,6 +192,17 @@ const Fields<slam::OdometryNoise>& odometry_noise_keys() {
   return keys;
 }
 
+const Fields<StartNoise>& start_noise_keys() {
+  static const Fields<StartNoise> keys({
+      number("position_sd_m", kNoise, "Standard deviation of its x and of its y, in metres.")
+          .fills(&StartNoise::position_sd_m),
+      number("heading_sd_deg", {0.0, 180.0}, "Standard deviation of its heading, in degrees.")
+          .times(slam::kRadPerDegree)
+          .fills(&StartNoise::heading_sd_rad),
+  });
+  return keys;
+}
+
 const Fields<OracleSensor>& oracle_keys() {
   static const Fields<OracleSensor> keys({
       number("range_sd_m", kNoise, "Standard deviation of a range, in metres.")

@@ -69,6 +69,11 @@ std::vector<Field<Scenario>> sensor_fields() {
       group("odometry_noise", odometry_noise_keys(), "Noise that the odometry really has.")
           .needed()
           .fills(&Scenario::odometry_noise),
+      group("start_noise", start_noise_keys(),
+            "By how much the start pose is off that filters are told. Each seed draws it; only `run` and "
+            "`sweep` "
+            "do.")
+          .fills(&Scenario::start_noise),
   };
 }
 

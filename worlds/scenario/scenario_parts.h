@@ -62,6 +62,7 @@ const Fields<Scenario>& believed_rig_keys();  ///< whose believed rig is the tru
 const Fields<CameraSensor>& camera_keys();
 const Fields<Shutter>& shutter_keys();
 const Fields<slam::OdometryNoise>& odometry_noise_keys();
+const Fields<StartNoise>& start_noise_keys();
 const Fields<OracleSensor>& oracle_keys();
 const Fields<Randomisation>& randomisation_keys();
 const Fields<SurfaceLooks>& surface_keys();

@@ -23,6 +23,17 @@ TEST(FilterConfigOfAnExperiment, IsWhatFiltersAreToBelieve) {
   EXPECT_EQ(filter_config(experiment).sector.range_m, 0.0);
 }
 
+// Mutations seen to turn this red: what is believed not asked; a variance for a standard deviation.
+TEST(FilterConfigOfAnExperiment, SaysHowUncertainTheStartIs) {
+  Experiment experiment;
+  EXPECT_TRUE(filter_config(experiment).start_covariance.isZero(0.0));
+  experiment.scenario.start_noise = {2.0, 0.5};
+  const Eigen::Vector3d variances(4.0, 4.0, 0.25);
+  EXPECT_EQ(filter_config(experiment).start_covariance, Eigen::Matrix3d(variances.asDiagonal()));
+  experiment.believed.start_noise = worlds::StartNoise{};
+  EXPECT_TRUE(filter_config(experiment).start_covariance.isZero(0.0));
+}
+
 // Cameras do not see through walls. Mutations: a sector for known identities, too; misses
 // that count; the true rig.
 TEST(FilterConfigOfAnExperiment, SaysHowFarCamerasSeeWhereNothingElseTellsLandmarksApart) {

@@ -181,5 +181,30 @@ TEST(DriveSeeds, CellsOfASweepShareTheirSeeds) {
   EXPECT_NE(bytes_without_timing(drives[0]), bytes_without_timing(drives[1]));
 }
 
+// Filters begin where they are told, each seed elsewhere; the bound begins at the truth, whatever is
+// believed. Mutations seen to turn this red: the start as it is; one start for all seeds; the bound of what
+// is believed.
+TEST(DriveSeed, TellsFiltersAStartThatIsOff) {
+  Experiment experiment = short_drive();
+  experiment.filters = {"dead_reckoning"};
+  const SeedDrive exact = drive_seed({.experiment = &experiment, .seed = 1}, [](double) {});
+  experiment.scenario.start_noise = {0.5, 0.2};
+  const SeedDrive off = drive_seed({.experiment = &experiment, .seed = 1}, [](double) {});
+  const SeedDrive again = drive_seed({.experiment = &experiment, .seed = 1}, [](double) {});
+  const SeedDrive other = drive_seed({.experiment = &experiment, .seed = 2}, [](double) {});
+  EXPECT_EQ(exact.recording.log.start.x_m, experiment.scenario.path.front().pose.x_m);
+  EXPECT_NE(off.recording.log.start.x_m, exact.recording.log.start.x_m);
+  EXPECT_NE(off.recording.log.start.heading_rad, exact.recording.log.start.heading_rad);
+  EXPECT_EQ(off.recording.log.start.x_m, again.recording.log.start.x_m);
+  EXPECT_NE(off.recording.log.start.x_m, other.recording.log.start.x_m);
+  EXPECT_GT(off.runs.front().covariances.front()(0, 0), 0.24);
+  ASSERT_TRUE(off.references.bound);
+  EXPECT_GT(off.references.bound->poses.front()(0, 0), 0.24);
+  experiment.believed.start_noise = worlds::StartNoise{};
+  const SeedDrive unaware = drive_seed({.experiment = &experiment, .seed = 1}, [](double) {});
+  EXPECT_EQ(unaware.references.bound->poses.back(), off.references.bound->poses.back());
+  EXPECT_LT(unaware.runs.front().covariances.front()(0, 0), 0.01);
+}
+
 }  // namespace
 }  // namespace stereobench::harness

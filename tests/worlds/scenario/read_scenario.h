@@ -28,6 +28,7 @@ inline constexpr std::array kKeysOfRuns = {"filters",
                                            "detector_start_s",
                                            "believed_oracle",
                                            "believed_odometry_noise",
+                                           "believed_start_noise",
                                            "believed_measurement_noise"};
 
 /// A scenario file without those keys.
