@@ -36,6 +36,7 @@ struct SlamArguments {
   std::optional<worlds::Identity> identity;
   slam::FilterConfig config;
   StatedNoise stated;
+  bool sector_is_stated = false;
   std::optional<Eigen::Vector2d> sighting_correlation_s;
   EvaluationArguments evaluation;
 };
@@ -117,6 +118,10 @@ int run_slam(SlamArguments arguments) {
                recorded.log.steps.size(), run.filters.size(), run.seeds.size(), (out / "").string());
     return kPassed;
   }
+  if (arguments.sector_is_stated)
+    recorded.facts.sector.sector = arguments.config.sector;
+  else
+    find_sensor_sector(recorded, arguments.config);
   weigh_sightings(recorded, arguments.config, arguments.sighting_correlation_s);
   prepare_output_folder(out);
   remove_leftovers_in(out);
@@ -194,6 +199,30 @@ void add_noise_options(CLI::App& command, SlamArguments& arguments) {
       "how long an odometry error lasts (slip outlives fast readings)");
 }
 
+void add_sector_option(CLI::App& command, SlamArguments& arguments) {
+  command
+      .add_option_function<std::vector<double>>(
+          "--sector",
+          [&arguments](const std::vector<double>& values) {
+            if ((values[0] > 0.0) != (values[1] > 0.0) || values[2] > 1.0)
+              throw CLI::ValidationError(
+                  "--sector",
+                  "expected both a range and an angle, or neither, and a probability of at most 1");
+            arguments.config.sector = {values[0], values[1], values[2], values[3]};
+            arguments.sector_is_stated = true;
+          },
+          "of the sensor, for sightings without identities: how far it sees (m), how far to each side (rad), "
+          "the "
+          "probability that it misses a landmark, and how many things a look shows that are none (default: "
+          "found "
+          "in the log; 0,0,0,0 = nothing is known)")
+      ->expected(4)
+      ->delimiter(',')
+      ->check(real_between(0.0, 1e6))
+      ->type_name("RANGE,ANGLE,MISSED,FALSE")
+      ->group("Noise (standard deviations)");
+}
+
 void add_detection_options(CLI::App& command, SlamArguments& arguments) {
   const std::map<std::string, worlds::Identity> names = {{"known", worlds::Identity::kKnown},
                                                          {"colour_class", worlds::Identity::kColourClass},
@@ -225,6 +254,7 @@ void add_slam_command(CLI::App& program, Action& action) {
   add_run_options(*command, arguments->run);
   add_detection_options(*command, *arguments);
   add_noise_options(*command, *arguments);
+  add_sector_option(*command, *arguments);
   add_evaluation_options(*command, arguments->evaluation);
   command->footer(
       "Examples: stereobench slam DIR --filters ufastslam --particles 50 --seeds 0..4\n"

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "slam/math/angles.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -54,6 +56,24 @@ void add_lasting_errors(const slam::LastingErrors& lasting, std::vector<std::str
   }
 }
 
+void add_sector(const slam::FoundSector& found, std::vector<std::string>& lines) {
+  const auto& [range_m, half_angle_rad, missed, false_per_look] = found.sector;
+  if (!(range_m > 0.0)) {
+    lines.emplace_back(
+        "too few sightings without identities are seen again to tell how far the sensor sees: every landmark "
+        "is "
+        "taken for real, and none for another's double; state --sector");
+    return;
+  }
+  lines.push_back(fmt::format(
+      "sightings without identities are of a sensor that sees {:.1f} m far and {:.0f} deg to each side, "
+      "misses "
+      "{:.0f} % of what is there, and sees {:.2f} things a look that are not, as {} sightings say that had "
+      "to be "
+      "seen again; state --sector if you know",
+      range_m, half_angle_rad / slam::kRadPerDegree, 100.0 * missed, false_per_look, found.looks.triples));
+}
+
 }  // namespace
 
 std::vector<std::string> assumptions_of(const LogFacts& facts, const StatedNoise& stated) {
@@ -74,12 +94,13 @@ std::vector<std::string> assumptions_of(const LogFacts& facts, const StatedNoise
                                 sightings(facts.unknown_barcodes)));
   add_truth(facts, lines);
   add_delay(facts, lines);
+  if (facts.sector_is_found) add_sector(facts.sector, lines);
   add_lasting_errors(facts.lasting_errors, lines);
   if (facts.noise_is_assumed && !stated.sensor)
     lines.emplace_back(
         "sightings state no covariances: that of MRCLAM's cameras is assumed; state --range-sd-m and "
         "--bearing-sd-rad, or --noise-law");
-  if (!stated.odometry)
+  if (!stated.odometry && !facts.odometry_states_noise)
     lines.emplace_back(
         "the odometry's noise is assumed to be that of MRCLAM's robots; state --v-constant-mps and its like "
         "(slam --help)");

@@ -1,4 +1,4 @@
-/// Sightings whose errors last, weighed by what they know.
+/// What the sightings of a log say of their sensor.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,12 @@
 #include "slam/filter_config.h"
 
 namespace stereobench::harness {
+
+/// Tells filters the sector of a sensor that nobody describes (slam::find_sector), where some sightings have
+/// no identity. What was found is noted in the log's facts.
+///
+/// @param config whose sector receives it
+void find_sensor_sector(RecordedLog& recorded, slam::FilterConfig& config);
 
 /// Finds how long the errors of a log's sightings last (slam::find_lasting_errors), and makes sightings in
 /// close order less certain (slam::weigh_by_gaps). What was found is noted in the log's facts. The truth is

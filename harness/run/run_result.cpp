@@ -40,10 +40,18 @@ Json association_json(const std::optional<AssociationScore>& association) {
           {"duplicated", association->duplicated}, {"spurious", association->spurious}};
 }
 
+Json sector_json(const slam::SensorSector& sector) {
+  return {{"range_m", sector.range_m},
+          {"half_angle_rad", sector.half_angle_rad},
+          {"miss_probability", sector.miss_probability},
+          {"false_per_look", sector.false_per_look}};
+}
+
 Json log_json(const LogFacts& facts, const std::vector<std::string>& assumed, bool start_is_true) {
   return {{"odometry_delay_s", facts.odometry_delay_s},
           {"sighting_correlation_s",
            {{"range", facts.lasting_errors.time_s[0]}, {"bearing", facts.lasting_errors.time_s[1]}}},
+          {"sector", sector_json(facts.sector.sector)},
           {"frame", start_is_true ? "truth" : "own"},
           {"steps_without_truth", facts.steps_without_truth},
           {"repeated_sightings", facts.repeated_sightings},
