@@ -94,8 +94,8 @@ TEST_F(Egl, LivesBesideOsmesa) {
 
 /// OpenGL leaves rounding, and which pixels the edge of a triangle covers, to whoever implements it; all else
 /// is the same everywhere.
-void expect_alike(const StereoFrame& a, const StereoFrame& b) {
-  const test::Difference difference = test::difference(a, b);
+void expect_alike(const StereoFrame& a, const StereoFrame& b, double depth_share = 1e-5) {
+  const test::Difference difference = test::difference(a, b, depth_share);
   const double pixels = 2.0 * static_cast<double>(a.left.ball_id.total());
   EXPECT_LE(difference.ids, 1e-5 * pixels);
   EXPECT_LE(difference.colours, 1e-4 * pixels);
@@ -114,7 +114,10 @@ TEST(OtherRasteriser, SeesWhatLlvmpipeSees) {
   }
 }
 
+// A card rounds depths as it likes: on an NVIDIA H200 those of planes were off by 8e-5 of themselves at most,
+// half a millimetre at 6 m, those of balls by nothing.
 TEST(GraphicsCard, SeesWhatLlvmpipeSees) {
+  constexpr double kDepthShare = 1e-4;
   try {
     backend_info(Backend::kEglGpu);
   } catch (const std::runtime_error& error) {
@@ -122,7 +125,8 @@ TEST(GraphicsCard, SeesWhatLlvmpipeSees) {
   }
   EXPECT_EQ(render_test_frame(Backend::kEglGpu).complaint, "");
   for (std::uint64_t room = 0; room < 8; ++room) {
-    expect_alike(test::room_frame(room, Backend::kEglGpu), test::room_frame(room, Backend::kOsmesa));
+    expect_alike(test::room_frame(room, Backend::kEglGpu), test::room_frame(room, Backend::kOsmesa),
+                 kDepthShare);
   }
 }
 

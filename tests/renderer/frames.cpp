@@ -28,17 +28,17 @@ bool is_other_colour(const cv::Vec3b& a, const cv::Vec3b& b) {
   return cv::norm(cv::Vec3i(a) - cv::Vec3i(b), cv::NORM_INF) > 1.0;
 }
 
-bool is_other_depth(float a, float b) {
-  return a != b && !(std::abs(double{a} - double{b}) <= 1e-5 * std::min(double{a}, double{b}));
+bool is_other_depth(float a, float b, double share) {
+  return a != b && !(std::abs(double{a} - double{b}) <= share * std::min(double{a}, double{b}));
 }
 
-Difference difference(const RenderedImage& a, const RenderedImage& b) {
+Difference difference(const RenderedImage& a, const RenderedImage& b, double depth_share) {
   Difference result{.ids = cv::countNonZero(a.ball_id != b.ball_id)};
   for (int row = 0; row < a.colour.rows; ++row) {
     for (int column = 0; column < a.colour.cols; ++column) {
       const cv::Point at(column, row);
       result.colours += is_other_colour(a.colour.at<cv::Vec3b>(at), b.colour.at<cv::Vec3b>(at)) ? 1 : 0;
-      result.depths += is_other_depth(a.depth_m.at<float>(at), b.depth_m.at<float>(at)) ? 1 : 0;
+      result.depths += is_other_depth(a.depth_m.at<float>(at), b.depth_m.at<float>(at), depth_share) ? 1 : 0;
     }
   }
   return result;
@@ -97,9 +97,9 @@ bool same(const StereoFrame& a, const StereoFrame& b) {
                     [](const cv::Mat* x, const cv::Mat* y) { return same(*x, *y); });
 }
 
-Difference difference(const StereoFrame& a, const StereoFrame& b) {
-  const Difference left = difference(a.left, b.left);
-  const Difference right = difference(a.right, b.right);
+Difference difference(const StereoFrame& a, const StereoFrame& b, double depth_share) {
+  const Difference left = difference(a.left, b.left, depth_share);
+  const Difference right = difference(a.right, b.right, depth_share);
   return {left.ids + right.ids, left.colours + right.colours, left.depths + right.depths};
 }
 

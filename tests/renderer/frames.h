@@ -29,9 +29,11 @@ bool same(const StereoFrame& a, const StereoFrame& b);
 struct Difference {
   int ids = 0;      ///< another identity
   int colours = 0;  ///< a channel off by more than one level
-  int depths = 0;   ///< off by more than 1e-5 of itself, a hundred steps of a float, or nothing there in one
+  int depths = 0;   ///< off by more than a share of itself, or nothing there in one
 };
-Difference difference(const StereoFrame& a, const StereoFrame& b);
+
+/// @param depth_share 1e-5 are a hundred steps of a float
+Difference difference(const StereoFrame& a, const StereoFrame& b, double depth_share = 1e-5);
 
 /// Of all bytes of colours, identities and depths (FNV-1a).
 std::uint64_t hash_of(const StereoFrame& frame);
