@@ -4,6 +4,7 @@
 /// midpoint of the stereo baseline. Angles are radians in (-pi, pi], counter-clockwise.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,6 +23,11 @@ struct Control {
   double v_mps = 0.0;       ///< forward speed
   double w_radps = 0.0;     ///< turn rate, counter-clockwise
   double duration_s = 0.0;  ///< how long they are held, >= 0
+
+  // Of odometry that is not a wheel's, as that of cameras or scans:
+  double lateral_mps = 0.0;  ///< speed to the left
+  /// Of (v, lateral, w) while the control lasts, where the odometry states it; none: as OdometryNoise says
+  std::optional<Eigen::Matrix3d> covariance;
 };
 
 /// Noise of the odometry as standard deviations, eq. 3 of the paper with a constant part added:

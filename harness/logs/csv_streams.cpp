@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/logs/odometry_tables.h"
 #include "harness/logs/recorded_streams.h"
 #include "harness/logs/stream_cells.h"
 
@@ -13,7 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kOdometryHeaders = {"t_s,v_mps,w_radps"};
 const std::vector<std::string> kTruthHeaders = {"t_s,x_m,y_m,theta_rad"};
 const std::vector<std::string> kInstantHeaders = {"t_s"};
 const std::vector<std::string> kLandmarkHeaders = {"landmark_id,x_m,y_m", "landmark_id,x_m,y_m,colour_class"};
@@ -86,7 +86,8 @@ std::vector<std::int64_t> instants_from(const NumberTable& table) {
 RecordedStreams read_csv_streams(const fs::path& folder, const SensorNoise& noise) {
   RecordedStreams streams;
   const fs::path odometry_file = require_plain_or_gz(folder / "odometry.csv");
-  streams.odometry = odometry_from(read_csv_table(odometry_file, kOdometryHeaders));
+  streams.odometry = read_odometry(odometry_file);
+  streams.odometry_states_noise = streams.odometry.front().covariance.has_value();
   const NumberTable observations =
       read_csv_table(require_plain_or_gz(folder / "observations.csv"), kSightingHeaders);
   streams.sightings = sightings_from(observations, noise);

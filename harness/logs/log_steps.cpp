@@ -61,6 +61,14 @@ std::vector<std::int64_t> fill_gaps(const std::vector<std::int64_t>& instants) {
   return filled;
 }
 
+/// A part of what was held. Of an error that is anew at any instant, a part of a stretch has its part of the
+/// variance of the way: its mean velocity is the less certain.
+slam::Control part_of(const OdometryReading& held, double duration_s) {
+  slam::Control part{held.v_mps, held.w_radps, duration_s, held.lateral_mps, held.covariance};
+  if (part.covariance) *part.covariance *= held.lasts_s / duration_s;
+  return part;
+}
+
 /// What was held from one instant to another.
 std::vector<slam::Control> held_between(const std::vector<OdometryReading>& odometry, std::int64_t from_ns,
                                         std::int64_t to_ns) {
@@ -70,7 +78,7 @@ std::vector<slam::Control> held_between(const std::vector<OdometryReading>& odom
   for (std::int64_t at_ns = from_ns; at_ns < to_ns; ++next) {
     const OdometryReading held = next == odometry.begin() ? OdometryReading{} : *(next - 1);
     const std::int64_t end_ns = next == odometry.end() ? to_ns : std::min(next->stamp_ns, to_ns);
-    if (end_ns > at_ns) controls.push_back({held.v_mps, held.w_radps, seconds(end_ns - at_ns)});
+    if (end_ns > at_ns) controls.push_back(part_of(held, seconds(end_ns - at_ns)));
     at_ns = end_ns;
     if (next == odometry.end()) break;
   }

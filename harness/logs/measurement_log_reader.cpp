@@ -97,6 +97,7 @@ RecordedLog read_log(const fs::path& folder_or_file, const LogAssumptions& assum
   facts.robot_sightings = streams.robot_sightings;
   facts.unknown_barcodes = streams.unknown_barcodes;
   facts.noise_is_assumed = streams.noise_is_assumed;
+  facts.odometry_states_noise = streams.odometry_states_noise;
   facts.repeated_sightings = drop_repeated(streams.sightings);
   facts.concurrent_sightings = count_concurrent(streams.sightings);
   const OdometryDelay delay = assumptions.odometry_delay_s

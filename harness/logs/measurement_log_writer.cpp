@@ -24,6 +24,8 @@ bool same(const slam::Pose& a, const slam::Pose& b) {
 void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv) {
   double elapsed_s = 0.0;
   for (const slam::Control& control : step.odometry) {
+    if (control.covariance || control.lateral_mps != 0.0)
+      throw std::invalid_argument("log_files: odometry.csv has columns for wheels alone");
     const std::int64_t begin_ns = from_ns + std::llround(elapsed_s * 1e9);
     csv += fmt::format("{},{},{}\n", seconds_of(begin_ns), control.v_mps, control.w_radps);
     elapsed_s += control.duration_s;

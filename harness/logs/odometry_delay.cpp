@@ -44,7 +44,7 @@ class OdometryPath {
   slam::Pose advance_from(const slam::Pose& pose, std::size_t held, std::int64_t to_ns) const {
     const OdometryReading& reading = readings_[held];
     const double duration_s = 1e-9 * static_cast<double>(to_ns - reading.stamp_ns);
-    return slam::advance(pose, {reading.v_mps, reading.w_radps, duration_s});
+    return slam::advance(pose, {reading.v_mps, reading.w_radps, duration_s, reading.lateral_mps});
   }
 
   const std::vector<OdometryReading>& readings_;

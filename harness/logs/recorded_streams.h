@@ -18,6 +18,10 @@ struct OdometryReading {
   std::int64_t stamp_ns = 0;
   double v_mps = 0.0;
   double w_radps = 0.0;
+  double lateral_mps = 0.0;
+  std::optional<Eigen::Matrix3d>
+      covariance;        ///< of (v, lateral, w) over all of `lasts_s`, where it is stated
+  double lasts_s = 0.0;  ///< with a covariance: until the next reading
 };
 
 struct LoggedSighting {
@@ -39,6 +43,7 @@ struct RecordedStreams {
   long robot_sightings = 0;
   long unknown_barcodes = 0;
   bool noise_is_assumed = false;  ///< the file of sightings has no covariances
+  bool odometry_states_noise = false;
 };
 
 /// Sightings this close to the first of a step, and to a stated instant, belong to it: the logs' resolution.

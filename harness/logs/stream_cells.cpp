@@ -11,8 +11,6 @@
 
 namespace stereobench::harness {
 
-namespace {
-
 double angle_in(const NumberTable& table, const TableRow& row, std::size_t column) {
   const double angle = number_in(table, row, column);
   if (std::abs(angle) > 2.0 * slam::kPi) {
@@ -20,8 +18,6 @@ double angle_in(const NumberTable& table, const TableRow& row, std::size_t colum
   }
   return slam::wrap_angle(angle);
 }
-
-}  // namespace
 
 std::vector<std::int64_t> stamps_from(const NumberTable& table) {
   std::vector<std::int64_t> stamps;

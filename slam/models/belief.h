@@ -81,6 +81,9 @@ PoseBelief follow(const Pose& world_from_start, SineCosine heading, const PoseBe
 /// Puts a relative motion behind an uncertain pose, to first order in the pose's uncertainty.
 PoseBelief follow(const PoseBelief& world_from_start, const PoseBelief& start_from_now);
 
+/// The motion of a control that states its covariance (of a control's velocities), to first order.
+PoseBelief motion_of(const Control& control);
+
 /// Moves a belief by one control; one that is not valid is ignored and counted.
 ///
 /// @param model of moments, with move()
@@ -89,6 +92,10 @@ void move(PoseBelief& belief, const Model& model, const Control& control, const 
           FilterCounters& counters) {
   if (!is_valid(control)) {
     ++counters.rejected_inputs;
+    return;
+  }
+  if (control.covariance) {
+    belief = follow(belief, motion_of(control));
     return;
   }
   const Eigen::Vector2d control_sd = standard_deviations(control, noise);

@@ -35,6 +35,12 @@ Pose end_of(const Pose& from, const Eigen::Vector3d& chord);
 /// d(x, y, heading) / d chord of the pose in which a motion ends.
 Eigen::Matrix3d end_by_chord(const Pose& from, const Eigen::Vector3d& chord);
 
+/// The velocities that move as a relative pose says, held for a while, with their covariance to first order.
+/// @param start_from_end the motion in the frame of its start; it turns by less than a full turn. motion_of()
+/// is the way back
+/// @param duration_s > 0
+Control control_of(const PoseBelief& start_from_end, double duration_s);
+
 /// A motion in chord coordinates, to first order at its mean.
 /// @param start_from_end the motion in the frame of its start
 ChordBelief chord_of(const PoseBelief& start_from_end);

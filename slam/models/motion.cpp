@@ -14,10 +14,13 @@ double sinc(double x) {
 
 Pose advance(const Pose& pose, const Control& control) {
   const double half_turn_rad = 0.5 * control.w_radps * control.duration_s;
-  const double chord_m = control.v_mps * control.duration_s * sinc(half_turn_rad);
+  const double bent = sinc(half_turn_rad);
+  const double along_m = control.v_mps * control.duration_s * bent;
+  const double across_m = control.lateral_mps * control.duration_s * bent;
   const double direction_rad = pose.heading_rad + half_turn_rad;
   const auto [s, c] = sine_cosine(direction_rad);
-  return {pose.x_m + chord_m * c, pose.y_m + chord_m * s, wrap_angle(pose.heading_rad + 2.0 * half_turn_rad)};
+  return {pose.x_m + along_m * c - across_m * s, pose.y_m + along_m * s + across_m * c,
+          wrap_angle(pose.heading_rad + 2.0 * half_turn_rad)};
 }
 
 Pose compose(const Pose& a_from_b, const Pose& b_from_c) {
@@ -56,7 +59,8 @@ Control perturb(const Control& control, const OdometryNoise& noise, RandomStream
 
 bool is_valid(const Control& control) {
   return std::isfinite(control.v_mps) && std::isfinite(control.w_radps) &&
-         std::isfinite(control.duration_s) && control.duration_s >= 0.0;
+         std::isfinite(control.lateral_mps) && std::isfinite(control.duration_s) &&
+         control.duration_s >= 0.0 && (!control.covariance || control.covariance->allFinite());
 }
 
 }  // namespace stereobench::slam

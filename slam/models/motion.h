@@ -21,9 +21,9 @@ inline double wrap_angle(double angle_rad) {
 
 /// Moves a pose along the arc of a control: eq. 4 put right.
 ///
-/// The chord has length v dt sinc(w dt / 2) and direction heading + w dt / 2. This is exact for constant
-/// velocities and needs no division by w: half a step plus half a step is a step, and w = 0 is nothing
-/// special.
+/// The chord has length v dt sinc(w dt / 2) and direction heading + w dt / 2, and so has that of the lateral
+/// speed a quarter of a turn further. This is exact for constant velocities and needs no division by w: half
+/// a step plus half a step is a step, and w = 0 is nothing special.
 Pose advance(const Pose& pose, const Control& control);
 
 /// The product of two poses: a_from_c = a_from_b * b_from_c.

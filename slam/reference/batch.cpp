@@ -156,12 +156,9 @@ class PathSearch {
  private:
   void add_motion(std::size_t index, const std::vector<Control>& controls) {
     PoseBelief motion;
-    long repairs = 0;  // a first-order motion repairs nothing
-    for (const Control& control : controls) {
-      if (!is_valid(control)) continue;
-      const Eigen::Vector2d control_sd = standard_deviations(control, config_.odometry_noise);
-      motion = Linearised().move(motion, control, control_sd, repairs);
-    }
+    FilterCounters counters;  // the filters count too
+    for (const Control& control : controls)
+      slam::move(motion, Linearised(), control, config_.odometry_noise, counters);
     problem_.AddResidualBlock(new MotionCost(MotionResidual(motion)), nullptr, poses_[index].data(),
                               poses_[index + 1].data());
   }

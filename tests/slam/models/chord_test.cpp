@@ -1,6 +1,8 @@
 // A motion along and across its chord: there and back, its slopes, and what a control's noise is in it.
 #include "slam/models/chord.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "slam/models/linearised.h"
@@ -74,6 +76,40 @@ TEST(Chord, HasNoNoiseAcrossASingleControl) {
     EXPECT_NEAR(chord.covariance(2, 2), std::pow(0.3 * control.duration_s, 2), 1e-12);
     EXPECT_GT(chord.covariance(0, 0), 0.0);
   }
+}
+
+// Velocities that a relative pose is made of lead where it does, with its covariance. Mutations seen to turn
+// this red: the slope with the turn left out, there or back; the lateral speed to the right.
+TEST(Chord, OfARelativePoseBecomesVelocitiesAndBack) {
+  RandomStream random(5, Stream::kWorld);
+  for (int i = 0; i < 100; ++i) {
+    const Pose end = end_of({}, random_motion(random).chord);
+    const Eigen::Matrix3d half = Eigen::Matrix3d::NullaryExpr([&] { return 0.1 * random.normal(); });
+    const PoseBelief motion{end, half * half.transpose()};
+    const Control control = control_of(motion, 0.2 + random.uniform());
+    EXPECT_TRUE(near(advance({}, control), end, 1e-12));
+    EXPECT_TRUE(near(motion_of(control).mean, end, 1e-12));
+    EXPECT_TRUE(near(motion_of(control).covariance, motion.covariance, 1e-12));
+    EXPECT_NEAR(control_of(motion, 2.0).v_mps * 2.0, control.v_mps * control.duration_s, 1e-12);
+  }
+}
+
+// Its slopes are those of advance(). Mutation seen to turn this red: the slope with the turn left out.
+TEST(Chord, OfVelocitiesHasTheSlopesOfAdvance) {
+  constexpr double kStep = 1e-6;
+  const Control control{0.7, -0.4, 1.5, 0.2};
+  Eigen::Matrix3d slopes;
+  for (int i = 0; i < 3; ++i) {
+    Control above = control, below = control;
+    const std::array<double Control::*, 3> parts = {&Control::v_mps, &Control::lateral_mps,
+                                                    &Control::w_radps};
+    above.*parts[static_cast<std::size_t>(i)] += kStep;
+    below.*parts[static_cast<std::size_t>(i)] -= kStep;
+    slopes.col(i) = boxminus(advance({}, above), advance({}, below)) / (2.0 * kStep);
+  }
+  Control stated = control;
+  stated.covariance = Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal();
+  EXPECT_TRUE(near(motion_of(stated).covariance, slopes * *stated.covariance * slopes.transpose(), 1e-8));
 }
 
 }  // namespace
