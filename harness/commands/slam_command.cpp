@@ -212,10 +212,8 @@ void add_sector_option(CLI::App& command, SlamArguments& arguments) {
             arguments.sector_is_stated = true;
           },
           "of the sensor, for sightings without identities: how far it sees (m), how far to each side (rad), "
-          "the "
-          "probability that it misses a landmark, and how many things a look shows that are none (default: "
-          "found "
-          "in the log; 0,0,0,0 = nothing is known)")
+          "the probability that it misses a landmark, and how many things a look shows that are none "
+          "(default: found in the log; 0,0,0,0 = nothing is known)")
       ->expected(4)
       ->delimiter(',')
       ->check(real_between(0.0, 1e6))

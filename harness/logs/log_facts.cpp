@@ -61,16 +61,14 @@ void add_sector(const slam::FoundSector& found, std::vector<std::string>& lines)
   if (!(range_m > 0.0)) {
     lines.emplace_back(
         "too few sightings without identities are seen again to tell how far the sensor sees: every landmark "
-        "is "
-        "taken for real, and none for another's double; state --sector");
+        "is taken for real, and none for another's double; state --sector");
     return;
   }
   lines.push_back(fmt::format(
       "sightings without identities are of a sensor that sees {:.1f} m far and {:.0f} deg to each side, "
-      "misses "
-      "{:.0f} % of what is there, and sees {:.2f} things a look that are not, as {} sightings say that had "
-      "to be "
-      "seen again; state --sector if you know",
+      "misses {:.0f} % of what is there, and sees {:.2f} things a look that are not, as {} sightings say "
+      "that "
+      "had to be seen again; state --sector if you know",
       range_m, half_angle_rad / slam::kRadPerDegree, 100.0 * missed, false_per_look, found.looks.triples));
 }
 

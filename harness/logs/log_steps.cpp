@@ -61,8 +61,8 @@ std::vector<std::int64_t> fill_gaps(const std::vector<std::int64_t>& instants) {
   return filled;
 }
 
-/// A part of what was held. Of an error that is anew at any instant, a part of a stretch has its part of the
-/// variance of the way: its mean velocity is the less certain.
+/// A part of what was held. Errors of the motion are independent from moment to moment: the displacement of a
+/// part has its share of the variance, so the variance of its mean velocity is larger by whole / part.
 slam::Control part_of(const OdometryReading& held, double duration_s) {
   slam::Control part{held.v_mps, held.w_radps, duration_s, held.lateral_mps, held.covariance};
   if (part.covariance) *part.covariance *= held.lasts_s / duration_s;

@@ -16,8 +16,8 @@ namespace {
 constexpr int kMostSteps = 20;
 constexpr double kConverged = 0.1;  ///< squared length of a step, in standard deviations of the factors
 
-/// Or no factor changes by more than 2 %. Where sensors are coarse, likelihoods jump where the mode of a
-/// frame does, and steps about such a place never end.
+/// The search also ends where no factor changes by more than 2 %. With coarse sensors the likelihood jumps
+/// where the mode of a frame does, and the search would go to and fro over such a jump for ever.
 constexpr double kFineStep = 0.02;
 
 constexpr double kLongestStep = 1.0;  ///< of a factor's logarithm
