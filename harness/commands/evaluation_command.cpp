@@ -68,7 +68,8 @@ void print_summary(const Evaluation& evaluation, const std::string& estimate, co
   if (evaluation.plane) fmt::print(" in the plane {}", text_of(*evaluation.plane));
   if (evaluation.align == AlignmentKind::kSim2 || evaluation.align == AlignmentKind::kSim3)
     fmt::print(", the estimate scaled by {:.6g}", evaluation.alignment.scale);
-  if (pairs.repeated > 0) fmt::print("\nwarning: {} pairs share a pose with the pair before", pairs.repeated);
+  if (pairs.repeated > 0)
+    say(fmt::format("\nwarning: pairs that share a pose with the pair before: {}", pairs.repeated));
   fmt::print("\n\n{}\n", evaluation_table(evaluation));
 }
 

@@ -46,7 +46,7 @@ std::string report(const PaletteFile& palette, const MarkedPixels& marked) {
                           fmt::format("{:.3f}, {:.3f}", colour.chromaticity.x(), colour.chromaticity.y()),
                           fmt::format("{:.0f}", colour.darkest_level), other, format_number(apart)});
     if (apart < kFewestApart)
-      warnings += fmt::format("{} may be taken for {}: they are {:.1f} standard deviations apart\n",
+      warnings += fmt::format("warning: {} may be taken for {}: they are {:.1f} standard deviations apart\n",
                               colour.name, other, apart);
   }
   return plain_text(table) + warnings;
@@ -66,7 +66,8 @@ int learn(const LearnPaletteArguments& arguments) {
     throw std::runtime_error(fmt::format("{}: {}", arguments.marks.string(), error.what()));
   }
   write_file_atomically(arguments.out, palette_json(palette));
-  fmt::print("{}levels are taken for {} ({})\n{}\n", report(palette, marked),
+  say(report(palette, marked));
+  fmt::print("levels are taken for {} ({})\n{}\n",
              palette.encoding == worlds::Encoding::kSrgb ? "sRGB" : "linear light",
              arguments.encoding == "auto" ? "by what the pictures' files say; --encoding says otherwise"
                                           : "--encoding",

@@ -50,8 +50,9 @@ int run(const ScenarioArguments& arguments) {
   const std::string draws = draws_jsonl(scenario, experiment.seeds);
   if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   kept.discard();
-  fmt::print("{}: {} seed{}, {} steps\n\n{}\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",
-             scenario.path.size(), result_table(result));
+  fmt::print("{}: {} seed{}, {} steps\n\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",
+             scenario.path.size());
+  say(result_table(result) + "\n");
   const auto broken = broken_gates(run_json(result), gates);
   say_gates(gate_report(broken, gates.size()), !broken.empty());
   fmt::print("results: {}\n", (out / "").string());

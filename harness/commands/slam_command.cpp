@@ -138,7 +138,7 @@ int run_slam(SlamArguments arguments) {
   output.write(result, {});
   print_summary(result, run.seeds.size(), recorded);
   const auto broken = broken_gates(run_json(result), run.gates);
-  fmt::print("\n{}\n", result_table(result));
+  say("\n" + result_table(result) + "\n");
   say_gates(gate_report(broken, run.gates.size()), !broken.empty());
   fmt::print("results: {}\n", (out / "").string());
   return broken.empty() ? kPassed : kGateBroken;

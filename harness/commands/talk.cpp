@@ -1,10 +1,13 @@
 #include "harness/commands/talk.h"
 
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "harness/commands/standard_streams.h"
 #include "harness/process/progress.h"
 
 namespace stereobench::harness {
@@ -24,6 +27,14 @@ void be_quiet() {
 void add_quiet_option(CLI::App& command) {
   command.add_flag_callback("--quiet,-q", be_quiet,
                             "say nothing but errors, warnings and broken gates; results are in files");
+}
+
+void say(std::string_view text) {
+  fmt::print("{}", text);
+  if (!is_quiet) return;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("warning: ")) note(line);
 }
 
 void say_gates(std::string_view report, bool broken) {

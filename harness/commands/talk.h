@@ -11,6 +11,10 @@ namespace stereobench::harness {
 /// remain.
 void add_quiet_option(CLI::App& command);
 
+/// Prints a text for people. With --quiet only its lines that begin with "warning: " are shown, on standard
+/// error.
+void say(std::string_view text);
+
 /// Prints what gate_report says. Broken gates are said on standard error when the command is quiet.
 void say_gates(std::string_view report, bool broken);
 

@@ -1,5 +1,7 @@
 /// Standard input, output and error that are full or closed.
 #include <algorithm>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -52,6 +54,33 @@ INSTANTIATE_TEST_SUITE_P(All, OutputThatIsNotTaken, testing::Values(">/dev/full"
 TEST(StandardStreams, ErrorsThatNobodyTakesKeepTheirExitCode) {
   for (const char* stream : {">/dev/full", ">&-"})
     EXPECT_EQ(exit_code_of(start_stereobench(fmt::format("run no_such.yaml 2{}", stream))), 2) << stream;
+}
+
+// Mutation seen to turn this red: what tables say goes to standard output alone.
+TEST(StandardStreams, AQuietCommandSaysTheWarningsOfItsTables) {
+  const TestFolder scratch;
+  const auto truth =
+      scratch.write("truth.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 1 0 0 0 0 1\n3 2 2 0 0 0 0 1\n");
+  const auto estimate = scratch.write(
+      "estimate.txt", "0 0 0 0 0 0 0 1\n0.99 1 0 0 0 0 0 1\n1.01 1 0 0 0 0 0 1\n2 2 1 0 0 0 0 1\n");
+  const Outcome outcome =
+      run_in_shell(fmt::format("slam --quiet --evaluate '{}' --truth '{}' --most-dt-s 0.1 --out '{}'",
+                               std::string(estimate), std::string(truth), (scratch.path() / "out").string()));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "stereobench: warning: pairs that share a pose with the pair before: 1\n");
+}
+
+// Mutation seen to turn this red: what tables say goes to standard output alone.
+TEST(StandardStreams, AQuietRunSaysItsWarningsAndNothingElse) {
+  const TestFolder scratch;
+  const Outcome outcome = run_in_shell(fmt::format(
+      "run '{}' --quiet --filters iekf --seeds 0..1 --set gates=[] "
+      "--set 'believed_odometry_noise={{v_constant_mps: 0.001, w_constant_degps: 0.01}}' --out '{}'",
+      scenario_path("open_field"), (scratch.path() / "out").string()));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("stereobench: warning: iekf makes errors"));
+  std::istringstream lines(outcome.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_THAT(line, StartsWith("stereobench: warning: "));
 }
 
 // Descriptor 0 was given to a pipe, and closed when the detector started. Mutation: open_standard_streams.
