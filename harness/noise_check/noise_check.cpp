@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "harness/io/cbor.h"
@@ -38,15 +37,6 @@ constexpr std::array<Named, slam::kNoiseFactors> kNames = {
      {"range", "ranges", "ranges are"},
      {"bearing", "bearings", "bearings are"}}};
 
-/// @return standard deviations of the factors' logarithms, with a little known beforehand: two frames say
-/// something of two factors at most, and nothing of the others
-slam::LogFactors standard_deviations(const slam::NoiseEvidence& evidence) {
-  constexpr double kPriorSd = 2.0;
-  const Eigen::Matrix4d information =
-      evidence.information + Eigen::Matrix4d::Identity() / (kPriorSd * kPriorSd);
-  return information.inverse().diagonal().cwiseSqrt();
-}
-
 bool is_off(const NoiseFactor& factor) {
   return factor.low > kTolerated || factor.high < 1.0 / kTolerated;
 }
@@ -77,9 +67,8 @@ NoiseCheck check_noise(const std::vector<SensorLog>& logs, const slam::FilterCon
   NoiseCheck check{.factors = {}, .logs = logs.size(), .refused = fit.evidence.refused};
   check.converged = fit.converged;
   if (!fit.converged) return check;
-  const slam::LogFactors deviations = standard_deviations(fit.evidence);
   for (int k = 0; k < slam::kNoiseFactors; ++k) {
-    const double sd = deviations[k];
+    const double sd = fit.deviations[k];
     if (!(sd < kVague)) continue;
     const double log = fit.factors[k];
     check.factors[static_cast<std::size_t>(k)] = {slam::exponential(log),

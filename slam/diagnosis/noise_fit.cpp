@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "slam/diagnosis/decided_log.h"
 #include "slam/math/elementary.h"
@@ -113,6 +114,7 @@ NoiseFit fit_noise(const std::function<NoiseEvidence(const LogFactors&)>& eviden
   for (;; ++fit.steps) {
     fit.evidence = evidence_at(fit.factors);
     const Eigen::Matrix4d information = fit.evidence.information + kPrior * Eigen::Matrix4d::Identity();
+    fit.deviations = information.inverse().diagonal().cwiseSqrt();
     const LogFactors slope = fit.evidence.slope - kPrior * fit.factors;
     const LogFactors step = information.ldlt().solve(slope);
     if (!step.allFinite()) return fit;

@@ -85,11 +85,6 @@ class EkfSlam {
   /// @return whether a landmark is sure enough to be part of an estimate
   static bool is_reported(const Mapped& landmark);
 
-  /// @return whether it may have been found twice: it has no identity, and is not dead
-  static bool may_be_double(const Mapped& landmark) {
-    return landmark.slot == kUnknown && !Existence::is_dead(landmark.status.log_odds);
-  }
-
   /// @return what an estimate says of it
   LandmarkEstimate reported(const Mapped& landmark, const LandmarkBelief& belief) const;
 

@@ -16,13 +16,9 @@ struct Doubles {
   std::vector<Pairing> pairings;
 };
 
-bool is_searched(const LandmarkSeen& landmark) {
-  return landmark.slot == kUnknown && !Existence::is_dead(landmark.status.log_odds);
-}
-
 /// Two that the same frame showed last are two.
 bool may_be_same(const LandmarkSeen& late, const LandmarkSeen& old) {
-  return is_searched(old) && old.status.colour_class == late.status.colour_class &&
+  return may_be_double(old.slot, old.status) && old.status.colour_class == late.status.colour_class &&
          old.first_ago > late.first_ago && old.last_ago != late.last_ago;
 }
 
@@ -31,7 +27,8 @@ Doubles possible_doubles(const AssociationPolicy& policy, const JointBelief& bel
                          std::span<const LandmarkSeen> seen, int recent, double as_other) {
   Doubles found;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (is_searched(seen[i]) && seen[i].last_ago <= recent) found.recent.push_back(static_cast<int>(i));
+    if (may_be_double(seen[i].slot, seen[i].status) && seen[i].last_ago <= recent)
+      found.recent.push_back(static_cast<int>(i));
   }
   for (std::size_t i = 0; i < found.recent.size(); ++i) {
     const LandmarkSeen& late = seen[static_cast<std::size_t>(found.recent[i])];

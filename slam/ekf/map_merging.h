@@ -19,6 +19,11 @@ struct LandmarkSeen {
   int last_ago = 0;   ///< and since it was seen last
 };
 
+/// @return whether it may have been found twice: it has no identity, and is not dead
+inline bool may_be_double(int slot, const LandmarkStatus& status) {
+  return slot == kUnknown && !Existence::is_dead(status.log_odds);
+}
+
 /// Looks for older landmarks in the places of recent ones.
 ///
 /// What was seen of late hangs together by odometry over a short way. It is laid over the old map as a whole,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "slam/association/landmark_search.h"
+#include "slam/ekf/map_merging.h"
 #include "slam/models/belief.h"
 #include "slam/models/noise_law.h"
 
@@ -99,10 +100,10 @@ std::vector<std::size_t> Smoother::may_be_doubles() const {
   };
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < map_.size(); ++i) {
-    if (!EkfSlam::may_be_double(map_[i].kept)) continue;
+    if (!may_be_double(map_[i].kept.slot, map_[i].kept.status)) continue;
     const Eigen::Vector2d place = graph_.landmark(map_[i].variable);
     for (std::size_t j = 0; j < i; ++j) {
-      if (!EkfSlam::may_be_double(map_[j].kept) ||
+      if (!may_be_double(map_[j].kept.slot, map_[j].kept.status) ||
           map_[j].kept.status.colour_class != map_[i].kept.status.colour_class ||
           map_[j].kept.last_seen == map_[i].kept.last_seen)
         continue;
