@@ -61,9 +61,9 @@ struct FilterConfig {
   double range_floor_m = 1e-3;
   double bearing_floor_rad = 5e-5;
 
-  /// Filters in blocks (slam/block/block_slam.h) draw the poses of so many frames together; all others draw
-  /// each by itself.
-  int draw_every = 40;
+  /// Filters in blocks (slam/block/block_slam.h) draw the poses of at most so many frames together; all
+  /// others draw each by itself.
+  int draw_every = 1000;
 
   double resample_below = 0.5;  ///< resample when the effective particles fall below this fraction of M
   double gate_probability =

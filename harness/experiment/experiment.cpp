@@ -71,7 +71,7 @@ std::vector<Field<Experiment>> run_fields() {
           .fills(&Experiment::filters)
           .reading(read_filters),
       whole("particles", 1, 100000, "Particles of each particle filter.").fills(&Experiment::particles),
-      whole("draw_every", 1, 100000, "Frames of a block, of the filters that draw poses in blocks.")
+      whole("draw_every", 1, 100000, "Frames of a block at most, of the filters that draw poses in blocks.")
           .fills(&Experiment::draw_every),
       text("seeds", "Which seeds are run: 0..9 (both included), 3, or 0,4,7.", kSeedsPattern)
           .by<Experiment>(read_seeds, written_seeds),

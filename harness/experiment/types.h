@@ -49,7 +49,7 @@ struct Experiment {
   slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();
   int particles = 100;
-  int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block, of the filters that have blocks
+  int draw_every = slam::FilterConfig{}.draw_every;  ///< frames of a block at most
   std::vector<std::uint64_t> seeds = {0};
   std::vector<Gate> gates;
 };

@@ -11,12 +11,17 @@
 #include "slam/fastslam/predictive_mixture.h"
 #include "slam/fastslam/resampling.h"
 #include "slam/math/moments.h"
+#include "slam/models/noise_law.h"
 
 namespace stereobench::slam {
 namespace {
 
 /// By how much a pose may turn out to be elsewhere than predicted, in standard deviations.
 constexpr double kFar = 4.0;
+
+/// By how much the straight way from a block's start may be bent, as a share of a range's standard deviation.
+/// Where the heading is off by a, its end lies a^2 / 2 of its length off the tangent that the EKF takes.
+constexpr double kMostBent = 0.3;
 
 /// A block's EKF leaves no reports of its own.
 FilterConfig within_block(FilterConfig config) {
@@ -35,7 +40,7 @@ BlockSlam::BlockSlam(const FilterConfig& config, const Pose& start, std::uint64_
       unscented_(config.unscented),
       reader_(config),
       random_(seed, Stream::kFilter),
-      hypotheses_(static_cast<std::size_t>(config.particles),
+      hypotheses_(1,
                   Hypothesis{{start, {}, {}}, EkfSlam(within_block(config), start, linearisation), {}, {}}),
       log_weights_(hypotheses_.size()),
       weights_(hypotheses_.size()),
@@ -71,12 +76,45 @@ void BlockSlam::update(std::span<const RangeBearing> sightings) {
   decider_ = heaviest();
   const std::span<const Decision> decided = hypotheses_[decider_].now.decided();
   decided_.assign(decided.begin(), decided.end());
-  if (effective_ < config_.resample_below * static_cast<double>(hypotheses_.size())) resample();
-  const auto is_over = [&](const Hypothesis& mine) {
+  if (effective_ < config_.resample_below * config_.particles) resample();
+  if (!block_is_over()) return;
+  if (particles_of_each() > 1)
+    multiply();
+  else
+    std::ranges::for_each(hypotheses_, [&](Hypothesis& mine) { draw_block(mine); });
+}
+
+/// Whether poses are to be drawn: a block is long or wide, or the heading is so uncertain that its EKF takes
+/// bent ways for straight, by what the heaviest particle uses of this frame.
+bool BlockSlam::block_is_over() const {
+  const auto is_large = [&](const Hypothesis& mine) {
     return static_cast<int>(mine.frames.size()) >= config_.draw_every || mine.shown.size() >= kMostLandmarks;
   };
-  if (std::ranges::any_of(hypotheses_, is_over))
-    std::ranges::for_each(hypotheses_, [&](Hypothesis& mine) { draw_block(mine); });
+  if (std::ranges::any_of(hypotheses_, is_large)) return true;
+  const Hypothesis& heaviest = hypotheses_[decider_];
+  const auto& [pose, landmarks, covariance] = heaviest.now.belief();
+  const Pose& start = heaviest.start.pose;
+  const double apart_m = Eigen::Vector2d(pose.x_m - start.x_m, pose.y_m - start.y_m).norm();
+  const double bent_m = 0.5 * covariance.pose()(2, 2) * apart_m;
+  return std::ranges::any_of(heaviest.frames.back().used, [&](const UsedSighting& one) {
+    const Observation& seen = one.observation;
+    return bent_m > kMostBent * std::sqrt(noise_at(seen, seen.range_bearing)(0, 0));
+  });
+}
+
+/// Makes all particles of the one that stands for them, and draws their blocks one by one: what a block keeps
+/// is large.
+void BlockSlam::multiply() {
+  const Hypothesis one = std::move(hypotheses_.front());
+  hypotheses_.clear();
+  hypotheses_.reserve(static_cast<std::size_t>(config_.particles));
+  for (int i = 0; i < config_.particles; ++i) {
+    hypotheses_.push_back(one);
+    draw_block(hypotheses_.back());
+  }
+  log_weights_.resize(hypotheses_.size());
+  weights_.resize(hypotheses_.size());
+  make_equal(log_weights_, weights_);
 }
 
 /// Tells a particle's EKF of the landmarks whose identities a frame shows.
@@ -127,7 +165,9 @@ void BlockSlam::take_up(Hypothesis& mine, int slot, const LandmarkMap& map, std:
 void BlockSlam::use(Hypothesis& mine, std::span<const Sighting> frame) {
   const Pose before = mine.now.belief().pose;
   mine.now.use(frame, motion_);
-  counters_ += mine.now.take_counters();
+  FilterCounters counters = mine.now.take_counters();
+  counters.gated_measurements *= particles_of_each();
+  counters_ += counters;
   note_founded(mine);
   mine.frames.push_back({after_drift(motion_, before, mine.now.drift()), mine.now.used()});
 }
@@ -175,7 +215,7 @@ void BlockSlam::reweigh(std::span<const Sighting> frame) {
   }
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) log_weights_[i] += worth(hypotheses_[i], frame);
   if (!normalise(log_weights_, weights_)) ++counters_.weight_collapses;
-  effective_ = effective_particles(weights_);
+  effective_ = effective_particles(weights_) * static_cast<double>(particles_of_each());
   const Pose reference = hypotheses_[heaviest()].now.belief().pose;
   Moments<3> moments;
   for (std::size_t i = 0; i < weights_.size(); ++i) {

@@ -22,8 +22,8 @@ namespace stereobench::slam {
 /// poses and landmarks as one Gaussian.
 ///
 /// FastSLAM 2.0 draws a pose at each frame, knowing nothing of what is seen next; most of these draws turn
-/// out wrong a few frames later, the weights scatter, and resampling leaves few paths. Here a block of K
-/// frames (FilterConfig::draw_every) goes by before anything is drawn. With s the block's first instant, a
+/// out wrong a few frames later, the weights scatter, and resampling leaves few paths. Here a block of K frames
+/// goes by before anything is drawn. With s the block's first instant, a
 /// particle is a path x_0..s and the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
 ///
 /// **Within a block** each particle is an iterated EKF over its pose and the landmarks that the block shows,
@@ -42,9 +42,13 @@ namespace stereobench::slam {
 /// FastSLAM: given the path they are independent again. Where motion and sightings are linear this is exact,
 /// for any K, but for a landmark that is found anew within a block: what it had said of the pose stays.
 ///
-/// A frame costs s n^2 + s^3 for s sightings and the n landmarks of a block. A block ends after the frame in
-/// which it has a hundred of them. Landmarks without an identity count where a sighting may be of them, or
-/// where they should be seen.
+/// Until something is drawn all particles are alike, and one stands for them.
+///
+/// **A block ends** where the heading is so uncertain that the straight way from its start may be bent by a
+/// good part of what a range tells. After a draw the heading is taken for exact, so that the next block
+/// starts straight. A block also ends with its hundredth landmark, since a frame costs s n^2 + s^3 for s
+/// sightings and a block's n landmarks, and after FilterConfig::draw_every frames. Landmarks without an
+/// identity count where a sighting may be of them, or where they should be seen.
 class BlockSlam {
  public:
   /// @param linearisation of a block's frames and landmarks: kIterated, or kSigmaPoints, which is better
@@ -56,7 +60,7 @@ class BlockSlam {
   Estimate estimate() const;
   Estimate estimate_without_map() const;
   const UpdateReport& last_update() const { return report_; }
-  int particle_count() const { return static_cast<int>(hypotheses_.size()); }
+  int particle_count() const { return config_.particles; }
 
   /// @return what the particle that the last frame left heaviest made of it
   Decisions last_decisions() const;
@@ -86,6 +90,10 @@ class BlockSlam {
   static void take_up(Hypothesis& mine, int slot, const LandmarkMap& map, std::size_t index);
   void use(Hypothesis& mine, std::span<const Sighting> frame);
   static void note_founded(Hypothesis& mine);
+  bool block_is_over() const;
+  /// How many particles each hypothesis stands for.
+  long particles_of_each() const { return config_.particles / static_cast<long>(hypotheses_.size()); }
+  void multiply();
   double worth(const Hypothesis& mine, std::span<const Sighting> frame);
   void reweigh(std::span<const Sighting> frame);
   void resample();
@@ -102,11 +110,11 @@ class BlockSlam {
   Unscented unscented_;
   FrameReader reader_;
   RandomStream random_;
-  std::vector<Hypothesis> hypotheses_;
-  std::vector<double> log_weights_;  ///< normalised
-  std::vector<double> weights_;      ///< the same, not as logarithms
-  PoseBelief motion_;                ///< since the last frame, in the robot's frame of that time
-  PoseBelief belief_;                ///< at the last frame, over all particles
+  std::vector<Hypothesis> hypotheses_;  ///< one before the first draw, then all particles
+  std::vector<double> log_weights_;     ///< normalised
+  std::vector<double> weights_;         ///< the same, not as logarithms
+  PoseBelief motion_;                   ///< since the last frame, in the robot's frame of that time
+  PoseBelief belief_;                   ///< at the last frame, over all particles
   double effective_;
   std::size_t decider_ = 0;        ///< the particle that the last frame left heaviest, which resampling keeps
   std::vector<Decision> decided_;  ///< what it made of the frame

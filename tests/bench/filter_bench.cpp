@@ -35,9 +35,10 @@ void cycle(benchmark::State& state, const std::string& name, int landmarks, bool
   config.report_updates = reports;
   config.particles = static_cast<int>(state.range(0));
   config.odometry_noise = {.v_constant_mps = 0.3, .w_constant_radps = 0.05};
+  config.draw_every = 40;
   slam::Filter filter = slam::make_filter(name, config, {}, 0);
   const std::vector<slam::RangeBearing> circle = circle_of(landmarks);
-  slam::update(filter, circle);
+  for (int i = 0; i <= config.draw_every; ++i) slam::update(filter, circle);  // particles are no longer alike
   std::size_t next = 0;
   for (auto _ : state) {
     for (int i = 0; i < kPredictions;

@@ -43,6 +43,7 @@ void step_in_a_map(benchmark::State& state, const std::string& name, bool known)
   slam::FilterConfig config;
   config.particles = static_cast<int>(state.range(0));
   config.odometry_noise = {.v_constant_mps = 0.01, .w_constant_radps = 0.001};
+  config.draw_every = 40;
   slam::Filter filter = slam::make_filter(name, config, {}, 0);
   const int end = static_cast<int>(state.range(1)) / kSeen - 1;
   for (int metre = 0; metre <= end; ++metre) {

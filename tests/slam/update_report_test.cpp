@@ -234,7 +234,10 @@ TEST_P(Reports, AncestorsComeWithEachResampling) {
     }
   });
   EXPECT_EQ(resamplings, last.counters.resamplings);
-  EXPECT_EQ(resamplings > 0, particle_count(GetParam().make(reporting(world, 30), {}, 1)) > 1);
+  const bool draws_late =
+      GetParam().draws_in_blocks() && GetParam().draw_every == 0;  // later than this drive ends
+  const bool has_particles = particle_count(GetParam().make(reporting(world, 30), {}, 1)) > 1;
+  EXPECT_EQ(resamplings > 0, has_particles && !draws_late);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ MeasurementLog exact_log() {
 slam::FilterConfig noisy_config() {
   slam::FilterConfig config;
   config.particles = 5;
+  config.draw_every = 3;
   config.odometry_noise = {0.01, 0.1, 0.01, 0.01, 0.01, 0.1};
   return config;
 }
