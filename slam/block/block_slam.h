@@ -22,9 +22,9 @@ namespace stereobench::slam {
 /// poses and landmarks as one Gaussian.
 ///
 /// FastSLAM 2.0 draws a pose at each frame, knowing nothing of what is seen next; most of these draws turn
-/// out wrong a few frames later, the weights scatter, and resampling leaves few paths. Here a block of K frames
-/// goes by before anything is drawn. With s the block's first instant, a
-/// particle is a path x_0..s and the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
+/// out wrong a few frames later, the weights scatter, and resampling leaves few paths. Here a block of K
+/// frames goes by before anything is drawn. With s the block's first instant, a particle is a path x_0..s and
+/// the map given that path, p(m | x_0..s, z_1..s) = product of Gaussians.
 ///
 /// **Within a block** each particle is an iterated EKF over its pose and the landmarks that the block shows,
 ///     p(x_t, m | x_0..s, z_1..t),

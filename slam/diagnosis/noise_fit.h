@@ -45,8 +45,8 @@ NoiseEvidence noise_evidence(const FilterConfig& config, const Pose& start, std:
 struct NoiseFit {
   LogFactors factors = LogFactors::Zero();
   NoiseEvidence evidence;  ///< around them
-  /// Standard deviations of the factors' logarithms. A factor of which the log says nothing has 2, by which it
-  /// was known beforehand.
+  /// Standard deviations of the factors' logarithms. A factor of which the log says nothing has 2, by which
+  /// it was known beforehand.
   LogFactors deviations = LogFactors::Zero();
   int steps = 0;  ///< of the search
   bool converged = false;
