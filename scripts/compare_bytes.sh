@@ -28,7 +28,7 @@ write_all() {
   stereobench office run "$scenarios/office.yaml" --seeds 0..1 --out office
   stereobench open_field run "$scenarios/open_field.yaml" --seeds 0..3 --out open_field
   stereobench room run "$scenarios/room.yaml" --seeds 0 --out room
-  stereobench filters run "$scenarios/open_field.yaml" --seeds 0..1 --out filters \
+  stereobench filters run "$scenarios/open_field.yaml" --seeds 0..1 --set draw_every=40 --out filters \
     --filters dead_reckoning,ekf,fastslam1,fastslam2,ufastslam,fastslam2_iterated,ufastslam_iterated,ufastslam_kim,fastslam2_block,ufastslam_block
   stereobench lens run "$scenarios/ball_circle.yaml" --seeds 0 --set path.laps=0.1 --set rig.distortion=[-0.1,0.02,0,0,0] \
     --out lens
