@@ -1,4 +1,4 @@
-/// Standard input, output and error that are full or closed.
+/// Standard input, output and error that are full or closed, and what quiet commands say.
 #include <algorithm>
 #include <sstream>
 #include <string>
