@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
-#include "harness/commands/standard_streams.h"
 #include "harness/dataset/dataset_truth.h"
 #include "harness/dataset/palette_file.h"
 #include "harness/detector/detection_lines.h"
@@ -19,6 +18,7 @@
 #include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
 #include "harness/io/picture_reader.h"
+#include "harness/process/standard_streams.h"
 #include "harness/report/detection_picture.h"
 #include "renderer/camera/sensor_model.h"
 #include "vision/observe.h"

@@ -6,13 +6,13 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/commands/standard_streams.h"
 #include "harness/experiment/write_experiment.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
 #include "harness/noise_check/noise_check.h"
 #include "harness/process/interruption.h"
 #include "harness/process/process_pool.h"
+#include "harness/process/standard_streams.h"
 #include "renderer/backend.h"
 
 namespace stereobench::harness {
@@ -79,11 +79,14 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
   std::vector<DriveTask> tasks;
   for (const std::uint64_t seed : experiment.seeds) {
     const bool is_first = seed == experiment.seeds.front();
-    SeedParts wanted = is_first ? parts : SeedParts{.steps = parts.steps};
+    SeedParts wanted = parts;
+    wanted.map = parts.map && is_first;
+    wanted.snapshots = is_first ? parts.snapshots : 0;
     wanted.log = parts.log && tasks.size() < kCheckedLogs;
     tasks.push_back({&experiment, seed, wanted, arguments.backend});
-    tasks.back().key = sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {} log {}", basis, seed,
-                                             wanted.steps, wanted.map, wanted.snapshots, wanted.log));
+    tasks.back().key =
+        sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {} log {} detections {}", basis, seed,
+                              wanted.steps, wanted.map, wanted.snapshots, wanted.log, wanted.detections));
   }
   return tasks;
 }

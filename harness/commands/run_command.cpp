@@ -17,7 +17,7 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4, .log = true};
+constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4, .log = true, .detections = true};
 
 int run(const ScenarioArguments& arguments) {
   const Experiment experiment = read_experiment(arguments);
@@ -68,9 +68,9 @@ void add_run_command(CLI::App& program, Action& action) {
   add_scenario_options(*command, *arguments);
   command->footer(
       "Each seed is rendered once and replayed for each filter. Writes run.json (metrics), steps.csv (every\n"
-      "step), map.png, error.png, frames/ (detections drawn on the pictures), timing.json and, where a world "
-      "is\n"
-      "left to chance, draws.jsonl.\n"
+      "step), detections.csv.gz (every ball and detection), map.png, error.png, frames/ (detections drawn on "
+      "the\n"
+      "pictures), timing.json and, where a world is left to chance, draws.jsonl.\n"
       "Exits with 1 when a gate of the scenario is broken.\n\n"
       "Example: stereobench run assets/scenarios/ball_circle.yaml --seeds 0..9 --set "
       "camera.noise_sd_levels=4");

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/commands/standard_streams.h"
 #include "harness/process/progress.h"
+#include "harness/process/standard_streams.h"
 
 namespace stereobench::harness {
 namespace {

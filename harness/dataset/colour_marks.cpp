@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "harness/io/json_line.h"
 #include "harness/io/picture_reader.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

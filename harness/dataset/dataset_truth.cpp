@@ -11,10 +11,10 @@
 #include "harness/dataset/formats/stereobench_format.h"
 #include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
-#include "harness/io/json_line.h"
 #include "harness/io/number_table.h"
 #include "harness/io/picture_reader.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/io/json_line.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "harness/io/atomic_file.h"
 #include "harness/io/file_list.h"
-#include "harness/io/json_line.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,7 +6,7 @@
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
-#include "harness/io/cbor.h"
+#include "harness/json/cbor.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "renderer/surfaces/mesh_cache.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/rig.h"

@@ -13,7 +13,7 @@
 
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/protocol.h"
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 #include "renderer/pictures/png_picture.h"
 
 namespace stereobench::harness {

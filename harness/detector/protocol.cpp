@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 #include "vision/palette.h"
 
 namespace stereobench::harness {

@@ -1,6 +1,6 @@
 #include "harness/detector_noise/serialise.h"
 
-#include "harness/io/cbor.h"
+#include "harness/json/cbor.h"
 #include "harness/vision_scoring/vision_score_json.h"
 
 namespace stereobench::harness {

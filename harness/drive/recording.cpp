@@ -65,7 +65,8 @@ class StereoSense {
     const worlds::World& meant = scenario_.world;
     score_.rig +=
         check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, *late_s, &renderer_});
+    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, world_, scenario_.rig, *late_s,
+              &renderer_});
     return sightings_of(observations, balls_observed(match), world_.balls, scenario_.identity);
   }
 

@@ -31,6 +31,8 @@ struct FrameEvent {
   const vision::StereoPair& pair;
   const std::vector<vision::BallObservation>& observations;
   const FrameMatch& match;
+  const worlds::World& world;              ///< of the seed
+  const vision::StereoRig& rig;            ///< the true one
   double late_s = 0.0;                     ///< by how much the cameras looked later than the step's time says
   renderer::Renderer* renderer = nullptr;  ///< that made the pictures, for those who want more of the truth
 };

@@ -29,17 +29,37 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
 }
 
-/// The name of the temporary file, for a signal's handler; empty where there is none.
-std::array<char, PATH_MAX> unfinished_name = {};
-std::atomic<bool> is_unfinished = false;
+/// The name of a temporary file, for a signal's handler.
+struct UnfinishedFile {
+  std::array<char, PATH_MAX> name = {};
+  std::atomic<bool> is_there = false;
+};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+std::array<UnfinishedFile, AtomicFile::kMostAtATime> unfinished;
+std::array<bool, AtomicFile::kMostAtATime> is_taken = {};
+
+/// @return a place among the unfinished files that nobody has
+std::size_t take_place(const fs::path& path) {
+  const auto* const free = std::ranges::find(is_taken, false);
+  if (free == is_taken.end())
+    throw std::logic_error(fmt::format("{}: too many files are being written", path.string()));
+  const auto place = static_cast<std::size_t>(free - is_taken.begin());
+  is_taken[place] = true;
+  return place;
+}
+
 /// Tells a signal's handler what to remove.
-void announce(const std::string& name) {
-  is_unfinished = false;
-  if (name.size() >= unfinished_name.size()) return;
-  std::copy_n(name.c_str(), name.size() + 1, unfinished_name.begin());
-  is_unfinished = true;
+void announce(UnfinishedFile& file, const std::string& name) {
+  file.is_there = false;
+  if (name.size() >= file.name.size()) return;
+  std::copy_n(name.c_str(), name.size() + 1, file.name.begin());
+  file.is_there = true;
+}
+
+void give_back(std::size_t place) {
+  unfinished[place].is_there = false;
+  is_taken[place] = false;
 }
 
 /// Makes a rename in a folder survive a power cut. File systems that cannot do so are let be.
@@ -70,8 +90,9 @@ bool is_leftover(const std::string& name) {
 
 }  // namespace
 
-void remove_unfinished_file() noexcept {
-  if (is_unfinished) unlink(unfinished_name.data());
+void remove_unfinished_files() noexcept {
+  for (const UnfinishedFile& file : unfinished)
+    if (file.is_there) unlink(file.name.data());
 }
 
 void remove_leftovers_in(const fs::path& folder) {
@@ -101,11 +122,15 @@ void prepare_output_folder(const fs::path& folder) {
 
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
   if (fs::is_directory(path_)) fail(path_, "cannot be replaced", EISDIR);
+  place_ = take_place(path_);
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     name_ = fmt::format("{}.{}-{}.tmp", path_.string(), getpid(), attempt);
-    announce(name_);  // before it is there: a signal may come right after
+    announce(unfinished[place_], name_);  // before it is there: a signal may come right after
     descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST) fail(path_, "cannot be written", errno);
+    if (descriptor_ >= 0 || errno == EEXIST) continue;
+    const int error = errno;
+    give_back(place_);
+    fail(path_, "cannot be written", error);
   }
 }
 
@@ -113,7 +138,7 @@ AtomicFile::~AtomicFile() {
   if (is_moved_) return;
   if (descriptor_ >= 0) close(descriptor_);
   unlink(name_.c_str());
-  is_unfinished = false;
+  give_back(place_);
 }
 
 void AtomicFile::append(std::string_view bytes) {
@@ -129,7 +154,7 @@ void AtomicFile::move_into_place() {
   if (fsync(descriptor_) != 0) fail(path_, "cannot be written", errno);
   if (close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot be written", errno);
   if (std::rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
-  is_unfinished = false;
+  give_back(place_);
   is_moved_ = true;
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
 }

@@ -1,6 +1,7 @@
 /// Files that are either wholly there or not there at all.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,9 +14,11 @@ namespace stereobench::harness {
 void prepare_output_folder(const std::filesystem::path& folder);
 
 /// A file that is written part by part under a temporary name in the same folder, then synced and renamed: a
-/// program that is killed leaves the old file or the new one, never a part. There is to be one at a time.
+/// program that is killed leaves the old file or the new one, never a part. A process writes few at a time.
 class AtomicFile {
  public:
+  static constexpr std::size_t kMostAtATime = 4;
+
   /// @param path the file to write or to replace
   /// @throws std::runtime_error naming the path and the cause (missing folder, no permission), and so below
   explicit AtomicFile(std::filesystem::path path);
@@ -29,6 +32,7 @@ class AtomicFile {
  private:
   std::filesystem::path path_;
   std::string name_;
+  std::size_t place_ = 0;  ///< among the unfinished files
   int descriptor_ = -1;
   bool is_moved_ = false;
 };
@@ -39,9 +43,8 @@ class AtomicFile {
 /// @throws std::runtime_error naming the path and the cause (missing folder, no permission, full disk)
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes the AtomicFile that is being written, of which there is no more than one. Safe to
-/// call in a signal's handler.
-void remove_unfinished_file() noexcept;
+/// Removes each AtomicFile that is being written. Safe to call in a signal's handler.
+void remove_unfinished_files() noexcept;
 
 /// Removes what processes that were killed left in a folder under temporary names. Those of processes that
 /// are still alive stay.

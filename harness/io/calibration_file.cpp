@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "harness/io/json_line.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/distortion.h"
 #include "vision/camera/rig.h"

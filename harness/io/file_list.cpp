@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/io/json_line.h"
 #include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

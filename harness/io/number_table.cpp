@@ -234,6 +234,15 @@ int whole_number_in(const NumberTable& table, const TableRow& row, std::size_t c
   return value;
 }
 
+std::uint64_t seed_in(const NumberTable& table, const TableRow& row, std::size_t column) {
+  const std::string& text = row.cells[column];
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size())
+    refuse(table, row, column, "expected a whole number that is not negative");
+  return seed;
+}
+
 std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::size_t column) {
   const std::optional<std::int64_t> stamp = parse_stamp(row.cells[column]);
   if (!stamp) refuse(table, row, column, "expected a time in seconds within 9e9");

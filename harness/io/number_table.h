@@ -57,6 +57,9 @@ double number_in(const NumberTable& table, const TableRow& row, std::size_t colu
 /// A cell as a whole number of at least `smallest`.
 int whole_number_in(const NumberTable& table, const TableRow& row, std::size_t column, int smallest);
 
+/// A cell as a seed: a whole number from 0 to 2^64 - 1.
+std::uint64_t seed_in(const NumberTable& table, const TableRow& row, std::size_t column);
+
 /// A cell in seconds as nanoseconds, exact for decimals of up to nine places.
 std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::size_t column);
 

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "harness/io/cbor.h"
 #include "harness/io/text_table.h"
+#include "harness/json/cbor.h"
+#include "harness/json/json_numbers.h"
 #include "harness/process/process_pool.h"
-#include "harness/statistics/json_numbers.h"
 #include "slam/math/elementary.h"
 
 namespace stereobench::slam {

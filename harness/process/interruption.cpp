@@ -35,7 +35,7 @@ bool is_in_main_thread(int signal) {
 /// Calls what POSIX allows a signal's handler, and nothing else.
 void end_program(int signal) {
   if (!is_in_main_thread(signal)) return;
-  remove_unfinished_file();
+  remove_unfinished_files();
   if (::isatty(STDERR_FILENO) == 1) write_line("\r\033[K");  // in place of a progress line
   write_line(signal == SIGINT ? "stereobench: interrupted (SIGINT)" : "stereobench: terminated (SIGTERM)");
   write_line(work_is_kept != 0 ? "; what is finished is kept, and the same command goes on from there\n"
@@ -48,7 +48,7 @@ pid_t parent_of_worker = 0;
 /// SIGTERM to a worker: from the kernel when its parent has ended, from others while that is still there.
 void end_orphan(int signal) {
   if (::getppid() == parent_of_worker || !is_in_main_thread(signal)) return;
-  remove_unfinished_file();
+  remove_unfinished_files();
   ::_exit(128 + signal);
 }
 

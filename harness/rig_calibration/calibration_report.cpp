@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/text_table.h"
+#include "harness/json/json_numbers.h"
 #include "harness/rig_calibration/calibration_warnings.h"
-#include "harness/statistics/json_numbers.h"
 #include "slam/math/angles.h"
 
 namespace stereobench::harness {

@@ -12,7 +12,7 @@
 #include "harness/dataset/dataset_truth.h"
 #include "harness/detector/detection_lines.h"
 #include "harness/drive/sightings.h"
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 #include "harness/vision_scoring/rig_check.h"
 
 namespace stereobench::harness {

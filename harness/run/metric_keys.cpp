@@ -92,6 +92,9 @@ constexpr SummaryKey kSingles[] = {
     {"vision.range_rms_m", "Range error of right detections: rms."},
     {"vision.bearing_rms_rad", "Bearing error of right detections: rms."},
     {"vision.disparity_rms_px", "Disparity error of right detections: rms."},
+    {"vision.range_bias_m", "Mean range error of right detections: measured minus true."},
+    {"vision.bearing_bias_rad", "Mean bearing error of right detections."},
+    {"vision.disparity_bias_px", "Mean disparity error of right detections."},
     {"vision.normalised_error",
      "Mean of e' R^-1 e / 2 over right detections; 1 is honest, above is overconfident."},
     {"vision.visible", "Balls that had to be found, summed over the pairs."},
@@ -190,6 +193,9 @@ constexpr SummaryKey kSingles[] = {
     {"filters.*.counters.weight_collapses", "Updates after which every particle's weight had vanished."},
     {"filters.*.counters.joint_searches_cut", "Searches for the best association that were cut short."},
     {"filters.*.failures", "Seeds in which the filter broke down; they enter no mean."},
+    {"per_seed.*[]",
+     "A metric of each seed, in the order of seeds: the key of that name, or its mean, of a run of the seed "
+     "alone."},
     {"comparisons[].filter", "A filter, beside another on the same seeds."},
     {"comparisons[].minus", "The other."},
     {"comparisons[].p_wilcoxon", "Probability of such a difference by chance (Wilcoxon's signed ranks)."},
@@ -204,7 +210,7 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kParts = {{
 
 /// Whether the keys at a path are names of a run's own things.
 bool is_named_by_user(std::string_view path) {
-  return path == "filters" || path == "made_from.files_sha256";
+  return path == "filters" || path == "made_from.files_sha256" || path == "per_seed";
 }
 
 void collect(const nlohmann::ordered_json& json, const std::string& path, std::vector<std::string>& keys) {

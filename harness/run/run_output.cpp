@@ -8,6 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "harness/io/gzip.h"
+#include "harness/json/json_text.h"
+#include "harness/vision_scoring/detection_table.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -93,17 +97,28 @@ RunOutput::RunOutput(std::filesystem::path out, RunTally tally)
 
 void RunOutput::add(const SeedResult& seed) {
   tally_.add(seed);
+  seed_metrics_.add(seed);
   pictures_.add(seed);
   steps_.append(seed.csv);
+  if (seed.detections_gz.empty()) return;
+  if (!detections_) detections_.emplace(out_ / kDetections).append(gzip(detections_csv_header()));
+  detections_->append(seed.detections_gz);
+}
+
+RunResult RunOutput::result() const {
+  RunResult result = tally_.result();
+  result.seed_metrics = seed_metrics_.metrics();
+  return result;
 }
 
 void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& walls) {
   steps_.move_into_place();
+  if (detections_) detections_->move_into_place();
   pictures_.write(out_, result, walls);
   write_file_atomically(out_ / "timing.json",
                         timing_json(tally_.timing(), result.seeds.size()).dump(2) + "\n");
   if (result.made_from) write_file_atomically(out_ / kResolvedScenario, result.made_from->scenario);
-  write_file_atomically(out_ / "run.json", run_json(result).dump(2) + "\n");
+  write_file_atomically(out_ / "run.json", json_text(run_json(result)));
 }
 
 }  // namespace stereobench::harness

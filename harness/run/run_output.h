@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/io/atomic_file.h"
 #include "harness/report/error_picture.h"
 #include "harness/run/run_tally.h"
+#include "harness/run/seed_metrics.h"
 #include "harness/run/seed_result.h"
 #include "worlds/types.h"
 
@@ -39,7 +41,7 @@ class RunPictures {
 /// of a seed there remain some numbers.
 class RunOutput {
  public:
-  /// Begins steps.csv under a temporary name. Until write() there is to be no other atomic file.
+  /// Begins steps.csv under a temporary name.
   /// @param out an existing folder that can be written
   /// @param tally without seeds
   RunOutput(std::filesystem::path out, RunTally tally);
@@ -47,10 +49,11 @@ class RunOutput {
   /// Adds a seed. @throws std::runtime_error when its lines cannot be written
   void add(const SeedResult& seed);
 
-  RunResult result() const { return tally_.result(); }
+  RunResult result() const;
 
-  /// Writes steps.csv under its name, map.png and error.png, frames/*.png, timing.json, the resolved scenario
-  /// and, last of all, run.json: where there is a run.json, the run is complete.
+  /// Writes steps.csv and detections.csv.gz under their names, map.png and error.png, frames/*.png,
+  /// timing.json, the resolved scenario and, last of all, run.json: where there is a run.json, the run is
+  /// complete.
   /// @param result of result(), with what it lacks
   /// @param walls drawn into the map
   /// @throws std::runtime_error when a file cannot be written
@@ -59,8 +62,10 @@ class RunOutput {
  private:
   std::filesystem::path out_;
   RunTally tally_;
+  SeedMetricsTally seed_metrics_;
   RunPictures pictures_;
   AtomicFile steps_;
+  std::optional<AtomicFile> detections_;  ///< once a seed has some
 };
 
 }  // namespace stereobench::harness

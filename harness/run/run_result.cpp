@@ -1,7 +1,7 @@
 #include "harness/run/run_result.h"
 
+#include "harness/json/json_numbers.h"
 #include "harness/run/consistency_report.h"
-#include "harness/statistics/json_numbers.h"
 
 namespace stereobench::harness {
 namespace {
@@ -126,6 +126,9 @@ Json vision_json(const std::optional<VisionScore>& vision) {
                {"range_rms_m", number(vision->range_rms_m())},
                {"bearing_rms_rad", number(vision->bearing_rms_rad())},
                {"disparity_rms_px", number(vision->disparity_rms_px())},
+               {"range_bias_m", number(vision->range_bias_m())},
+               {"bearing_bias_rad", number(vision->bearing_bias_rad())},
+               {"disparity_bias_px", number(vision->disparity_bias_px())},
                {"normalised_error", number(vision->mean_normalised_error())},
                {"visible", vision->visible},
                {"found", vision->found},
@@ -153,6 +156,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   json["noise"] = noise_json(result.noise.value_or(NoiseCheck{}));
   json["filters"] = std::move(filters);
   json["comparisons"] = comparisons_json(result.comparisons);
+  json["per_seed"] = seed_metrics_json(result.seed_metrics);
   return json;
 }
 

@@ -13,6 +13,7 @@
 #include "harness/noise_check/noise_check.h"
 #include "harness/run/provenance.h"
 #include "harness/run/seed_drive.h"
+#include "harness/run/seed_metrics.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/score.h"
 #include "harness/statistics/paired.h"
@@ -66,6 +67,7 @@ struct RunResult {
   std::vector<std::string> assumed;     ///< of it: lines for people
   std::optional<NoiseCheck> noise;      ///< empty where it was not checked
   std::optional<Provenance> made_from;  ///< empty for a recorded log
+  SeedMetrics seed_metrics;             ///< in the order of the seeds; empty where nobody asked for them
 };
 
 /// The content of run.json: no time, path or host in it.

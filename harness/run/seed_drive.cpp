@@ -7,6 +7,7 @@
 #include "harness/report/detection_picture.h"
 #include "harness/scoring/references.h"
 #include "harness/scoring/replay.h"
+#include "harness/vision_scoring/detection_table.h"
 #include "slam/math/random.h"
 #include "slam/models/belief.h"
 
@@ -44,6 +45,8 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   Listeners listeners;
   listeners.on_progress = on_progress;
   listeners.on_frame = [&](const FrameEvent& event) {
+    if (task.parts.detections)
+      drive.detections += detection_rows({task.seed, event.step, event.world, event.rig}, event.match);
     if (is_snapshot_step(event.step, task.parts.snapshots, task.experiment->scenario.path.size()))
       drive.snapshots.push_back(
           {event.step, draw_detection_picture(for_display(event.pair, task.experiment->scenario.camera),

@@ -27,6 +27,7 @@ struct SeedDrive {
   std::vector<FilterRun> runs;
   References references;
   std::vector<Snapshot> snapshots;
+  std::string detections;  ///< its lines of detections.csv
 };
 
 /// What is wanted of a seed beside its scores.
@@ -35,6 +36,7 @@ struct SeedParts {
   bool map = false;           ///< what the map shows
   std::size_t snapshots = 0;  ///< how many pictures, evenly spread over the path
   bool log = false;           ///< what was measured
+  bool detections = false;    ///< its lines of detections.csv, of a sensor with pixels
 };
 
 /// A seed to drive, what is wanted of it, and what renders it.

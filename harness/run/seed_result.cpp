@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/io/gzip.h"
 #include "harness/run/consistency_report.h"
 #include "harness/scoring/association_score.h"
 #include "slam/models/motion.h"
@@ -107,6 +108,7 @@ SeedResult score_seed(const SeedDrive& drive, const SeedParts& parts) {
   if (drive.references.bound) result.bound = score(*drive.references.bound);
   if (parts.steps) add_steps(drive, result);
   if (parts.map) result.map = map_of(drive, result);
+  if (parts.detections && recording.vision) result.detections_gz = gzip(drive.detections);
   if (parts.log) result.log = sensor_log(recording.log);
   return result;
 }

@@ -45,6 +45,7 @@ struct SeedResult {
   std::optional<BoundScores> bound;
   std::vector<double> bound_m2;   ///< variance of the position by the filtering bound, one a step
   std::string csv;                ///< its lines of steps.csv
+  std::string detections_gz;      ///< its lines of detections.csv, packed; empty where nobody asked for them
   std::vector<double> time_s;     ///< of each step
   std::optional<MapPicture> map;  ///< without title and walls
   std::vector<Snapshot> snapshots;

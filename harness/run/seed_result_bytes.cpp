@@ -1,4 +1,4 @@
-#include "harness/io/cbor.h"
+#include "harness/json/cbor.h"
 #include "harness/run/seed_result.h"
 #include "harness/vision_scoring/vision_score_json.h"
 
@@ -64,7 +64,8 @@ inline void from_json(const nlohmann::json& json, Snapshot& snapshot) {
 
 STEREOBENCH_ALL_FIELDS(SensorLog, start, steps)
 STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
-                       identities_known, runs, batch, bound, bound_m2, csv, time_s, map, snapshots, log)
+                       identities_known, runs, batch, bound, bound_m2, csv, detections_gz, time_s, map,
+                       snapshots, log)
 
 std::string to_bytes(const SeedResult& result) {
   return bytes_of(result);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/io/text_table.h"
-#include "harness/statistics/json_numbers.h"
+#include "harness/json/json_numbers.h"
 
 namespace stereobench::harness {
 namespace {

@@ -6,19 +6,13 @@
 
 #include <Eigen/LU>
 
+#include "harness/vision_scoring/detection_outcome.h"
 #include "slam/math/elementary.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::harness {
 
 namespace {
-
-constexpr double kSmallestRadius_px = 5.0;
-
-/// A ball has to be found when it is whole, not tiny and hardly hidden.
-bool must_be_found(const BallInPair& ball) {
-  return is_whole(ball) && std::min(ball.left.radius_px(), ball.right.radius_px()) >= kSmallestRadius_px;
-}
 
 void add_errors(const BallInPair& ball, const vision::BallObservation& observation, VisionScore& score) {
   const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
@@ -78,6 +72,15 @@ double VisionScore::bearing_rms_rad() const {
 double VisionScore::disparity_rms_px() const {
   return rms(disparity_errors_px);
 }
+double VisionScore::range_bias_m() const {
+  return mean(range_errors_m);
+}
+double VisionScore::bearing_bias_rad() const {
+  return mean(bearing_errors_rad);
+}
+double VisionScore::disparity_bias_px() const {
+  return mean(disparity_errors_px);
+}
 double VisionScore::mean_normalised_error() const {
   return mean(normalised_errors);
 }
@@ -106,30 +109,26 @@ double disparity_error_px(const BallInPair& ball, const vision::BallObservation&
 }
 
 VisionScore score_match(const FrameMatch& match) {
-  std::vector<bool> found(match.outlines.size(), false);
+  const PairOutcome pair = judge_detections(match);
+  const auto count_of = [&pair](DetectionOutcome outcome) {
+    return static_cast<long>(std::ranges::count(pair.detections, outcome));
+  };
   VisionScore score;
-  for (const MatchedObservation& seen : match.observations) {
-    if (!seen.undistorted.trusted()) {
-      ++score.flagged;
-      continue;
-    }
-    ++score.observations;
-    if (!seen.outline) {
-      ++score.spurious;
-    } else if (!seen.colour_agrees) {
-      ++score.misidentified;
-    } else if (found[*seen.outline]) {
-      ++score.repeated;
-    } else {
-      found[*seen.outline] = true;
-      ++score.right;
+  score.right = count_of(DetectionOutcome::kTruePositive);
+  score.misidentified = count_of(DetectionOutcome::kWrongIdentity);
+  score.repeated = count_of(DetectionOutcome::kDuplicate);
+  score.spurious = count_of(DetectionOutcome::kFalsePositive);
+  score.flagged = count_of(DetectionOutcome::kFlagged);
+  score.observations = static_cast<long>(pair.detections.size()) - score.flagged;
+  for (std::size_t i = 0; i < pair.detections.size(); ++i) {
+    const MatchedObservation& seen = match.observations[i];
+    if (pair.detections[i] == DetectionOutcome::kTruePositive)
       add_errors(match.outlines[*seen.outline], seen.undistorted, score);
-    }
   }
   for (std::size_t i = 0; i < match.outlines.size(); ++i) {
-    if (!must_be_found(match.outlines[i])) continue;
+    if (!pair.is_required[i]) continue;
     ++score.visible;
-    score.found += found[i] ? 1 : 0;
+    score.found += pair.is_found[i] ? 1 : 0;
   }
   return score;
 }

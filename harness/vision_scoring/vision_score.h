@@ -10,7 +10,7 @@ namespace stereobench::harness {
 
 /// What became of the balls of some pairs. Scores of any pairs can be merged, in any order.
 struct VisionScore {
-  long visible = 0;                    ///< balls that had to be found, see score_match
+  long visible = 0;                    ///< balls that had to be found, see judge_detections
   long found = 0;                      ///< of these, the ones that were
   long observations = 0;               ///< those that are to be trusted
   long right = 0;                      ///< of these, the first of each ball, with the ball's colour
@@ -30,14 +30,15 @@ struct VisionScore {
   double range_rms_m() const;  ///< NaN when there is none, and so below
   double bearing_rms_rad() const;
   double disparity_rms_px() const;
+  double range_bias_m() const;  ///< the mean error, measured minus true
+  double bearing_bias_rad() const;
+  double disparity_bias_px() const;
   double mean_normalised_error() const;  ///< 1 when the covariance is honest
 
   VisionScore& operator+=(const VisionScore& other);
 };
 
-/// Scores the observations of one pair. A ball must be found when its outline lies within both images, has a
-/// radius of at least 5 px, and at least 95 % of it is seen by each camera. Of several trusted observations
-/// of one ball the first counts as right.
+/// Scores the observations of one pair, judged by judge_detections().
 VisionScore score_match(const FrameMatch& match);
 
 /// Measured minus true. @param undistorted of a MatchedObservation @return NaN for one without pixels

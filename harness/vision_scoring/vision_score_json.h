@@ -1,7 +1,7 @@
 /// A vision score as JSON, for CBOR between processes.
 #pragma once
 
-#include "harness/io/cbor.h"
+#include "harness/json/cbor.h"
 #include "harness/vision_scoring/vision_score.h"
 
 namespace stereobench::vision {

@@ -20,7 +20,8 @@ enum class Stream : std::uint32_t {
   kCalibrationScene,
   kRandomise,
   kBallRadius,
-  kStart
+  kStart,
+  kResample
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
              {"run.json", "steps.csv", "map.png", "error.png", "resolved_scenario.yaml"}},
         Work{"RunWithPictures",
              "run '" + kCircle + "' --set path.laps=0.1 --set gates=[] --particles 5 --seeds 3,0,2 --jobs 2",
-             {"run.json", "steps.csv", "map.png", "frames/seed3_step0000.png"}},
+             {"run.json", "steps.csv", "detections.csv.gz", "map.png", "frames/seed3_step0000.png"}},
         Work{"Sweep",
              "sweep '" + kField +
                  "' --set gates=[] --vary oracle.range_sd_m=0.1,0.2 --particles 20 --seeds 0..3 --jobs 2",

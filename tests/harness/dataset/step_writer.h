@@ -32,7 +32,8 @@ class StepWriter {
   /// @param scenario outlives it
   StepWriter(const TestFolder& folder, const worlds::Scenario& scenario, const DatasetFormat& format,
              const TruthRequest& request)
-      : renderer_(scenario.world, scenario.rig),
+      : scenario_(scenario),
+        renderer_(scenario.world, scenario.rig),
         truth_(scenario, scenario.world, renderer::read_form),
         writer_(format.make({scenario, scenario.world, 0, {}, request})),
         dataset_(folder.path(), {{"seed", 0}}) {}
@@ -43,6 +44,8 @@ class StepWriter {
                               .pair = {seen.left.colour, seen.right.colour},
                               .observations = {},
                               .match = {},
+                              .world = scenario_.world,
+                              .rig = scenario_.rig,
                               .late_s = late_s,
                               .renderer = &renderer_};
     truth_.look_at(event);
@@ -54,6 +57,7 @@ class StepWriter {
   }
 
  private:
+  const worlds::Scenario& scenario_;
   renderer::Renderer renderer_;
   FrameTruth truth_;
   std::unique_ptr<DatasetWriter> writer_;

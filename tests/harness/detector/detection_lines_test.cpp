@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 #include "slam/math/random.h"
 #include "vision/camera/rig.h"
 #include "vision/stereo/range_bearing.h"

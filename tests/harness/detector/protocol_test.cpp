@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {

@@ -50,9 +50,9 @@ TEST(RunResult, JsonSaysNothingThatOneRunAndTheNextDifferIn) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result);
-  EXPECT_EQ(keys_of(json),
-            (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector", "vision", "bound",
-                                   "smoothing_bound", "batch", "noise", "filters", "comparisons"}));
+  EXPECT_EQ(keys_of(json), (std::set<std::string>{"schema", "scenario", "seeds", "renderer", "detector",
+                                                  "vision", "bound", "smoothing_bound", "batch", "noise",
+                                                  "filters", "comparisons", "per_seed"}));
   EXPECT_EQ(keys_of(json["renderer"]), (std::set<std::string>{"backend", "blur"}));
   for (SeedDrive& drive : drives) drive.recording.timing["render"] = 123.0;
   EXPECT_EQ(run_json(assemble("name", "none", drives)), json);

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include "harness/io/cbor.h"
+#include "harness/json/cbor.h"
 #include "harness/run/run_output.h"
 #include "harness/scoring/replay.h"
 #include "slam/math/random.h"
@@ -32,6 +32,7 @@ SeedResult result_at(double value) {
   run.score.normalised_errors = {std::nullopt, SquaredSum{value, 3}};
   run.score.consistency.innovations.by_landmark[4] = {{value, 2}, {-value, 2}};
   result.runs = {run};
+  for (int byte = 0; byte < 256; ++byte) result.detections_gz += static_cast<char>(byte);
   result.map.emplace().estimates = {{"ekf", {{value, -value, 0.0}}, {{3, 5, {value, 1.0}}}}};
   result.map->estimates[0].landmarks[0].covariance(0, 1) = value;
   return result;
@@ -41,6 +42,7 @@ void expect_carried(double value) {
   const SeedResult back = seed_result_from_bytes(to_bytes(result_at(value)));
   const ScoredRun& run = back.runs.at(0);
   EXPECT_EQ(bits(run.errors_m.at(1)), bits(-value)) << value;
+  EXPECT_EQ(back.detections_gz, result_at(value).detections_gz);
   EXPECT_EQ(bits(run.score.trajectory.ate_rms_m), bits(value)) << value;
   EXPECT_FALSE(run.score.normalised_errors.at(0));
   EXPECT_EQ(bits(run.score.normalised_errors.at(1).value().sum), bits(value)) << value;

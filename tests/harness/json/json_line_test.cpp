@@ -1,4 +1,4 @@
-#include "harness/io/json_line.h"
+#include "harness/json/json_line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

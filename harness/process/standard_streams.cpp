@@ -1,4 +1,4 @@
-#include "harness/commands/standard_streams.h"
+#include "harness/process/standard_streams.h"
 
 #include <cerrno>
 #include <cstdio>
