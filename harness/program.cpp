@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
-#include "harness/commands/standard_streams.h"
 #include "harness/process/interruption.h"
 #include "harness/process/process_pool.h"
+#include "harness/process/standard_streams.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -63,12 +63,14 @@ int run_command_line(int argc, char** argv) {
   program.set_version_flag("--version", STEREOBENCH_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 passed, 1 a gate is broken, 2 bad input, 4 a run or a detector crashed.\n"
+      "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
+      "crashed; compare --strict: 3 inconclusive, 6 a metric got better.\n"
       "Start with: stereobench run assets/scenarios/ball_circle.yaml");
   Action action;
   add_run_command(program, action);
   add_render_command(program, action);
   add_slam_command(program, action);
+  add_compare_command(program, action);
   add_sweep_command(program, action);
   add_world_command(program, action);
   add_detect_command(program, action);

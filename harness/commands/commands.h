@@ -11,9 +11,11 @@ namespace stereobench::harness {
 /// Exit codes, as scripts and CI see them.
 enum ExitCode : int {
   kPassed = 0,
-  kGateBroken = 1,  ///< a gate of the scenario is broken
-  kBadInput = 2,    ///< usage, files, or the machine
-  kRunCrashed = 4,  ///< a worker process died, or a detector failed
+  kGateBroken = 1,    ///< a gate of the scenario is broken, or a metric is worse than before
+  kBadInput = 2,      ///< usage, files, or the machine
+  kInconclusive = 3,  ///< with --strict: more seeds are needed
+  kRunCrashed = 4,    ///< a worker process died, or a detector failed
+  kImproved = 6,      ///< with --strict: a metric is better than before
 };
 
 /// What a parsed command line does when it is called; gives the exit code.
@@ -23,6 +25,7 @@ using Action = std::function<int()>;
 void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
+void add_compare_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_world_command(CLI::App& program, Action& action);
 void add_detect_command(CLI::App& program, Action& action);

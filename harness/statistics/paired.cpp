@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <boost/math/distributions/binomial.hpp>
+
 #include "slam/math/elementary.h"
 
 namespace stereobench::harness {
@@ -69,6 +71,14 @@ double wilcoxon_signed_rank(std::span<const double> differences) {
   const auto n = static_cast<double>(sorted.size());
   if (ranks.ties > 0.0 || sorted.size() > kMostForExact) return normal_p(ranks, n);
   return exact_p(std::min(ranks.positive, n * (n + 1.0) / 2.0 - ranks.positive), sorted.size());
+}
+
+double mcnemar(const PairedCount& count) {
+  const long differ = count.worse + count.better;
+  if (differ == 0) return 1.0;
+  const boost::math::binomial fair(static_cast<double>(differ), 0.5);
+  const auto fewer = static_cast<double>(std::min(count.worse, count.better));
+  return std::min(1.0, 2.0 * boost::math::cdf(fair, fewer));
 }
 
 PairedDifference compare_paired(std::span<const double> first, std::span<const double> second) {

@@ -27,4 +27,15 @@ PairedDifference compare_paired(std::span<const double> first, std::span<const d
 /// @return in (0, 1]
 double wilcoxon_signed_rank(std::span<const double> differences);
 
+/// Of many things that were tried twice, those that came out differently.
+struct PairedCount {
+  long worse = 0;   ///< that came out right the first time alone
+  long better = 0;  ///< that came out right the second time alone
+};
+
+/// The probability of counts at least as lopsided as these when nothing but chance decides which time comes
+/// out right: McNemar's test, exact, two-sided.
+/// @return in (0, 1]; 1 where nothing differs
+double mcnemar(const PairedCount& count);
+
 }  // namespace stereobench::harness

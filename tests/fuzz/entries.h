@@ -48,6 +48,9 @@ std::vector<std::string> mark_seeds();
 /// A mesh file; the first byte says of which format.
 void check_mesh(Bytes bytes);
 std::vector<std::string> mesh_seeds();
+/// The text of a run.json, compared with itself.
+void check_result(Bytes bytes);
+std::vector<std::string> result_seeds();
 
 /// All of them.
 std::span<const Entry> entries();

@@ -11,6 +11,7 @@
 #include "harness/dataset/colour_marks.h"
 #include "harness/experiment/experiment.h"
 #include "harness/logs/measurement_log_reader.h"
+#include "harness/regression/result_folder.h"
 #include "harness/trajectories/trajectory_file.h"
 #include "renderer/meshes/mesh_file.h"
 #include "tests/fuzz/promises.h"
@@ -123,6 +124,22 @@ void check_log(Bytes bytes) {
     expect(std::isfinite(recorded.facts.odometry_delay_s), "a delay is finite");
   });
   fs::remove_all(folder);
+}
+
+void check_result(Bytes bytes) {
+  const OwnFile file("run.json", text_of(bytes));
+  read_or_complain([&] {
+    const harness::StoredResult result = harness::read_result(file.path());
+    expect(!result.seeds.seeds.empty(), "a result has a seed");
+    for (const auto& [name, values] : result.seeds.metrics)
+      expect(values.size() == result.seeds.seeds.size(), "a metric has one value a seed");
+    harness::compare_results(result.seeds, result.seeds, {});
+  });
+}
+
+std::vector<std::string> result_seeds() {
+  return {R"({"schema": 1, "scenario": "office", "seeds": [0, 7], "per_seed": {
+  "filters.ekf.ate_rms_m": [0.125, 1e-3], "filters.ekf.failures": [0, 1], "vision.recall": [null, 0.75]}})"};
 }
 
 std::vector<std::string> log_seeds() {

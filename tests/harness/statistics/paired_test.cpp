@@ -69,6 +69,15 @@ TEST(Wilcoxon, NothingDiffersIsOne) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.0)), 1.0);
 }
 
+// Of 10 changes 1 went one way: 2 (1 + 10) / 2^10. Mutation: one side alone.
+TEST(Mcnemar, CountsAllWaysThatAreAsLopsided) {
+  EXPECT_NEAR(mcnemar({9, 1}), 22.0 / 1024.0, 1e-15);
+  EXPECT_NEAR(mcnemar({1, 9}), 22.0 / 1024.0, 1e-15);
+  EXPECT_NEAR(mcnemar({20, 0}) / std::ldexp(1.0, -19), 1.0, 1e-9);
+  EXPECT_EQ(mcnemar({5, 5}), 1.0);
+  EXPECT_EQ(mcnemar({}), 1.0);
+}
+
 // Mutation: the second minus the first.
 TEST(ComparePaired, TakesDifferencesSeedBySeedAndLeavesOutFailures) {
   const double nan = std::numeric_limits<double>::quiet_NaN();

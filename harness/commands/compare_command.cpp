@@ -1,0 +1,114 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/talk.h"
+#include "harness/io/atomic_file.h"
+#include "harness/json/json_text.h"
+#include "harness/regression/detection_changes.h"
+#include "harness/regression/result_folder.h"
+#include "harness/regression/verdict_report.h"
+
+namespace stereobench::harness {
+namespace {
+
+struct CompareArguments {
+  std::filesystem::path first;
+  std::filesystem::path second;
+  std::vector<std::string> margins;
+  VerdictSettings settings;
+  bool all = false;
+  bool strict = false;
+  std::filesystem::path json;
+  std::filesystem::path markdown;
+};
+
+int exit_code_of(const ResultComparison& comparison, bool strict) {
+  if (comparison.has(Verdict::kRegressed) || comparison.has(Verdict::kVanished)) return kGateBroken;
+  if (strict && comparison.has(Verdict::kInconclusive)) return kInconclusive;
+  return strict && comparison.has(Verdict::kImproved) ? kImproved : kPassed;
+}
+
+/// Where detections changed; empty where one of the results has none.
+std::optional<DetectionChanges> changes_between(const StoredResult& first, const StoredResult& second) {
+  if (first.detections.empty() || second.detections.empty()) return {};
+  return detection_changes(
+      pair_balls(read_detected_balls(first.detections), read_detected_balls(second.detections)));
+}
+
+int compare(CompareArguments arguments) {
+  VerdictSettings& settings = arguments.settings;
+  for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
+  const StoredResult first = read_result(arguments.first);
+  const StoredResult second = read_result(arguments.second);
+  const std::optional<DetectionChanges> changes = changes_between(first, second);
+  const ResultComparison comparison =
+      compare_results(first.seeds, second.seeds, settings, changes ? counts_of(*changes) : PairedCounts{});
+  const ComparedNames names{arguments.first.string(), arguments.second.string()};
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, json_text(verdict_json(comparison, settings, names)));
+  if (!arguments.markdown.empty())
+    write_file_atomically(arguments.markdown, verdict_page(comparison, settings, names));
+  fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", names.first, first.scenario,
+             first.seeds.seeds.size(), names.second, second.scenario, second.seeds.seeds.size());
+  if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
+  say(verdict_table(comparison, settings, arguments.all));
+  if (changes) say(changes_text(*changes));
+  fmt::print("{}", verdict_summary(comparison));
+  return exit_code_of(comparison, arguments.strict);
+}
+
+void add_options(CLI::App& command, CompareArguments& arguments) {
+  command.add_option("a", arguments.first, "the result to compare with: a folder that run or slam wrote")
+      ->required();
+  command.add_option("b", arguments.second, "the result that may be worse")->required();
+  command.add_option("--only", arguments.settings.only,
+                     "judge only metrics whose names fit, e.g. 'vision.*' (default: all)");
+  command
+      .add_option("--margin", arguments.margins,
+                  "how much a metric may change before it matters: NAME=5% of its mean in A, or NAME=0.01 in "
+                  "its own unit; NAME may have * in it; may be repeated, the last one that fits counts")
+      ->type_name("NAME=CHANGE");
+  command
+      .add_option("--alpha", arguments.settings.alpha,
+                  "chance of a false alarm, all metrics together (default: 0.01)")
+      ->check(real_between(1e-9, 0.5));
+  command.add_flag("--all", arguments.all, "list metrics that pass, too");
+  command.add_flag("--strict", arguments.strict,
+                   "exit with 3 when a metric is inconclusive, with 6 when one improved");
+  command.add_option("--json", arguments.json, "write the verdicts to this file");
+  command.add_option("--markdown", arguments.markdown, "write the table to this file, for a pull request");
+  add_quiet_option(command);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("compare", "say what got worse from one result to another, seed by seed");
+  auto arguments = std::make_shared<CompareArguments>();
+  add_options(*command, *arguments);
+  command->footer(
+      "Both results are compared on the seeds that they share. Metrics that are equal on each pass. Of the "
+      "others\n"
+      "one is REGRESSED (or IMPROVED) when its change is significant (Wilcoxon's signed ranks, corrected for "
+      "all\n"
+      "metrics that changed by Holm) and the whole interval of the change (bootstrap) is beyond the margin; "
+      "it\n"
+      "passes when the whole interval is within the margin. Others are INCONCLUSIVE, and the table says "
+      "about "
+      "how\n"
+      "many more seeds decide.\n"
+      "Exits with 1 when a metric is REGRESSED or VANISHED.\n\n"
+      "Example: stereobench compare out/before out/after --margin 'filters.*.ate_rms_m=2%'");
+  command->callback([arguments, &action] { action = [arguments] { return compare(*arguments); }; });
+}
+
+}  // namespace stereobench::harness

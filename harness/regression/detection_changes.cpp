@@ -1,0 +1,227 @@
+#include "harness/regression/detection_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "slam/math/angles.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr std::size_t kMostFrames = 10;
+constexpr std::size_t kMostConfusions = 3;
+
+using Balls = std::vector<const PairedBall*>;
+
+Balls those(std::span<const PairedBall> balls, const std::function<bool(const PairedBall&)>& is_one) {
+  Balls found;
+  for (const PairedBall& ball : balls)
+    if (is_one(ball)) found.push_back(&ball);
+  return found;
+}
+
+bool is_seen(const BallFinding& finding) {
+  return finding.is_found || finding.wrong_colour.has_value();
+}
+
+bool is_lost(const PairedBall& ball) {
+  return ball.truth.is_required && ball.first.is_found && !ball.second.is_found;
+}
+
+bool is_misnamed(const PairedBall& ball) {
+  return ball.first.is_found && ball.second.wrong_colour.has_value();
+}
+
+std::vector<Property> properties_of(const Balls& balls) {
+  const auto property = [&](const char* name, const char* unit, auto of) {
+    Property made{.name = name, .unit = unit};
+    for (const PairedBall* ball : balls) made.values.push_back(of(*ball));
+    return made;
+  };
+  return {property("range", "m", [](const PairedBall& b) { return b.truth.range_m; }),
+          property("bearing", "deg",
+                   [](const PairedBall& b) { return slam::kDegreesPerRad * b.truth.bearing_rad; }),
+          property("radius", "px", [](const PairedBall& b) { return b.truth.radius_px; }),
+          property("visible fraction", "", [](const PairedBall& b) { return b.truth.fraction; }),
+          property("distance from the border", "px", [](const PairedBall& b) { return b.truth.border_px; }),
+          property("x", "px", [](const PairedBall& b) { return b.truth.left_px.x(); }),
+          property("y", "px", [](const PairedBall& b) { return b.truth.left_px.y(); }),
+          property("frame", "", [](const PairedBall& b) { return static_cast<double>(b.key.frame); }),
+          property("colour", "", [](const PairedBall& b) { return static_cast<double>(b.truth.colour); }),
+          property("ball", "", [](const PairedBall& b) { return static_cast<double>(b.key.ball); }),
+          property("seed", "", [](const PairedBall& b) { return static_cast<double>(b.key.seed); })};
+}
+
+/// What those balls have in common of which something holds; empty where it holds of none.
+template <class Holds>
+std::optional<Slice> slice_of(const Balls& balls, const Holds& holds) {
+  std::vector<bool> marked;
+  for (std::size_t i = 0; i < balls.size(); ++i) marked.push_back(holds(i));
+  if (std::ranges::count(marked, true) == 0) return {};
+  return find_slice(properties_of(balls), marked);
+}
+
+double growth_m2(const PairedBall& ball) {
+  return ball.second.range_error_m * ball.second.range_error_m -
+         ball.first.range_error_m * ball.first.range_error_m;
+}
+
+/// @return whether a ball is among the fewest that make up nine tenths of the growth of range errors
+std::vector<bool> carriers_of_growth(const Balls& balls) {
+  std::vector<std::size_t> order(balls.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return growth_m2(*balls[i]); });
+  double all_m2 = 0.0;
+  for (const PairedBall* ball : balls) all_m2 += growth_m2(*ball);
+  std::vector<bool> carries(balls.size(), false);
+  double so_far_m2 = 0.0;
+  for (const std::size_t i : order) {
+    if (so_far_m2 >= 0.9 * all_m2) break;
+    so_far_m2 += growth_m2(*balls[i]);
+    carries[i] = true;
+  }
+  return carries;
+}
+
+CentreShift shift_of(const Balls& balls, Eigen::Vector2d BallFinding::*error) {
+  std::vector<Eigen::Vector2d> shifts;
+  for (const PairedBall* ball : balls) {
+    const Eigen::Vector2d shift = ball->second.*error - ball->first.*error;
+    if (shift.allFinite()) shifts.push_back(shift);
+  }
+  CentreShift found;
+  const auto count = static_cast<double>(shifts.size());
+  if (shifts.size() < 2) return found;
+  for (const Eigen::Vector2d& shift : shifts) found.mean_px += shift / count;
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& shift : shifts) squares += (shift - found.mean_px).cwiseAbs2();
+  found.standard_error_px = (squares / (count - 1.0) / count).cwiseSqrt();
+  return found;
+}
+
+std::vector<Confusion> confusions_of(const Balls& misnamed) {
+  std::map<std::pair<int, int>, long> counts;
+  for (const PairedBall* ball : misnamed) ++counts[{ball->truth.colour, *ball->second.wrong_colour}];
+  std::vector<Confusion> confusions;
+  for (const auto& [colours, count] : counts) confusions.push_back({colours.first, colours.second, count});
+  std::ranges::stable_sort(confusions, std::greater{}, &Confusion::balls);
+  return confusions;
+}
+
+std::vector<ChangedFrame> changed_frames(std::span<const PairedBall> balls) {
+  std::map<std::pair<std::uint64_t, int>, ChangedFrame> frames;
+  for (const PairedBall& ball : balls) {
+    const long lost = is_lost(ball) || is_misnamed(ball) ? 1 : 0;
+    const double worse_m2 = ball.first.is_found && ball.second.is_found ? growth_m2(ball) : 0.0;
+    if (lost == 0 && worse_m2 <= 0.0) continue;
+    ChangedFrame& frame = frames[{ball.key.seed, ball.key.frame}];
+    frame.seed = ball.key.seed;
+    frame.frame = ball.key.frame;
+    frame.lost += lost;
+    frame.worse_m2 += worse_m2;
+  }
+  std::vector<ChangedFrame> worst;
+  for (const auto& [key, frame] : frames) worst.push_back(frame);
+  std::ranges::stable_sort(worst, [](const ChangedFrame& a, const ChangedFrame& b) {
+    return std::tuple(a.lost, a.worse_m2) > std::tuple(b.lost, b.worse_m2);
+  });
+  worst.resize(std::min(worst.size(), kMostFrames));
+  return worst;
+}
+
+template <class Right>
+PairedCount count(const Balls& balls, const Right& is_right) {
+  PairedCount counted;
+  for (const PairedBall* ball : balls) {
+    const bool first = is_right(ball->first);
+    const bool second = is_right(ball->second);
+    counted.worse += first && !second ? 1 : 0;
+    counted.better += second && !first ? 1 : 0;
+  }
+  return counted;
+}
+
+/// "58 of 60 at range 4.1 to 6 m, colour 3 (140 of 1840 balls)"
+std::string slice_text(const Slice& slice) {
+  if (slice.conditions.empty()) return "they have nothing in common that chance does not explain";
+  return fmt::format("{} of {} at {} (where {} of {} balls are)", slice.marked, slice.all_marked,
+                     fmt::join(slice.conditions, ", "), slice.things, slice.all_things);
+}
+
+std::string shift_text(const CentreShift& shift) {
+  return fmt::format("({:+.4f} +- {:.4f}, {:+.4f} +- {:.4f}) px", shift.mean_px.x(),
+                     shift.standard_error_px.x(), shift.mean_px.y(), shift.standard_error_px.y());
+}
+
+std::string frames_text(const std::vector<ChangedFrame>& frames) {
+  std::vector<std::string> texts;
+  for (const ChangedFrame& frame : frames)
+    texts.push_back(fmt::format("seed {} frame {}", frame.seed, frame.frame));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+bool has_moved(const CentreShift& shift) {
+  return !shift.mean_px.isZero(0.0) || !shift.standard_error_px.isZero(0.0);
+}
+
+}  // namespace
+
+DetectionChanges detection_changes(std::span<const PairedBall> balls) {
+  DetectionChanges changes;
+  const Balls required = those(balls, [](const PairedBall& b) { return b.truth.is_required; });
+  const Balls seen = those(balls, [](const PairedBall& b) { return is_seen(b.first) && is_seen(b.second); });
+  const Balls found = those(balls, [](const PairedBall& b) { return b.first.is_found && b.second.is_found; });
+  changes.required = static_cast<long>(required.size());
+  const auto is_found = [](const BallFinding& finding) { return finding.is_found; };
+  changes.found = count(required, is_found);
+  changes.named = count(seen, is_found);
+  changes.lost = slice_of(required, [&](std::size_t i) { return is_lost(*required[i]); });
+  changes.misnamed = slice_of(seen, [&](std::size_t i) { return is_misnamed(*seen[i]); });
+  const std::vector<bool> carries = carriers_of_growth(found);
+  changes.misplaced = slice_of(found, [&](std::size_t i) { return carries[i]; });
+  changes.confusions = confusions_of(those(balls, is_misnamed));
+  changes.found_by_both = static_cast<long>(found.size());
+  changes.left = shift_of(found, &BallFinding::left_error_px);
+  changes.right = shift_of(found, &BallFinding::right_error_px);
+  changes.frames = changed_frames(balls);
+  return changes;
+}
+
+PairedCounts counts_of(const DetectionChanges& changes) {
+  return {{"vision.recall", changes.found}, {"vision.misidentified", changes.named}};
+}
+
+std::string changes_text(const DetectionChanges& changes) {
+  std::string text;
+  if (changes.found.worse + changes.found.better > 0)
+    text += fmt::format("of {} balls that had to be found, A alone found {} and B alone {} (p {:.2g})\n",
+                        changes.required, changes.found.worse, changes.found.better, mcnemar(changes.found));
+  if (changes.lost) text += "  lost: " + slice_text(*changes.lost) + "\n";
+  if (changes.misnamed) {
+    text += fmt::format("A alone named {} balls right and B alone {} (p {:.2g})", changes.named.worse,
+                        changes.named.better, mcnemar(changes.named));
+    for (std::size_t i = 0; i < std::min(kMostConfusions, changes.confusions.size()); ++i) {
+      const Confusion& confusion = changes.confusions[i];
+      text +=
+          fmt::format("; colour {} taken for {}: {}", confusion.colour, confusion.taken_for, confusion.balls);
+    }
+    text += "\n  misnamed: " + slice_text(*changes.misnamed) + "\n";
+  }
+  if (has_moved(changes.left) || has_moved(changes.right))
+    text += fmt::format("centres of the {} balls that both found, B minus A: left {}, right {}\n",
+                        changes.found_by_both, shift_text(changes.left), shift_text(changes.right));
+  if (changes.misplaced && !changes.misplaced->conditions.empty())
+    text += "  range errors grew: " + slice_text(*changes.misplaced) + "\n";
+  if (!changes.frames.empty()) text += "frames that changed most: " + frames_text(changes.frames) + "\n";
+  return text;
+}
+
+}  // namespace stereobench::harness

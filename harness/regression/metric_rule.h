@@ -1,0 +1,48 @@
+/// What a change of a metric means: which way is worse, and from where on it matters.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace stereobench::harness {
+
+/// How a metric is judged.
+struct MetricRule {
+  enum class Better {
+    kLower,      ///< errors and counts of faults
+    kHigher,     ///< rates and counts of what is right
+    kNearZero,   ///< biases: the absolute value is judged
+    kNearOne,    ///< NIS, NEES: the absolute value of the logarithm is judged
+    kNearLevel,  ///< coverage: the distance from `level` is judged
+  };
+  Better better = Better::kLower;
+  double level = 0.0;             ///< for kNearLevel
+  double relative_margin = 0.05;  ///< changes below this share of the first result's mean do not matter,
+  double absolute_margin = 0.0;   ///< nor do those below this; the larger one counts
+};
+
+/// A margin that a user gives: for all metrics whose names fit.
+struct Margin {
+  std::string pattern;  ///< a metric's name, in which `*` stands for anything
+  bool relative = true;
+  double value = 0.0;
+};
+
+/// Reads "filters.*.ate_rms_m=5%" or "vision.recall=0.01".
+/// @throws std::runtime_error that begins with "--margin: "
+Margin parse_margin(const std::string& text);
+
+/// @return whether a name fits a shell's pattern: `*` stands for any characters, `?` for one
+bool fits(const std::string& name, const std::string& pattern);
+
+/// @param margins of which the last one that fits counts
+/// @return how a metric is judged; empty for numbers that are neither good nor bad, such as how many balls
+/// were to be found
+std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margin> margins = {});
+
+/// @param value of a metric
+/// @return a number that is the larger the worse, in the unit of the margins
+double badness(const MetricRule& rule, double value);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,68 @@
+#include "harness/regression/result_folder.h"
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
+#include "harness/vision_scoring/detection_table.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostSeeds = 1'000'000;
+constexpr double kLargest = std::numeric_limits<double>::max();
+
+fs::path file_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return path;
+  fs::path file = path / "run.json";
+  if (!fs::exists(file))
+    throw std::runtime_error(fmt::format(
+        "{}: expected a folder with a run.json; run and slam write it last, so theirs did not end here",
+        path.string()));
+  return file;
+}
+
+StoredResult result_of(const nlohmann::json& json) {
+  const JsonValue run(json, "");
+  if (!json.is_object()) run.refuse("an object");
+  run.at("schema").integer(1, 1);
+  StoredResult result{.scenario = run.at("scenario").text()};
+  for (const JsonValue& seed : run.at("seeds").list(1, kMostSeeds))
+    result.seeds.seeds.push_back(
+        static_cast<std::uint64_t>(seed.integer(0, std::numeric_limits<std::int64_t>::max())));
+  if (std::set(result.seeds.seeds.begin(), result.seeds.seeds.end()).size() != result.seeds.seeds.size())
+    run.at("seeds").refuse("each seed once");
+  if (!run.find("per_seed")) run.refuse("\"per_seed\", which older versions did not write: run it again");
+  const JsonValue metrics = run.at("per_seed");
+  if (!json.at("per_seed").is_object()) metrics.refuse("an object");
+  for (const auto& [name, values] : json.at("per_seed").items()) {
+    std::vector<double>& numbers = result.seeds.metrics[name];
+    const std::size_t count = result.seeds.seeds.size();
+    for (const JsonValue& value : JsonValue(values, "per_seed." + excerpt(name)).list(count, count))
+      numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                        : value.number(-kLargest, kLargest));
+  }
+  return result;
+}
+
+}  // namespace
+
+StoredResult read_result(const fs::path& path) {
+  const fs::path file = file_of(path);
+  try {
+    StoredResult result = result_of(parse_line(read_text(file)));
+    const fs::path detections = file.parent_path() / kDetections;
+    if (fs::exists(detections)) result.detections = detections;
+    return result;
+  } catch (const BadLine& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace stereobench::harness

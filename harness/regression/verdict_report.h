@@ -1,0 +1,33 @@
+/// Verdicts for people and for programs.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/regression/verdict.h"
+
+namespace stereobench::harness {
+
+/// Who is compared, for titles.
+struct ComparedNames {
+  std::string first = "A";
+  std::string second = "B";
+};
+
+/// One line: how many metrics have which verdict, among how many comparisons.
+std::string verdict_summary(const ResultComparison& comparison);
+
+/// A table of the metrics that did not pass, worst verdict first, and what it rests on.
+/// @param all whether metrics that passed are listed too
+std::string verdict_table(const ResultComparison& comparison, const VerdictSettings& settings, bool all);
+
+/// The same as a page for pull requests, in Markdown.
+std::string verdict_page(const ResultComparison& comparison, const VerdictSettings& settings,
+                         const ComparedNames& names);
+
+/// All of it for programs.
+nlohmann::ordered_json verdict_json(const ResultComparison& comparison, const VerdictSettings& settings,
+                                    const ComparedNames& names);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,175 @@
+#include "harness/regression/detection_changes.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "harness/vision_scoring/detection_table.h"
+#include "slam/math/random.h"
+#include "tests/harness/scoring/scene.h"
+#include "tests/test_folder.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using testing::ThrowsMessage;
+
+/// Balls of 20 seeds, 12 frames and 9 balls each, all found twice with errors of 1 mm and 0.05 px.
+std::vector<PairedBall> balls_at_random() {
+  slam::RandomStream random(5, slam::Stream::kOracle);
+  std::vector<PairedBall> balls;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    for (int frame = 0; frame < 12; ++frame)
+      for (int ball = 0; ball < 9; ++ball) {
+        PairedBall& made = balls.emplace_back(
+            PairedBall{.key = {seed, frame, ball}, .truth = {}, .first = {}, .second = {}});
+        made.truth = {.is_required = true,
+                      .colour = ball,
+                      .range_m = 1.0 + 9.0 * random.uniform(),
+                      .bearing_rad = 0.5 * random.normal(),
+                      .radius_px = 10.0 + 20.0 * random.uniform(),
+                      .fraction = 1.0,
+                      .border_px = 300.0 * random.uniform()};
+        for (BallFinding* finding : {&made.first, &made.second}) {
+          finding->is_found = true;
+          finding->range_error_m = 0.001 * random.normal();
+          finding->left_error_px = 0.05 * Eigen::Vector2d(random.normal(), random.normal());
+          finding->right_error_px = 0.05 * Eigen::Vector2d(random.normal(), random.normal());
+        }
+      }
+  return balls;
+}
+
+void lose(PairedBall& ball) {
+  ball.second = {};
+}
+
+// Mutation: balls that were lost before and after.
+TEST(DetectionChanges, SaysWhichBallsWereLost) {
+  std::vector<PairedBall> balls = balls_at_random();
+  for (PairedBall& ball : balls)
+    if (ball.truth.colour == 3 && ball.truth.range_m > 6.0) lose(ball);
+  const DetectionChanges changes = detection_changes(balls);
+  EXPECT_GT(changes.found.worse, 50);
+  EXPECT_EQ(changes.found.better, 0);
+  ASSERT_TRUE(changes.lost);
+  EXPECT_THAT(changes.lost->conditions, Contains(StartsWith("range")));
+  EXPECT_THAT(changes_text(changes), HasSubstr("A alone found"));
+  EXPECT_EQ(counts_of(changes).at("vision.recall").worse, changes.found.worse);
+}
+
+// A ball that did not have to be found is no loss.
+TEST(DetectionChanges, CountsBallsThatHadToBeFound) {
+  std::vector<PairedBall> balls = balls_at_random();
+  balls[7].truth.is_required = false;
+  lose(balls[7]);
+  lose(balls[8]);
+  balls[9].first = {};  // found the second time alone
+  const DetectionChanges changes = detection_changes(balls);
+  EXPECT_EQ(changes.required, static_cast<long>(balls.size()) - 1);
+  EXPECT_EQ(changes.found.worse, 1);
+  EXPECT_EQ(changes.found.better, 1);
+}
+
+// Mutation: both cameras' shifts in one number.
+TEST(DetectionChanges, SaysInWhichCameraCentresMoved) {
+  std::vector<PairedBall> balls = balls_at_random();
+  for (PairedBall& ball : balls) ball.second.left_error_px.x() += 0.3;
+  const DetectionChanges changes = detection_changes(balls);
+  EXPECT_NEAR(changes.left.mean_px.x(), 0.3, 5.0 * changes.left.standard_error_px.x());
+  EXPECT_NEAR(changes.right.mean_px.x(), 0.0, 5.0 * changes.right.standard_error_px.x());
+  EXPECT_LT(changes.left.standard_error_px.x(), 0.003);
+}
+
+TEST(DetectionChanges, SaysWhichColourWasTakenForWhich) {
+  std::vector<PairedBall> balls = balls_at_random();
+  for (PairedBall& ball : balls)
+    if (ball.truth.colour == 2) ball.second = {.wrong_colour = 7};
+  const DetectionChanges changes = detection_changes(balls);
+  EXPECT_EQ(changes.named.worse, 240);
+  ASSERT_FALSE(changes.confusions.empty());
+  EXPECT_EQ(changes.confusions[0].colour, 2);
+  EXPECT_EQ(changes.confusions[0].taken_for, 7);
+  EXPECT_EQ(changes.confusions[0].balls, 240);
+  EXPECT_THAT(changes_text(changes), HasSubstr("colour 2 taken for 7: 240"));
+  ASSERT_TRUE(changes.misnamed);
+  EXPECT_THAT(changes.misnamed->conditions, Contains(HasSubstr("2")));
+}
+
+TEST(DetectionChanges, NamesTheFramesThatChangedMost) {
+  std::vector<PairedBall> balls = balls_at_random();
+  for (PairedBall& ball : balls)
+    if (ball.key.seed == 7 && ball.key.frame == 5) lose(ball);
+  const DetectionChanges changes = detection_changes(balls);
+  ASSERT_EQ(changes.frames.size(), 10U);
+  EXPECT_EQ(changes.frames[0].seed, 7U);
+  EXPECT_EQ(changes.frames[0].frame, 5);
+  EXPECT_EQ(changes.frames[0].lost, 9);
+}
+
+TEST(DetectionChanges, OfEqualResultsAreNone) {
+  std::vector<PairedBall> balls = balls_at_random();
+  for (PairedBall& ball : balls) ball.second = ball.first;
+  EXPECT_THAT(changes_text(detection_changes(balls)), IsEmpty());
+  EXPECT_THAT(changes_text(detection_changes({})), IsEmpty());
+}
+
+class DetectedBallsFile : public testing::Test {
+ protected:
+  DetectedBalls read(const std::string& rows) {
+    return read_detected_balls(folder_.write("detections.csv", detections_csv_header() + rows));
+  }
+  TestFolder folder_;
+};
+
+// Law: what is read is what was written. Mutations: left for right; a flagged detection that counts.
+TEST_F(DetectedBallsFile, IsReadAsItIsWritten) {
+  const Scene scene({kAhead, kAside, kCut});
+  const auto outlines = ball_outlines(scene.truth());
+  vision::BallObservation right = perfect(outlines[0], 3);
+  right.left_px.x() += 0.25;
+  right.range_bearing.range_m += 0.5;
+  vision::BallObservation flagged = perfect(outlines[1], 5);
+  flagged.occluded = true;
+  const FrameMatch match = match_observations(scene.truth(), std::vector{right, right, flagged});
+  const PairOfRun pair{~std::uint64_t{0}, 3, scene.world, scene.rig};
+  const DetectedBalls balls = read(detection_rows(pair, match));
+  ASSERT_EQ(balls.size(), 2U);
+  const DetectedBall& found = balls.at({~std::uint64_t{0}, 3, 0});
+  EXPECT_TRUE(found.truth.is_required && found.finding.is_found);
+  EXPECT_NEAR(found.finding.range_error_m, 0.5, 1e-12);
+  EXPECT_NEAR((found.finding.left_error_px - Eigen::Vector2d(0.25, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(found.finding.right_error_px.norm(), 0.0, 1e-12);
+  const DetectedBall& missed = balls.at({~std::uint64_t{0}, 3, 1});
+  EXPECT_TRUE(missed.truth.is_required);
+  EXPECT_FALSE(missed.finding.is_found);
+}
+
+TEST_F(DetectedBallsFile, IsRefusedWithTheLineThatIsWrong) {
+  EXPECT_THAT([&] { read("0,1,miss,x,1,0,1,0,1,1,1,1,9,1,1,5,,,,,,,,,,\n"); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("detections.csv:2: ball: expected a whole number"), HasSubstr("'x'"))));
+  EXPECT_THAT([&] { read("0,1,miss\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("expected 26 fields")));
+}
+
+// Balls of other worlds are not the same balls. Mutation: paired by their numbers alone.
+TEST(PairedBalls, AreInTheSamePlace) {
+  const DetectedBall ball{.truth = {.is_required = true, .range_m = 2.0}, .finding = {.is_found = true}};
+  DetectedBall elsewhere = ball;
+  elsewhere.truth.range_m = 2.1;
+  EXPECT_EQ(pair_balls({{{0, 1, 2}, ball}}, {{{0, 1, 2}, ball}}).size(), 1U);
+  EXPECT_THAT(pair_balls({{{0, 1, 2}, ball}}, {{{0, 1, 2}, elsewhere}}), IsEmpty());
+  DetectedBall extra = ball;
+  extra.truth.is_required = false;
+  EXPECT_EQ(pair_balls({{{0, 1, 2}, extra}}, {}).size(), 1U);
+  EXPECT_EQ(pair_balls({}, {{{0, 1, 2}, extra}}).size(), 1U);
+}
+
+}  // namespace
+}  // namespace stereobench::harness

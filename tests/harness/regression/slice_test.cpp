@@ -1,0 +1,72 @@
+#include "harness/regression/slice.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "slam/math/random.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+/// Things at random: a range, a place, a colour of eighteen.
+std::vector<Property> things(std::size_t count, slam::RandomStream& random) {
+  std::vector<Property> properties = {{"range", "m", {}}, {"x", "px", {}}, {"colour", "", {}}};
+  for (std::size_t i = 0; i < count; ++i) {
+    properties[0].values.push_back(1.0 + 9.0 * random.uniform());
+    properties[1].values.push_back(1024.0 * random.uniform());
+    properties[2].values.push_back(static_cast<double>(random.bits() % 18));
+  }
+  return properties;
+}
+
+// 19 in 20 of the colour-3 things from 4 to 6 m are marked, and one in 100 of the others.
+// Mutation: a condition that holds too few of the marked things.
+TEST(Slice, NamesWhatMarkedThingsHaveInCommon) {
+  slam::RandomStream random(1, slam::Stream::kOracle);
+  const std::vector<Property> properties = things(4000, random);
+  std::vector<bool> marked;
+  for (std::size_t i = 0; i < 4000; ++i) {
+    const double range_m = properties[0].values[i];
+    const bool planted = range_m >= 4.0 && range_m <= 6.0 && properties[2].values[i] == 3.0;
+    marked.push_back(planted && random.uniform() < 0.95);
+  }
+  const Slice slice = find_slice(properties, marked);
+  EXPECT_THAT(slice.conditions, ElementsAre("colour 3", StartsWith("range ")));
+  EXPECT_GE(slice.marked * 10, slice.all_marked * 9);
+  EXPECT_LT(slice.things, 70U);
+}
+
+// Mutation: no test of chance, and a third of these sets of marks get a name.
+TEST(Slice, NamesNothingWhereMarksAreThereByChance) {
+  int named = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    slam::RandomStream random(seed, slam::Stream::kOracle);
+    const std::vector<Property> properties = things(500, random);
+    std::vector<bool> marked;
+    for (std::size_t i = 0; i < 500; ++i) marked.push_back(random.uniform() < 0.008);
+    named += find_slice(properties, marked).conditions.empty() ? 0 : 1;
+  }
+  EXPECT_LE(named, 3);
+}
+
+TEST(Slice, IsAllWhereAllOrNoneIsMarked) {
+  slam::RandomStream random(2, slam::Stream::kOracle);
+  const std::vector<Property> properties = things(100, random);
+  for (const bool all : {true, false}) {
+    const Slice slice = find_slice(properties, std::vector<bool>(100, all));
+    EXPECT_THAT(slice.conditions, IsEmpty());
+    EXPECT_EQ(slice.things, 100U);
+    EXPECT_EQ(slice.marked, all ? 100U : 0U);
+  }
+  EXPECT_THAT(find_slice({}, {}).conditions, IsEmpty());
+  EXPECT_THROW(find_slice(properties, std::vector<bool>(7, true)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stereobench::harness
