@@ -13,4 +13,4 @@ echo
 echo "pictures:"
 find "$PWD/$out" -name '*.png' | sort | sed 's/^/  /'
 echo "results:"
-find "$PWD/$out" -name '*.json' -o -name '*.csv' | sort | sed 's/^/  /'
+find "$PWD/$out" -name '*.json' -o -name '*.csv' -o -name '*.csv.gz' | sort | sed 's/^/  /'

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -43,6 +44,25 @@ std::optional<DetectionChanges> changes_between(const StoredResult& first, const
       pair_balls(read_detected_balls(first.detections), read_detected_balls(second.detections)));
 }
 
+bool is_worse(const ResultComparison& comparison, const std::string& metric) {
+  return std::ranges::any_of(comparison.metrics, [&](const MetricVerdict& judged) {
+    return judged.metric == metric && judged.verdict == Verdict::kRegressed;
+  });
+}
+
+void write_files(const CompareArguments& arguments, const ResultComparison& comparison,
+                 const std::optional<DetectionChanges>& changes, const std::string& detections) {
+  const ComparedNames names{arguments.first.string(), arguments.second.string()};
+  if (!arguments.json.empty()) {
+    nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
+    json["detections"] = changes ? changes_json(*changes) : nlohmann::ordered_json(nullptr);
+    write_file_atomically(arguments.json, json_text(json));
+  }
+  if (!arguments.markdown.empty())
+    write_file_atomically(arguments.markdown,
+                          verdict_page(comparison, arguments.settings, names, detections, arguments.all));
+}
+
 int compare(CompareArguments arguments) {
   VerdictSettings& settings = arguments.settings;
   for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
@@ -51,18 +71,17 @@ int compare(CompareArguments arguments) {
   const std::optional<DetectionChanges> changes = changes_between(first, second);
   const ResultComparison comparison =
       compare_results(first.seeds, second.seeds, settings, changes ? counts_of(*changes) : PairedCounts{});
-  const ComparedNames names{arguments.first.string(), arguments.second.string()};
-  if (!arguments.json.empty())
-    write_file_atomically(arguments.json, json_text(verdict_json(comparison, settings, names)));
-  if (!arguments.markdown.empty())
-    write_file_atomically(arguments.markdown, verdict_page(comparison, settings, names));
-  fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", names.first, first.scenario,
-             first.seeds.seeds.size(), names.second, second.scenario, second.seeds.seeds.size());
+  const std::string detections =
+      changes ? changes_text(*changes, is_worse(comparison, "vision.range_rms_m")) : "";
+  write_files(arguments, comparison, changes, detections);
+  fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,
+             first.seeds.seeds.size(), arguments.second.string(), second.scenario, second.seeds.seeds.size());
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
-  say(verdict_table(comparison, settings, arguments.all));
-  if (changes) say(changes_text(*changes));
-  fmt::print("{}", verdict_summary(comparison));
-  return exit_code_of(comparison, arguments.strict);
+  say(few_seeds_warning(comparison, settings));
+  const int outcome = exit_code_of(comparison, arguments.strict);
+  say_gates(verdict_table(comparison, settings, arguments.all) + detections + verdict_summary(comparison),
+            outcome != kPassed);
+  return outcome;
 }
 
 void add_options(CLI::App& command, CompareArguments& arguments) {
@@ -79,7 +98,7 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
   command
       .add_option("--alpha", arguments.settings.alpha,
                   "chance of a false alarm, all metrics together (default: 0.01)")
-      ->check(real_between(1e-9, 0.5));
+      ->check(real_between(1e-4, 0.5));
   command.add_flag("--all", arguments.all, "list metrics that pass, too");
   command.add_flag("--strict", arguments.strict,
                    "exit with 3 when a metric is inconclusive, with 6 when one improved");

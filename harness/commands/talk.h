@@ -15,7 +15,8 @@ void add_quiet_option(CLI::App& command);
 /// error.
 void say(std::string_view text);
 
-/// Prints what gate_report says. Broken gates are said on standard error when the command is quiet.
+/// Prints a verdict: what gate_report says, or what `compare` found. When the command is quiet, one that is
+/// not good is said on standard error.
 void say_gates(std::string_view report, bool broken);
 
 }  // namespace stereobench::harness

@@ -33,6 +33,11 @@ std::int64_t JsonValue::integer(std::int64_t least, std::int64_t most) const {
   return value_->get<std::int64_t>();
 }
 
+std::uint64_t JsonValue::natural_number() const {
+  if (!value_->is_number_unsigned()) refuse("a whole number that is not negative");
+  return value_->get<std::uint64_t>();
+}
+
 std::string JsonValue::text() const {
   if (!value_->is_string()) refuse("text");
   return value_->get<std::string>();

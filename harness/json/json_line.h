@@ -35,6 +35,8 @@ class JsonValue {
   double number(double least, double most) const;
   /// The whole number between two bounds, both included.
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  /// Any whole number that is not negative, e.g. a seed.
+  std::uint64_t natural_number() const;
   std::string text() const;
   bool flag() const;
   bool is_null() const { return value_->is_null(); }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 #include "harness/io/number_table.h"
@@ -45,8 +46,8 @@ BallTruth truth_of(const DetectionLine& line) {
           .radius_px = line.number("true_radius_px"),
           .fraction = std::min(line.number("left_fraction"), line.number("right_fraction")),
           .border_px = line.number("border_px"),
-          .left_px = line.pixel("true_left_x_px", "true_left_y_px"),
-          .right_px = line.pixel("true_right_x_px", "true_right_y_px")};
+          .left_px = {line.number("true_left_x_px"), line.number("true_left_y_px")},
+          .right_px = {line.number("true_right_x_px"), line.number("true_right_y_px")}};
 }
 
 /// What was found of a ball.
@@ -66,8 +67,27 @@ void add(const DetectionLine& line, DetectedBalls& balls) {
   if (!is_found && !is_wrong && outcome != kMiss) return;
   DetectedBall& ball = balls[{line.seed(), line.whole_number("frame"), line.whole_number("ball")}];
   ball.truth = truth_of(line);
-  if (is_found) ball.finding = finding_of(line, ball.truth);
-  if (is_wrong && !ball.finding.is_found) ball.finding.wrong_colour = line.whole_number("detected_colour");
+  if (is_found) {
+    const std::optional<int> wrong_colour = ball.finding.wrong_colour;
+    ball.finding = finding_of(line, ball.truth);
+    ball.finding.wrong_colour = wrong_colour;
+  }
+  if (is_wrong) ball.finding.wrong_colour = line.whole_number("detected_colour");
+}
+
+std::set<std::uint64_t> shared_seeds_of(const DetectedBalls& first, const DetectedBalls& second) {
+  std::set<std::uint64_t> of_first, shared;
+  for (const auto& [key, ball] : first) of_first.insert(key.seed);
+  for (const auto& [key, ball] : second)
+    if (of_first.contains(key.seed)) shared.insert(key.seed);
+  return shared;
+}
+
+/// Whether a ball is the same, seen from the same place.
+bool is_same(const BallTruth& a, const BallTruth& b) {
+  constexpr double kSame = 1e-9;  // m, rad
+  return a.is_required == b.is_required && a.colour == b.colour && std::abs(a.range_m - b.range_m) < kSame &&
+         std::abs(a.bearing_rad - b.bearing_rad) < kSame;
 }
 
 }  // namespace
@@ -81,20 +101,27 @@ DetectedBalls read_detected_balls(const std::filesystem::path& file) {
   return balls;
 }
 
-std::vector<PairedBall> pair_balls(const DetectedBalls& first, const DetectedBalls& second) {
-  constexpr double kSamePlace_m = 1e-9;
-  std::vector<PairedBall> pairs;
+PairedBalls pair_balls(const DetectedBalls& first, const DetectedBalls& second) {
+  const std::set<std::uint64_t> seeds = shared_seeds_of(first, second);
+  PairedBalls pairs;
   for (const auto& [key, ball] : first) {
+    if (!seeds.contains(key.seed)) continue;
     const auto found = second.find(key);
-    if (found == second.end()) {
-      if (!ball.truth.is_required) pairs.push_back({key, ball.truth, ball.finding, {}});
-    } else if (std::abs(found->second.truth.range_m - ball.truth.range_m) < kSamePlace_m) {
-      pairs.push_back({key, ball.truth, ball.finding, found->second.finding});
-    }
+    if (found != second.end() && is_same(found->second.truth, ball.truth))
+      pairs.balls.push_back({key, ball.truth, ball.finding, found->second.finding});
+    else if (ball.truth.is_required)
+      ++pairs.unpaired;
+    else if (found == second.end())
+      pairs.balls.push_back({key, ball.truth, ball.finding, {}});
   }
-  for (const auto& [key, ball] : second)
-    if (!ball.truth.is_required && !first.contains(key)) pairs.push_back({key, ball.truth, {}, ball.finding});
-  std::ranges::sort(pairs, {}, &PairedBall::key);
+  for (const auto& [key, ball] : second) {
+    if (!seeds.contains(key.seed) || first.contains(key)) continue;
+    if (ball.truth.is_required)
+      ++pairs.unpaired;
+    else
+      pairs.balls.push_back({key, ball.truth, {}, ball.finding});
+  }
+  std::ranges::sort(pairs.balls, {}, &PairedBall::key);
   return pairs;
 }
 

@@ -36,7 +36,7 @@ struct BallTruth {
 /// What a detector made of a ball.
 struct BallFinding {
   bool is_found = false;            ///< with its colour, or none
-  std::optional<int> wrong_colour;  ///< that it was taken for
+  std::optional<int> wrong_colour;  ///< that it was taken for, besides or in place of being found
   double range_error_m = 0.0;       ///< of what was found, measured minus true, and so below
   double bearing_error_rad = 0.0;
   Eigen::Vector2d left_error_px = Eigen::Vector2d::Zero();  ///< NaN without pixels
@@ -64,8 +64,15 @@ struct PairedBall {
   BallFinding second;
 };
 
-/// The balls that both runs saw in the same place, in order of their keys. A ball that one of them alone has
-/// is one that the other one did not find, and did not have to.
-std::vector<PairedBall> pair_balls(const DetectedBalls& first, const DetectedBalls& second);
+/// The balls of two runs beside each other.
+struct PairedBalls {
+  /// Those that were in the same place, in order of their keys. One that did not have to be found, and that
+  /// one run alone has, is one that the other one did not find.
+  std::vector<PairedBall> balls;
+  long unpaired = 0;  ///< that had to be found in one run, and in the other one were not there or elsewhere
+};
+
+/// Pairs the balls of the seeds that both runs have.
+PairedBalls pair_balls(const DetectedBalls& first, const DetectedBalls& second);
 
 }  // namespace stereobench::harness

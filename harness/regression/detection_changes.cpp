@@ -21,23 +21,19 @@ constexpr std::size_t kMostConfusions = 3;
 
 using Balls = std::vector<const PairedBall*>;
 
-Balls those(std::span<const PairedBall> balls, const std::function<bool(const PairedBall&)>& is_one) {
+Balls those(const std::vector<PairedBall>& balls, const std::function<bool(const PairedBall&)>& is_one) {
   Balls found;
   for (const PairedBall& ball : balls)
     if (is_one(ball)) found.push_back(&ball);
   return found;
 }
 
-bool is_seen(const BallFinding& finding) {
-  return finding.is_found || finding.wrong_colour.has_value();
-}
-
 bool is_lost(const PairedBall& ball) {
   return ball.truth.is_required && ball.first.is_found && !ball.second.is_found;
 }
 
-bool is_misnamed(const PairedBall& ball) {
-  return ball.first.is_found && ball.second.wrong_colour.has_value();
+bool is_misidentified(const PairedBall& ball) {
+  return ball.second.wrong_colour.has_value() && !ball.first.wrong_colour.has_value();
 }
 
 std::vector<Property> properties_of(const Balls& balls) {
@@ -107,31 +103,31 @@ CentreShift shift_of(const Balls& balls, Eigen::Vector2d BallFinding::*error) {
   return found;
 }
 
-std::vector<Confusion> confusions_of(const Balls& misnamed) {
+std::vector<Confusion> confusions_of(const Balls& misidentified) {
   std::map<std::pair<int, int>, long> counts;
-  for (const PairedBall* ball : misnamed) ++counts[{ball->truth.colour, *ball->second.wrong_colour}];
+  for (const PairedBall* ball : misidentified) ++counts[{ball->truth.colour, *ball->second.wrong_colour}];
   std::vector<Confusion> confusions;
   for (const auto& [colours, count] : counts) confusions.push_back({colours.first, colours.second, count});
   std::ranges::stable_sort(confusions, std::greater{}, &Confusion::balls);
   return confusions;
 }
 
-std::vector<ChangedFrame> changed_frames(std::span<const PairedBall> balls) {
+std::vector<ChangedFrame> changed_frames(const std::vector<PairedBall>& balls) {
   std::map<std::pair<std::uint64_t, int>, ChangedFrame> frames;
   for (const PairedBall& ball : balls) {
-    const long lost = is_lost(ball) || is_misnamed(ball) ? 1 : 0;
+    const long changed = is_lost(ball) || is_misidentified(ball) ? 1 : 0;
     const double worse_m2 = ball.first.is_found && ball.second.is_found ? growth_m2(ball) : 0.0;
-    if (lost == 0 && worse_m2 <= 0.0) continue;
+    if (changed == 0 && worse_m2 <= 0.0) continue;
     ChangedFrame& frame = frames[{ball.key.seed, ball.key.frame}];
     frame.seed = ball.key.seed;
     frame.frame = ball.key.frame;
-    frame.lost += lost;
+    frame.balls += changed;
     frame.worse_m2 += worse_m2;
   }
   std::vector<ChangedFrame> worst;
   for (const auto& [key, frame] : frames) worst.push_back(frame);
   std::ranges::stable_sort(worst, [](const ChangedFrame& a, const ChangedFrame& b) {
-    return std::tuple(a.lost, a.worse_m2) > std::tuple(b.lost, b.worse_m2);
+    return std::tuple(a.balls, a.worse_m2) > std::tuple(b.balls, b.worse_m2);
   });
   worst.resize(std::min(worst.size(), kMostFrames));
   return worst;
@@ -149,7 +145,7 @@ PairedCount count(const Balls& balls, const Right& is_right) {
   return counted;
 }
 
-/// "58 of 60 at range 4.1 to 6 m, colour 3 (140 of 1840 balls)"
+/// "58 of 60 at range 4.1 to 6 m, colour 3 (where 140 of 1840 balls are)"
 std::string slice_text(const Slice& slice) {
   if (slice.conditions.empty()) return "they have nothing in common that chance does not explain";
   return fmt::format("{} of {} at {} (where {} of {} balls are)", slice.marked, slice.all_marked,
@@ -168,27 +164,48 @@ std::string frames_text(const std::vector<ChangedFrame>& frames) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+std::string confusions_text(const std::vector<Confusion>& confusions) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostConfusions, confusions.size()); ++i)
+    text += fmt::format("; colour {} taken for {}: {}", confusions[i].colour, confusions[i].taken_for,
+                        confusions[i].balls);
+  return text;
+}
+
+nlohmann::ordered_json slice_json(const std::optional<Slice>& slice) {
+  if (!slice) return nullptr;
+  return {{"conditions", slice->conditions},
+          {"marked", slice->marked},
+          {"of_marked", slice->all_marked},
+          {"balls", slice->things},
+          {"of_balls", slice->all_things}};
+}
+
+nlohmann::ordered_json pixel_json(const Eigen::Vector2d& pixel) {
+  return nlohmann::ordered_json::array({pixel.x(), pixel.y()});
+}
+
 bool has_moved(const CentreShift& shift) {
   return !shift.mean_px.isZero(0.0) || !shift.standard_error_px.isZero(0.0);
 }
 
 }  // namespace
 
-DetectionChanges detection_changes(std::span<const PairedBall> balls) {
-  DetectionChanges changes;
+DetectionChanges detection_changes(const PairedBalls& pairs) {
+  const std::vector<PairedBall>& balls = pairs.balls;
+  const Balls all = those(balls, [](const PairedBall&) { return true; });
   const Balls required = those(balls, [](const PairedBall& b) { return b.truth.is_required; });
-  const Balls seen = those(balls, [](const PairedBall& b) { return is_seen(b.first) && is_seen(b.second); });
   const Balls found = those(balls, [](const PairedBall& b) { return b.first.is_found && b.second.is_found; });
-  changes.required = static_cast<long>(required.size());
-  const auto is_found = [](const BallFinding& finding) { return finding.is_found; };
-  changes.found = count(required, is_found);
-  changes.named = count(seen, is_found);
-  changes.lost = slice_of(required, [&](std::size_t i) { return is_lost(*required[i]); });
-  changes.misnamed = slice_of(seen, [&](std::size_t i) { return is_misnamed(*seen[i]); });
+  DetectionChanges changes{.required = std::ssize(required), .unpaired = pairs.unpaired};
+  changes.found = count(required, [](const BallFinding& finding) { return finding.is_found; });
+  changes.misidentified =
+      count(all, [](const BallFinding& finding) { return !finding.wrong_colour.has_value(); });
+  changes.found_by_both = std::ssize(found);
+  changes.lost_slice = slice_of(required, [&](std::size_t i) { return is_lost(*required[i]); });
+  changes.misidentified_slice = slice_of(all, [&](std::size_t i) { return is_misidentified(*all[i]); });
   const std::vector<bool> carries = carriers_of_growth(found);
-  changes.misplaced = slice_of(found, [&](std::size_t i) { return carries[i]; });
-  changes.confusions = confusions_of(those(balls, is_misnamed));
-  changes.found_by_both = static_cast<long>(found.size());
+  changes.misplaced_slice = slice_of(found, [&](std::size_t i) { return carries[i]; });
+  changes.confusions = confusions_of(those(balls, is_misidentified));
   changes.left = shift_of(found, &BallFinding::left_error_px);
   changes.right = shift_of(found, &BallFinding::right_error_px);
   changes.frames = changed_frames(balls);
@@ -196,32 +213,61 @@ DetectionChanges detection_changes(std::span<const PairedBall> balls) {
 }
 
 PairedCounts counts_of(const DetectionChanges& changes) {
-  return {{"vision.recall", changes.found}, {"vision.misidentified", changes.named}};
+  if (changes.unpaired > 0) return {};
+  return {{"vision.recall", changes.found}, {"vision.misidentified", changes.misidentified}};
 }
 
-std::string changes_text(const DetectionChanges& changes) {
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew) {
   std::string text;
+  if (changes.unpaired > 0)
+    text += fmt::format(
+        "{} balls that had to be found are in one result alone: it saw another world, other "
+        "frames or another path\n",
+        changes.unpaired);
   if (changes.found.worse + changes.found.better > 0)
-    text += fmt::format("of {} balls that had to be found, A alone found {} and B alone {} (p {:.2g})\n",
-                        changes.required, changes.found.worse, changes.found.better, mcnemar(changes.found));
-  if (changes.lost) text += "  lost: " + slice_text(*changes.lost) + "\n";
-  if (changes.misnamed) {
-    text += fmt::format("A alone named {} balls right and B alone {} (p {:.2g})", changes.named.worse,
-                        changes.named.better, mcnemar(changes.named));
-    for (std::size_t i = 0; i < std::min(kMostConfusions, changes.confusions.size()); ++i) {
-      const Confusion& confusion = changes.confusions[i];
-      text +=
-          fmt::format("; colour {} taken for {}: {}", confusion.colour, confusion.taken_for, confusion.balls);
-    }
-    text += "\n  misnamed: " + slice_text(*changes.misnamed) + "\n";
-  }
+    text += fmt::format(
+        "of {} balls that had to be found, A alone found {} and B alone {} (McNemar's p {:.2g})\n",
+        changes.required, changes.found.worse, changes.found.better, mcnemar(changes.found));
+  if (changes.lost_slice) text += "  lost: " + slice_text(*changes.lost_slice) + "\n";
+  if (changes.misidentified.worse + changes.misidentified.better > 0)
+    text += fmt::format("B alone took {} balls for another colour, and A alone {} (McNemar's p {:.2g}){}\n",
+                        changes.misidentified.worse, changes.misidentified.better,
+                        mcnemar(changes.misidentified), confusions_text(changes.confusions));
+  if (changes.misidentified_slice)
+    text += "  misidentified: " + slice_text(*changes.misidentified_slice) + "\n";
   if (has_moved(changes.left) || has_moved(changes.right))
     text += fmt::format("centres of the {} balls that both found, B minus A: left {}, right {}\n",
                         changes.found_by_both, shift_text(changes.left), shift_text(changes.right));
-  if (changes.misplaced && !changes.misplaced->conditions.empty())
-    text += "  range errors grew: " + slice_text(*changes.misplaced) + "\n";
+  if (range_errors_grew && changes.misplaced_slice && !changes.misplaced_slice->conditions.empty())
+    text +=
+        "  nine tenths of the growth of squared range errors: " + slice_text(*changes.misplaced_slice) + "\n";
   if (!changes.frames.empty()) text += "frames that changed most: " + frames_text(changes.frames) + "\n";
   return text;
+}
+
+nlohmann::ordered_json changes_json(const DetectionChanges& changes) {
+  using Json = nlohmann::ordered_json;
+  Json confusions = Json::array();
+  for (const Confusion& confusion : changes.confusions)
+    confusions.push_back(
+        {{"colour", confusion.colour}, {"taken_for", confusion.taken_for}, {"balls", confusion.balls}});
+  Json frames = Json::array();
+  for (const ChangedFrame& frame : changes.frames)
+    frames.push_back(
+        {{"seed", frame.seed}, {"frame", frame.frame}, {"balls", frame.balls}, {"worse_m2", frame.worse_m2}});
+  return {{"required", changes.required},
+          {"unpaired", changes.unpaired},
+          {"found_by_first_alone", changes.found.worse},
+          {"found_by_second_alone", changes.found.better},
+          {"misidentified_by_second_alone", changes.misidentified.worse},
+          {"misidentified_by_first_alone", changes.misidentified.better},
+          {"lost", slice_json(changes.lost_slice)},
+          {"misidentified", slice_json(changes.misidentified_slice)},
+          {"misplaced", slice_json(changes.misplaced_slice)},
+          {"confusions", confusions},
+          {"left_shift_px", pixel_json(changes.left.mean_px)},
+          {"right_shift_px", pixel_json(changes.right.mean_px)},
+          {"frames", frames}};
 }
 
 }  // namespace stereobench::harness

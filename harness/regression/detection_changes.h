@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
 
 #include "harness/regression/detected_balls.h"
 #include "harness/regression/slice.h"
@@ -33,32 +34,39 @@ struct Confusion {
 struct ChangedFrame {
   std::uint64_t seed = 0;
   int frame = 0;
-  long lost = 0;          ///< balls that the first alone found, or named right
+  long balls = 0;         ///< that were lost or misidentified
   double worse_m2 = 0.0;  ///< by how much squared range errors grew, summed
 };
 
 /// What changed from one detector to another on the same balls.
 struct DetectionChanges {
-  long required = 0;              ///< balls that had to be found
-  PairedCount found;              ///< of these
-  PairedCount named;              ///< of the balls that both saw: whose colour is right
-  std::optional<Slice> lost;      ///< what lost balls have in common, among those that had to be found
-  std::optional<Slice> misnamed;  ///< what misnamed balls have in common, among those that both saw
-  std::optional<Slice>
-      misplaced;  ///< the same of balls that make up nine tenths of the growth of range errors
-  std::vector<Confusion> confusions;  ///< the most frequent first
+  long required = 0;  ///< balls that had to be found, in both results
+  long unpaired = 0;  ///< balls that had to be found in one result, and in the other one are elsewhere
+  PairedCount found;  ///< of the required: worse counts what the first alone found
+  PairedCount misidentified;  ///< taken for another colour: worse counts what the second alone did
   long found_by_both = 0;
-  CentreShift left;
+
+  // What balls have in common.
+  std::optional<Slice> lost_slice;           ///< found by the first alone, of the required
+  std::optional<Slice> misidentified_slice;  ///< taken for another colour by the second alone, of all
+  std::optional<Slice> misplaced_slice;      ///< that make up nine tenths of the growth of range errors
+
+  std::vector<Confusion> confusions;  ///< the most frequent first
+  CentreShift left;                   ///< of the balls that both found
   CentreShift right;
   std::vector<ChangedFrame> frames;  ///< the ten that changed most, if as many did
 };
 
-DetectionChanges detection_changes(std::span<const PairedBall> balls);
+DetectionChanges detection_changes(const PairedBalls& balls);
 
-/// Its counts, by the metrics that they are of.
+/// Its counts, by the metrics that they are of; none where balls are not in both results.
 PairedCounts counts_of(const DetectionChanges& changes);
 
 /// Some lines for people; empty where nothing changed.
-std::string changes_text(const DetectionChanges& changes);
+/// @param range_errors_grew significantly: then it is said where
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew);
+
+/// The same for programs.
+nlohmann::ordered_json changes_json(const DetectionChanges& changes);
 
 }  // namespace stereobench::harness

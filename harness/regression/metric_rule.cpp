@@ -26,7 +26,7 @@ constexpr std::array kRules = std::to_array<NamedRule>({
     {"vision.recall", {.better = Better::kHigher, .relative_margin = 0.0, .absolute_margin = 0.005}},
     {"vision.precision", {.better = Better::kHigher, .relative_margin = 0.0, .absolute_margin = 0.005}},
     {"vision.found", {.better = Better::kHigher, .relative_margin = 0.005}},
-    {"vision.*_bias_*", {.better = Better::kNearZero, .relative_margin = 0.2}},
+    {"vision.*_bias_*", {.better = Better::kNearZero, .relative_margin = 0.1}},
     {"vision.normalised_error", {.better = Better::kNearOne, .relative_margin = 0.0, .absolute_margin = 0.1}},
     {"vision.*_rms_*", {}},
     {"vision.misidentified", {}},
@@ -93,20 +93,26 @@ std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margi
   return rule;
 }
 
-double badness(const MetricRule& rule, double value) {
+std::string scale_of(const std::string& name) {
+  const std::string bias = "_bias_";
+  const std::size_t at = name.find(bias);
+  return at == std::string::npos ? name : std::string(name).replace(at, bias.size(), "_rms_");
+}
+
+double badness(const MetricRule& rule, double mean) {
   switch (rule.better) {
     case Better::kLower:
-      return value;
+      return mean;
     case Better::kHigher:
-      return -value;
+      return -mean;
     case Better::kNearZero:
-      return std::abs(value);
+      return std::abs(mean);
     case Better::kNearOne:
-      return std::abs(slam::logarithm(value));
+      return std::abs(slam::logarithm(mean));
     case Better::kNearLevel:
-      return std::abs(value - rule.level);
+      return std::abs(mean - rule.level);
   }
-  return value;
+  return mean;
 }
 
 }  // namespace stereobench::harness

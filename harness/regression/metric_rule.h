@@ -12,13 +12,13 @@ struct MetricRule {
   enum class Better {
     kLower,      ///< errors and counts of faults
     kHigher,     ///< rates and counts of what is right
-    kNearZero,   ///< biases: the absolute value is judged
-    kNearOne,    ///< NIS, NEES: the absolute value of the logarithm is judged
-    kNearLevel,  ///< coverage: the distance from `level` is judged
+    kNearZero,   ///< biases: the absolute value of the mean is judged
+    kNearOne,    ///< NIS, NEES: the absolute value of the mean's logarithm is judged
+    kNearLevel,  ///< coverage: the distance of the mean from `level` is judged
   };
   Better better = Better::kLower;
   double level = 0.0;             ///< for kNearLevel
-  double relative_margin = 0.05;  ///< changes below this share of the first result's mean do not matter,
+  double relative_margin = 0.05;  ///< changes below this share of the first result do not matter,
   double absolute_margin = 0.0;   ///< nor do those below this; the larger one counts
 };
 
@@ -33,7 +33,8 @@ struct Margin {
 /// @throws std::runtime_error that begins with "--margin: "
 Margin parse_margin(const std::string& text);
 
-/// @return whether a name fits a shell's pattern: `*` stands for any characters, `?` for one
+/// @return whether a name fits a pattern as of a shell: `*` stands for any characters, `?` for one, `[ab]`
+/// for one of some
 bool fits(const std::string& name, const std::string& pattern);
 
 /// @param margins of which the last one that fits counts
@@ -41,8 +42,12 @@ bool fits(const std::string& name, const std::string& pattern);
 /// were to be found
 std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margin> margins = {});
 
-/// @param value of a metric
+/// @return the metric whose mean in the first result a relative margin is a share of: of a bias the rms
+/// error, else the metric itself
+std::string scale_of(const std::string& name);
+
+/// @param mean of a metric over seeds
 /// @return a number that is the larger the worse, in the unit of the margins
-double badness(const MetricRule& rule, double value);
+double badness(const MetricRule& rule, double mean);
 
 }  // namespace stereobench::harness

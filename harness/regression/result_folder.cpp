@@ -34,8 +34,8 @@ StoredResult result_of(const nlohmann::json& json) {
   run.at("schema").integer(1, 1);
   StoredResult result{.scenario = run.at("scenario").text()};
   for (const JsonValue& seed : run.at("seeds").list(1, kMostSeeds))
-    result.seeds.seeds.push_back(
-        static_cast<std::uint64_t>(seed.integer(0, std::numeric_limits<std::int64_t>::max())));
+    result.seeds.seeds.push_back(seed.natural_number());
+  result.seeds.is_one_log = run.find("log").has_value();
   if (std::set(result.seeds.seeds.begin(), result.seeds.seeds.end()).size() != result.seeds.seeds.size())
     run.at("seeds").refuse("each seed once");
   if (!run.find("per_seed")) run.refuse("\"per_seed\", which older versions did not write: run it again");

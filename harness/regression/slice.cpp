@@ -1,6 +1,7 @@
 #include "harness/regression/slice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -56,7 +57,6 @@ bool holds(const Candidate& candidate, std::size_t thing) {
 
 /// The probability that a part of so many things has at least so many marked ones by chance.
 double chance_of(const Candidate& part, std::size_t things, std::size_t marked) {
-  if (part.marked == 0) return 1.0;
   const boost::math::hypergeometric drawn(static_cast<unsigned>(marked), static_cast<unsigned>(part.things),
                                           static_cast<unsigned>(things));
   return boost::math::cdf(boost::math::complement(drawn, static_cast<unsigned>(part.marked - 1)));
@@ -89,11 +89,17 @@ std::optional<Candidate> best_part(std::span<const Property> properties, const I
   return chance * static_cast<double>(tried) < kChance ? best : std::nullopt;
 }
 
+/// Whole numbers, which may count things, to the last digit.
+std::string number_text(double value) {
+  return std::trunc(value) == value ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
 std::string text_of(const Candidate& candidate) {
   const auto& [name, unit, values] = *candidate.property;
   const std::string behind = unit.empty() ? "" : " " + unit;
-  if (candidate.low == candidate.high) return fmt::format("{} {:.4g}{}", name, candidate.low, behind);
-  return fmt::format("{} {:.4g} to {:.4g}{}", name, candidate.low, candidate.high, behind);
+  const std::string low = number_text(candidate.low);
+  if (candidate.low == candidate.high) return fmt::format("{} {}{}", name, low, behind);
+  return fmt::format("{} {} to {}{}", name, low, number_text(candidate.high), behind);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -20,12 +19,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// How many seeds nobody runs.
 constexpr double kMoreThanAnybodyRuns = 1e6;
 
-/// Values of both results on the same seeds; NaN where there is none.
-struct Pairs {
-  std::vector<double> first;
-  std::vector<double> second;
-};
-
 /// A seed that both results have, and its places there.
 struct SharedSeed {
   std::uint64_t seed = 0;
@@ -33,13 +26,18 @@ struct SharedSeed {
   std::size_t in_second = 0;
 };
 
-/// The values of a metric at some seeds. @return empty where the result does not have it
+/// A metric's values at the shared seeds; NaN where there is none.
+struct Pairs {
+  std::vector<double> first;
+  std::vector<double> second;
+};
+
 std::vector<double> values_at(const SeedMetrics& metrics, const std::string& metric,
                               const std::vector<SharedSeed>& seeds, std::size_t SharedSeed::*place) {
   const auto found = metrics.find(metric);
   std::vector<double> values;
-  if (found == metrics.end()) return values;
-  for (const SharedSeed& seed : seeds) values.push_back(found->second[seed.*place]);
+  for (const SharedSeed& seed : seeds)
+    values.push_back(found == metrics.end() ? kNone : found->second[seed.*place]);
   return values;
 }
 
@@ -48,18 +46,37 @@ bool has_value(const std::vector<double>& values) {
 }
 
 bool are_equal(const Pairs& pairs) {
-  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
-    const bool neither = std::isnan(pairs.first[i]) && std::isnan(pairs.second[i]);
-    if (!neither && pairs.first[i] != pairs.second[i]) return false;
-  }
-  return true;
+  return std::ranges::equal(pairs.first, pairs.second,
+                            [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
 }
 
-/// About how many seeds there must be in all until the interval lies on one side of what it straddles.
-double seeds_needed(const MetricVerdict& metric, double sd, double alpha) {
-  const double off = std::abs(std::abs(metric.change) - metric.margin);
-  const double reach = student_t_quantile(1.0 - alpha, std::max(1L, metric.pairs - 1)) * sd;
-  return reach / off * (reach / off);
+bool is_constant(const std::vector<double>& values) {
+  return values.size() > 1 && std::ranges::count(values, values.front()) == std::ssize(values);
+}
+
+/// Those that both have.
+Pairs complete(const Pairs& pairs) {
+  Pairs both;
+  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
+    if (!std::isfinite(pairs.first[i]) || !std::isfinite(pairs.second[i])) continue;
+    both.first.push_back(pairs.first[i]);
+    both.second.push_back(pairs.second[i]);
+  }
+  return both;
+}
+
+long count_lost(const Pairs& pairs) {
+  long lost = 0;
+  for (std::size_t i = 0; i < pairs.first.size(); ++i)
+    lost += std::isfinite(pairs.first[i]) && !std::isfinite(pairs.second[i]) ? 1 : 0;
+  return lost;
+}
+
+std::vector<double> differences_of(const Pairs& pairs) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < pairs.first.size(); ++i)
+    differences.push_back(pairs.second[i] - pairs.first[i]);
+  return differences;
 }
 
 /// @return how many seeds there must be for a p-value that is small enough among so many metrics: that of
@@ -70,36 +87,53 @@ long fewest_that_tell(long metrics, double alpha) {
   return seeds;
 }
 
+/// About how many more seeds there must be until the interval lies on one side of what it straddles.
+std::optional<long> more_seeds_for(const MetricVerdict& metric, double standard_error, double alpha) {
+  if (metric.pairs < 2) return {};
+  const double off = std::abs(std::abs(metric.change) - metric.margin);
+  const double half_width = student_t_bound(1.0 - alpha, metric.pairs - 1) * standard_error;
+  const double needed = static_cast<double>(metric.pairs) * (half_width / off) * (half_width / off);
+  if (!(needed < kMoreThanAnybodyRuns)) return {};
+  return std::max(1L, std::lround(needed) - metric.pairs);
+}
+
 /// Fills in all that does not depend on other metrics.
-MetricVerdict measure(const std::string& name, const Pairs& pairs, const MetricRule& rule, double alpha) {
-  MetricVerdict metric{.metric = name, .equal = are_equal(pairs)};
-  std::vector<double> first, second, first_badness, changes;
-  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
-    const double before = badness(rule, pairs.first[i]);
-    const double change = badness(rule, pairs.second[i]) - before;
-    if (!std::isfinite(change)) continue;
-    first.push_back(pairs.first[i]);
-    second.push_back(pairs.second[i]);
-    first_badness.push_back(before);
-    changes.push_back(change);
-  }
-  metric.pairs = static_cast<long>(changes.size());
-  metric.first_mean = summarise(first).mean;
-  metric.second_mean = summarise(second).mean;
-  metric.change = summarise(changes).mean;
-  const double scale = std::abs(summarise(first_badness).mean);
+/// @param scale the mean that a relative margin is a share of
+MetricVerdict measure(const std::string& name, const Pairs& all, const MetricRule& rule, double scale,
+                      double alpha) {
+  const Pairs pairs = complete(all);
+  const Change change = [&rule](double first, double second) {
+    return badness(rule, second) - badness(rule, first);
+  };
+  MetricVerdict metric{.metric = name,
+                       .pairs = std::ssize(pairs.first),
+                       .lost = count_lost(all),
+                       .equal = are_equal(all),
+                       .first_mean = summarise(pairs.first.empty() ? all.first : pairs.first).mean,
+                       .second_mean = summarise(pairs.second.empty() ? all.second : pairs.second).mean};
+  metric.change = change(metric.first_mean, metric.second_mean);
   metric.margin = std::max(rule.absolute_margin, rule.relative_margin * scale);
   if (metric.margin > rule.absolute_margin) metric.scale = scale;
-  metric.interval = mean_interval(changes, 1.0 - alpha);
-  metric.p = wilcoxon_signed_rank(changes);
-  const double needed = seeds_needed(metric, summarise(changes).sd, alpha);
-  if (needed < kMoreThanAnybodyRuns) metric.more_seeds = std::max(1L, std::lround(needed) - metric.pairs);
+  metric.interval = change_interval(pairs.first, pairs.second, 1.0 - alpha, change);
+  metric.more_seeds = more_seeds_for(metric, standard_error(pairs.first, pairs.second, change), alpha);
+  if (metric.equal || pairs.first.empty()) return metric;
+  metric.test = ChangeTest::kWilcoxon;
+  metric.p = wilcoxon_signed_rank(differences_of(pairs));
   return metric;
+}
+
+/// A change in which no chance is at work is as large as it is.
+void take_as_exact(MetricVerdict& metric) {
+  metric.test = ChangeTest::kExact;
+  metric.p = metric.p_holm = 0.0;
+  metric.interval = {metric.change, metric.change};
 }
 
 Verdict judge(const MetricVerdict& metric, double alpha) {
   if (metric.equal) return Verdict::kPass;
-  if (metric.pairs == 0) return Verdict::kInconclusive;
+  if (metric.lost > 0) return Verdict::kVanished;
+  if (metric.pairs == 0) return Verdict::kNew;
+  if (!std::isfinite(metric.change)) return Verdict::kInconclusive;
   if (metric.interval.low > -metric.margin && metric.interval.high < metric.margin) return Verdict::kPass;
   if (metric.p_holm >= alpha) return Verdict::kInconclusive;
   if (metric.interval.low > metric.margin) return Verdict::kRegressed;
@@ -126,60 +160,45 @@ std::set<std::string> names_of_both(const SeedTable& first, const SeedTable& sec
   return names;
 }
 
-/// A metric that one of the results has no value of.
-MetricVerdict one_sided(const std::string& name, const Pairs& pairs) {
-  const bool vanished = has_value(pairs.first);
-  return {.metric = name,
-          .verdict = vanished ? Verdict::kVanished : Verdict::kNew,
-          .first_mean = summarise(pairs.first).mean,
-          .second_mean = summarise(pairs.second).mean,
-          .change = kNone,
-          .interval = {kNone, kNone},
-          .margin = kNone};
-}
-
-void add_metric(const std::string& name, const Pairs& pairs, const VerdictSettings& settings,
-                ResultComparison& comparison) {
-  const bool in_first = has_value(pairs.first);
-  const bool in_second = has_value(pairs.second);
-  if (!in_first && !in_second) return;
-  const std::optional<MetricRule> rule = rule_of(name, settings.margins);
-  if (!rule) {
-    if (in_first != in_second || !are_equal(pairs)) comparison.conditions.push_back(name);
-  } else if (in_first && in_second) {
-    comparison.metrics.push_back(measure(name, pairs, *rule, settings.alpha));
-  } else {
-    comparison.metrics.push_back(one_sided(name, pairs));
-  }
-}
-
-/// Puts the p-values of counts in place of those of the seeds' rates.
-void take_counts(ResultComparison& comparison, const PairedCounts& counts) {
-  for (MetricVerdict& metric : comparison.metrics) {
-    const auto found = counts.find(metric.metric);
-    if (found == counts.end()) continue;
-    metric.count = found->second;
-    metric.p = mcnemar(found->second);
-  }
-}
-
+/// Corrects p-values for their number, and judges.
 void decide(ResultComparison& comparison, double alpha) {
   std::vector<double> p_values;
-  const auto was_tested = [](const MetricVerdict& metric) { return metric.pairs > 0 && !metric.equal; };
+  const auto is_tested = [](const MetricVerdict& metric) {
+    return metric.test == ChangeTest::kWilcoxon || metric.test == ChangeTest::kMcnemar;
+  };
   for (const MetricVerdict& metric : comparison.metrics)
-    if (was_tested(metric)) p_values.push_back(metric.p);
-  comparison.changed = static_cast<long>(p_values.size());
+    if (is_tested(metric)) p_values.push_back(metric.p);
+  comparison.changed = std::ssize(p_values);
+  comparison.fewest_seeds = fewest_that_tell(comparison.changed, alpha);
   const std::vector<double> corrected = holm(p_values);
   auto next = corrected.begin();
   for (MetricVerdict& metric : comparison.metrics) {
-    if (was_tested(metric)) metric.p_holm = *next++;
-    if (metric.verdict == Verdict::kPass) metric.verdict = judge(metric, alpha);
-    if (metric.verdict != Verdict::kInconclusive) metric.more_seeds.reset();
-    if (metric.more_seeds && !metric.count && std::abs(metric.change) > metric.margin)
-      metric.more_seeds =
-          std::max(*metric.more_seeds, fewest_that_tell(comparison.changed, alpha) - metric.pairs);
+    if (is_tested(metric)) metric.p_holm = *next++;
+    metric.verdict = judge(metric, alpha);
+    const bool is_beyond = std::abs(metric.change) > metric.margin;
+    const bool is_hopeless = metric.test == ChangeTest::kMcnemar && is_beyond;
+    if (metric.verdict != Verdict::kInconclusive || is_hopeless) metric.more_seeds.reset();
+    if (metric.more_seeds && is_beyond)
+      metric.more_seeds = std::max(*metric.more_seeds, comparison.fewest_seeds - metric.pairs);
   }
   std::ranges::stable_sort(comparison.metrics, {}, &MetricVerdict::verdict);
+}
+
+/// @throws std::runtime_error for a margin that is of no metric
+void check_margins(const ResultComparison& comparison, const std::vector<Margin>& margins) {
+  for (const Margin& margin : margins) {
+    const auto is_its = [&](const MetricVerdict& metric) { return fits(metric.metric, margin.pattern); };
+    if (std::ranges::none_of(comparison.metrics, is_its))
+      throw std::runtime_error(
+          fmt::format("--margin: no metric that is judged fits '{}'; --all lists them", margin.pattern));
+  }
+}
+
+[[noreturn]] void refuse_nothing(const ResultComparison& comparison, const std::string& only) {
+  if (comparison.not_judged.empty())
+    throw std::runtime_error(fmt::format("no metric fits '{}' in either result: nothing to compare", only));
+  throw std::runtime_error(
+      fmt::format("what fits '{}' is neither better nor worse, and not judged: nothing to compare", only));
 }
 
 }  // namespace
@@ -209,18 +228,33 @@ bool ResultComparison::has(Verdict verdict) const {
 ResultComparison compare_results(const SeedTable& first, const SeedTable& second,
                                  const VerdictSettings& settings, const PairedCounts& counts) {
   const std::vector<SharedSeed> seeds = shared_seeds(first, second);
+  const bool is_one_log = first.is_one_log && second.is_one_log;
   ResultComparison comparison;
   for (const SharedSeed& shared : seeds) comparison.seeds.push_back(shared.seed);
   for (const std::string& name : names_of_both(first, second)) {
-    if (!fits(name, settings.only)) continue;
     const Pairs pairs{values_at(first.metrics, name, seeds, &SharedSeed::in_first),
                       values_at(second.metrics, name, seeds, &SharedSeed::in_second)};
-    add_metric(name, pairs, settings, comparison);
+    if (!fits(name, settings.only) || (!has_value(pairs.first) && !has_value(pairs.second))) continue;
+    const std::optional<MetricRule> rule = rule_of(name, settings.margins);
+    if (!rule) {
+      if (!are_equal(pairs)) comparison.not_judged.push_back(name);
+      continue;
+    }
+    const Summary scale = summarise(values_at(first.metrics, scale_of(name), seeds, &SharedSeed::in_first));
+    const double share_of = scale.count > 0 ? std::abs(scale.mean) : 0.0;
+    MetricVerdict metric = measure(name, pairs, *rule, share_of, settings.alpha);
+    const auto counted = counts.find(name);
+    if (is_one_log && is_constant(pairs.first) && is_constant(pairs.second) && !metric.equal) {
+      take_as_exact(metric);
+    } else if (counted != counts.end() && metric.test == ChangeTest::kWilcoxon) {
+      metric.test = ChangeTest::kMcnemar;
+      metric.count = counted->second;
+      metric.p = mcnemar(counted->second);
+    }
+    comparison.metrics.push_back(std::move(metric));
   }
-  if (comparison.metrics.empty())
-    throw std::runtime_error(
-        fmt::format("no metric fits '{}' in either result: nothing to compare", settings.only));
-  take_counts(comparison, counts);
+  if (comparison.metrics.empty()) refuse_nothing(comparison, settings.only);
+  check_margins(comparison, settings.margins);
   decide(comparison, settings.alpha);
   return comparison;
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace stereobench::harness {
 
 enum class Verdict {
   kRegressed,     ///< significantly worse, by more than the margin
-  kVanished,      ///< the second result has no value any more
+  kVanished,      ///< the second result has no value where the first has one
   kInconclusive,  ///< more seeds are needed
   kImproved,      ///< significantly better, by more than the margin
   kNew,           ///< the first result had no value
@@ -27,27 +26,38 @@ enum class Verdict {
 /// "REGRESSED" and so on, as tables and files have it.
 const char* text_of(Verdict verdict);
 
+/// How a p-value was found.
+enum class ChangeTest {
+  kNone,      ///< there was nothing to test
+  kWilcoxon,  ///< signed ranks of the seeds' changes
+  kMcnemar,   ///< counts of single balls
+  kExact,     ///< no chance is at work: on one log a filter without random numbers gives the same each time
+};
+
 /// The seeds of a result, and its metrics in their order.
 struct SeedTable {
   std::vector<std::uint64_t> seeds;
   SeedMetrics metrics;
+  bool is_one_log = false;  ///< seeds are repetitions of the filters on one recorded log
 };
 
-/// One metric's. The change is that of badness(): positive is worse.
+/// One metric's. The change is that of badness() of the means: positive is worse.
 struct MetricVerdict {
   std::string metric;
   Verdict verdict = Verdict::kPass;
   long pairs = 0;           ///< seeds that both results have a value of
-  bool equal = false;       ///< on all of them, to the last bit
+  long lost = 0;            ///< seeds that the first result alone has a value of
+  bool equal = false;       ///< on all seeds, to the last bit
   double first_mean = 0.0;  ///< over the pairs; NaN where there is none, and so below
   double second_mean = 0.0;
-  double change = 0.0;  ///< mean over the pairs
+  double change = 0.0;
   Interval interval;    ///< of the change
   double margin = 0.0;  ///< in the unit of the change
-  double scale = 0.0;   ///< what a relative margin is a share of; 0 for one in the unit of the change
-  double p = 1.0;       ///< of no change: Wilcoxon's signed ranks, or McNemar's test
-  double p_holm = 1.0;  ///< the same among all metrics that changed
-  std::optional<PairedCount> count;  ///< of a rate: what came out differently
+  double scale = 0.0;   ///< what a relative margin is a share of; 0 for an absolute margin
+  ChangeTest test = ChangeTest::kNone;
+  double p = 1.0;                    ///< of no change
+  double p_holm = 1.0;               ///< the same among all metrics that changed
+  std::optional<PairedCount> count;  ///< what McNemar's test counted
   std::optional<long> more_seeds;    ///< of an inconclusive one: about how many decide
 };
 
@@ -64,8 +74,9 @@ using PairedCounts = std::map<std::string, PairedCount>;
 struct ResultComparison {
   std::vector<std::uint64_t> seeds;     ///< that both have, in ascending order
   std::vector<MetricVerdict> metrics;   ///< by verdict, then by name
-  std::vector<std::string> conditions;  ///< numbers that are neither good nor bad, and differ
+  std::vector<std::string> not_judged;  ///< metrics that no rule calls better or worse, and that differ
   long changed = 0;                     ///< metrics among which p-values are corrected
+  long fewest_seeds = 0;                ///< below which no p-value of that many metrics can be small enough
 
   bool has(Verdict verdict) const;
 };
@@ -74,10 +85,12 @@ struct ResultComparison {
 ///
 /// REGRESSED is a metric whose p-value is below alpha, corrected by Holm for all metrics that changed, and
 /// whose whole interval (of probability 1 - alpha) is worse than the margin; IMPROVED the same on the other
-/// side. PASS is one whose whole interval lies within the margins. All others are INCONCLUSIVE.
-/// @param counts of metrics that are rates: what came out differently, which tells more than rates of seeds.
-/// Their p-value is McNemar's
-/// @throws std::runtime_error, one line, when there is no seed or no metric to compare
+/// side. PASS is one whose whole interval lies within the margins. VANISHED is one that the second result has
+/// no value of at a seed where the first has one. All others are INCONCLUSIVE.
+/// @param counts of metrics that count single things, such as balls. Their p-value is McNemar's, which takes
+/// each of them for independent
+/// @throws std::runtime_error, one line, when there is no seed or no metric to compare, or a margin is of no
+/// metric that is judged
 ResultComparison compare_results(const SeedTable& first, const SeedTable& second,
                                  const VerdictSettings& settings, const PairedCounts& counts = {});
 

@@ -26,6 +26,20 @@ double unit_of_change(const MetricVerdict& metric) {
   return metric.scale > 0.0 ? 0.01 * metric.scale : 1.0;
 }
 
+const char* text_of(ChangeTest test) {
+  switch (test) {
+    case ChangeTest::kWilcoxon:
+      return "wilcoxon";
+    case ChangeTest::kMcnemar:
+      return "mcnemar";
+    case ChangeTest::kExact:
+      return "exact";
+    case ChangeTest::kNone:
+      break;
+  }
+  return "none";
+}
+
 std::string signed_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "-" : value < 0.0 ? "-inf" : "inf";
   return fmt::format("{:+.3g}", value);
@@ -37,43 +51,46 @@ std::string change_cell(const MetricVerdict& metric) {
   const double unit = unit_of_change(metric);
   const auto in_unit = [unit](double value) { return signed_number(value / unit); };
   return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
-                     in_unit(metric.interval.high), unit == 1.0 ? "" : " %");
+                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
 }
 
 std::string margin_cell(const MetricVerdict& metric) {
   if (!std::isfinite(metric.margin)) return "-";
   const double unit = unit_of_change(metric);
-  return fmt::format("{:.3g}{}", metric.margin / unit, unit == 1.0 ? "" : " %");
+  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
 }
 
-/// How many more seeds an inconclusive metric needs, for a column of its own.
-std::string need_cell(const MetricVerdict& metric) {
+/// "1 seed", "2 seeds"
+std::string counted(long count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string note_cell(const MetricVerdict& metric) {
+  if (metric.verdict == Verdict::kVanished)
+    return fmt::format("no value on {}", counted(metric.lost, "seed"));
+  if (metric.test == ChangeTest::kExact) return "no chance in it";
   if (metric.verdict != Verdict::kInconclusive) return "";
-  return metric.more_seeds ? fmt::format("{}", *metric.more_seeds) : "very many";
+  return metric.more_seeds ? fmt::format("about {} more", counted(*metric.more_seeds, "seed")) : "";
 }
 
 AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
   AlignedTable table{.header = {"metric", "verdict", "A", "B",
                                 fmt::format("worse by, {:g} % interval", 100.0 * (1.0 - settings.alpha)),
-                                "margin", "p (Holm)", "seeds", "more seeds"}};
+                                "margin", "p (Holm)", "seeds", "note"}};
   for (const MetricVerdict& metric : comparison.metrics) {
     if (metric.verdict == Verdict::kPass && !all) continue;
     table.rows.push_back({metric.metric, text_of(metric.verdict), format_number(metric.first_mean),
                           format_number(metric.second_mean), metric.equal ? "equal" : change_cell(metric),
-                          margin_cell(metric), metric.equal ? "-" : fmt::format("{:.2g}", metric.p_holm),
-                          fmt::format("{}", metric.pairs), need_cell(metric)});
+                          margin_cell(metric),
+                          metric.test == ChangeTest::kNone ? "-" : fmt::format("{:.2g}", metric.p_holm),
+                          fmt::format("{}", metric.pairs), note_cell(metric)});
   }
   return table;
 }
 
-/// "1 seed", "2 seeds"
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-std::string conditions_line(const ResultComparison& comparison) {
-  if (comparison.conditions.empty()) return "";
-  return fmt::format("not judged, but different: {}\n", fmt::join(comparison.conditions, ", "));
+std::string not_judged_line(const ResultComparison& comparison) {
+  if (comparison.not_judged.empty()) return "";
+  return fmt::format("not judged, but different: {}\n", fmt::join(comparison.not_judged, ", "));
 }
 
 }  // namespace
@@ -84,23 +101,32 @@ std::string verdict_summary(const ResultComparison& comparison) {
     if (const long count = count_of(comparison, verdict); count > 0)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, text_of(verdict));
   return fmt::format("{} compared on {}: {}; {} of them changed\n",
-                     counted(comparison.metrics.size(), "metric"), counted(comparison.seeds.size(), "seed"),
-                     counts, comparison.changed);
+                     counted(std::ssize(comparison.metrics), "metric"),
+                     counted(std::ssize(comparison.seeds), "seed"), counts, comparison.changed);
 }
 
 std::string verdict_table(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
   const AlignedTable table = table_of(comparison, settings, all);
-  return (table.rows.empty() ? std::string() : plain_text(table) + "\n") + conditions_line(comparison);
+  return (table.rows.empty() ? std::string() : plain_text(table) + "\n") + not_judged_line(comparison);
+}
+
+std::string few_seeds_warning(const ResultComparison& comparison, const VerdictSettings& settings) {
+  const long seeds = std::ssize(comparison.seeds);
+  if (comparison.changed == 0 || seeds >= comparison.fewest_seeds) return "";
+  return fmt::format("warning: {} cannot tell {} from chance (alpha {:g}): {} are the fewest that can\n",
+                     counted(seeds, "seed"), counted(comparison.changed, "changed metric"), settings.alpha,
+                     comparison.fewest_seeds);
 }
 
 std::string verdict_page(const ResultComparison& comparison, const VerdictSettings& settings,
-                         const ComparedNames& names) {
+                         const ComparedNames& names, const std::string& detections, bool all) {
   std::string page =
       fmt::format("### {} (A) and {} (B)\n\n{}", names.first, names.second, verdict_summary(comparison));
-  const AlignedTable table = table_of(comparison, settings, false);
+  const AlignedTable table = table_of(comparison, settings, all);
   if (!table.rows.empty()) page += "\n" + markdown(table);
-  const std::string conditions = conditions_line(comparison);
-  return conditions.empty() ? page : page + "\n" + conditions;
+  if (!detections.empty()) page += "\n```text\n" + detections + "```\n";
+  const std::string not_judged = not_judged_line(comparison);
+  return not_judged.empty() ? page : page + "\n" + not_judged;
 }
 
 Json verdict_json(const ResultComparison& comparison, const VerdictSettings& settings,
@@ -110,6 +136,7 @@ Json verdict_json(const ResultComparison& comparison, const VerdictSettings& set
     metrics.push_back({{"metric", metric.metric},
                        {"verdict", text_of(metric.verdict)},
                        {"pairs", metric.pairs},
+                       {"lost", metric.lost},
                        {"equal", metric.equal},
                        {"first_mean", number(metric.first_mean)},
                        {"second_mean", number(metric.second_mean)},
@@ -117,6 +144,7 @@ Json verdict_json(const ResultComparison& comparison, const VerdictSettings& set
                        {"low", number(metric.interval.low)},
                        {"high", number(metric.interval.high)},
                        {"margin", number(metric.margin)},
+                       {"test", text_of(metric.test)},
                        {"p", metric.p},
                        {"p_holm", metric.p_holm},
                        {"more_seeds", metric.more_seeds ? Json(*metric.more_seeds) : Json(nullptr)}});
@@ -127,7 +155,7 @@ Json verdict_json(const ResultComparison& comparison, const VerdictSettings& set
           {"seeds", comparison.seeds},
           {"changed", comparison.changed},
           {"metrics", metrics},
-          {"conditions", comparison.conditions}};
+          {"not_judged", comparison.not_judged}};
 }
 
 }  // namespace stereobench::harness

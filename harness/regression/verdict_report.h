@@ -22,11 +22,15 @@ std::string verdict_summary(const ResultComparison& comparison);
 /// @param all whether metrics that passed are listed too
 std::string verdict_table(const ResultComparison& comparison, const VerdictSettings& settings, bool all);
 
-/// The same as a page for pull requests, in Markdown.
-std::string verdict_page(const ResultComparison& comparison, const VerdictSettings& settings,
-                         const ComparedNames& names);
+/// A line that begins with "warning: " where there are too few seeds for any verdict but PASS; else empty.
+std::string few_seeds_warning(const ResultComparison& comparison, const VerdictSettings& settings);
 
-/// All of it for programs.
+/// The same as a page for pull requests, in Markdown.
+/// @param detections what changes_text() says
+std::string verdict_page(const ResultComparison& comparison, const VerdictSettings& settings,
+                         const ComparedNames& names, const std::string& detections, bool all);
+
+/// The verdicts for programs.
 nlohmann::ordered_json verdict_json(const ResultComparison& comparison, const VerdictSettings& settings,
                                     const ComparedNames& names);
 

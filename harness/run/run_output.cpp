@@ -113,7 +113,10 @@ RunResult RunOutput::result() const {
 
 void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& walls) {
   steps_.move_into_place();
-  if (detections_) detections_->move_into_place();
+  if (detections_)
+    detections_->move_into_place();
+  else
+    std::filesystem::remove(out_ / kDetections);  // of an earlier run with pictures
   pictures_.write(out_, result, walls);
   write_file_atomically(out_ / "timing.json",
                         timing_json(tally_.timing(), result.seeds.size()).dump(2) + "\n");

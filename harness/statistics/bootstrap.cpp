@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
-
-#include <boost/math/distributions/students_t.hpp>
 
 #include "harness/statistics/statistics.h"
 #include "slam/math/elementary.h"
@@ -18,50 +17,83 @@ namespace {
 constexpr std::size_t kFewestToResample = 10;
 constexpr std::size_t kResamples = 10000;
 
-double mean(std::span<const double> values) {
+/// Pairs and what is looked at.
+struct Sample {
+  std::span<const double> first;
+  std::span<const double> second;
+  const Change& change;
+
+  std::size_t size() const { return first.size(); }
+};
+
+double sum_of(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  return sum;
 }
 
-/// The means of samples that are drawn from the values with replacement, sorted.
-std::vector<double> resampled_means(std::span<const double> values) {
-  slam::RandomStream random(0, slam::Stream::kResample, values.size());
-  const auto count = static_cast<std::uint64_t>(values.size());
-  std::vector<double> means;
-  means.reserve(kResamples);
+double change_of(const Sample& sample) {
+  const auto count = static_cast<double>(sample.size());
+  return sample.change(sum_of(sample.first) / count, sum_of(sample.second) / count);
+}
+
+/// The change without one pair, by how much it is off from the mean of all such changes.
+std::vector<double> left_out(const Sample& sample) {
+  const double first = sum_of(sample.first);
+  const double second = sum_of(sample.second);
+  const auto rest = static_cast<double>(sample.size() - 1);
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    changes.push_back(sample.change((first - sample.first[i]) / rest, (second - sample.second[i]) / rest));
+  const double mean = sum_of(changes) / static_cast<double>(changes.size());
+  for (double& change : changes) change = mean - change;
+  return changes;
+}
+
+double sum_of_squares(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return sum;
+}
+
+/// A sixth of the skewness.
+double acceleration_of(const std::vector<double>& left_out) {
+  double cubes = 0.0;
+  for (const double off : left_out) cubes += off * off * off;
+  const double squares = sum_of_squares(left_out);
+  return squares > 0.0 ? cubes / (6.0 * squares * std::sqrt(squares)) : 0.0;
+}
+
+/// The changes of samples that are drawn from the pairs with replacement, sorted.
+std::vector<double> resampled_changes(const Sample& sample) {
+  slam::RandomStream random(0, slam::Stream::kResample, sample.size());
+  const auto count = static_cast<std::uint64_t>(sample.size());
+  std::vector<double> changes;
+  changes.reserve(kResamples);
   for (std::size_t i = 0; i < kResamples; ++i) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      sum += values[static_cast<std::size_t>((count * std::uint64_t{random.bits()}) >> 32U)];
-    means.push_back(sum / static_cast<double>(values.size()));
+    double first = 0.0;
+    double second = 0.0;
+    for (std::size_t k = 0; k < sample.size(); ++k) {
+      const auto drawn = static_cast<std::size_t>((count * std::uint64_t{random.bits()}) >> 32U);
+      first += sample.first[drawn];
+      second += sample.second[drawn];
+    }
+    changes.push_back(sample.change(first / static_cast<double>(count), second / static_cast<double>(count)));
   }
-  std::ranges::sort(means);
-  return means;
+  std::ranges::sort(changes);
+  return changes;
 }
 
 double normal_below(double x) {
   return 0.5 * slam::complementary_error(-x / std::numbers::sqrt2);
 }
 
-/// How many standard deviations of the resampled means lie below the mean itself.
-double bias_of(const std::vector<double>& means, double mean) {
-  const auto [first, last] = std::ranges::equal_range(means, mean);
-  const auto below = static_cast<double>(first - means.begin()) + 0.5 * static_cast<double>(last - first);
-  const auto count = static_cast<double>(means.size());
+/// How many standard deviations of the resampled changes lie below the change itself.
+double bias_of(const std::vector<double>& changes, double change) {
+  const auto [first, last] = std::ranges::equal_range(changes, change);
+  const auto below = static_cast<double>(first - changes.begin()) + 0.5 * static_cast<double>(last - first);
+  const auto count = static_cast<double>(changes.size());
   return slam::normal_quantile(std::clamp(below, 0.5, count - 0.5) / count);
-}
-
-/// A sixth of the skewness of the mean: for a mean, leaving one value out after the other gives this.
-double acceleration_of(std::span<const double> values, double mean) {
-  double squares = 0.0;
-  double cubes = 0.0;
-  for (const double value : values) {
-    const double off = value - mean;
-    squares += off * off;
-    cubes += off * off * off;
-  }
-  return cubes / (6.0 * squares * std::sqrt(squares));
 }
 
 double at(const std::vector<double>& sorted, double probability) {
@@ -73,31 +105,31 @@ double at(const std::vector<double>& sorted, double probability) {
 
 }  // namespace
 
-double student_t_quantile(double probability, long degrees_of_freedom) {
-  const boost::math::students_t student(static_cast<double>(degrees_of_freedom));
-  return boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - probability)));
+double standard_error(std::span<const double> first, std::span<const double> second, const Change& change) {
+  if (first.size() < 2) return std::numeric_limits<double>::infinity();
+  const auto count = static_cast<double>(first.size());
+  return std::sqrt((count - 1.0) / count * sum_of_squares(left_out({first, second, change})));
 }
 
-Interval mean_interval(std::span<const double> values, double level) {
+Interval change_interval(std::span<const double> first, std::span<const double> second, double level,
+                         const Change& change) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (values.size() < 2) return {-kInfinity, kInfinity};
-  if (std::ranges::count(values, values.front()) == std::ssize(values))
-    return {values.front(), values.front()};
-  const Summary summary = summarise(values);
-  const auto count = static_cast<double>(values.size());
-  const double t = student_t_quantile(level, static_cast<long>(values.size()) - 1);
-  if (values.size() < kFewestToResample) {
-    const double half_width = t * summary.sd / std::sqrt(count);
-    return {summary.mean - half_width, summary.mean + half_width};
+  if (first.size() < 2) return {-kInfinity, kInfinity};
+  const Sample sample{first, second, change};
+  const auto count = static_cast<double>(sample.size());
+  const double centre = change_of(sample);
+  const double t = student_t_bound(level, static_cast<long>(sample.size()) - 1);
+  if (sample.size() < kFewestToResample) {
+    const double half_width = t * standard_error(first, second, change);
+    return {centre - half_width, centre + half_width};
   }
-  const std::vector<double> means = resampled_means(values);
-  const double centre = mean(values);
-  const double bias = bias_of(means, centre);
-  const double acceleration = acceleration_of(values, centre);
+  const std::vector<double> changes = resampled_changes(sample);
+  const double bias = bias_of(changes, centre);
+  const double acceleration = acceleration_of(left_out(sample));
   const double widened = t * std::sqrt(count / (count - 1.0));
   const auto end = [&](double z) {
     const double off = bias + z;
-    return at(means, normal_below(bias + off / std::max(1e-3, 1.0 - acceleration * off)));
+    return at(changes, normal_below(bias + off / std::max(1e-3, 1.0 - acceleration * off)));
   };
   return {end(-widened), end(widened)};
 }

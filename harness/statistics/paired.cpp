@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -22,9 +23,11 @@ std::vector<double> sorted_by_size(std::span<const double> differences) {
   return sorted;
 }
 
+/// Ranks of differences by their size. Ties share their mean rank; twice the rank is a whole number.
 struct SignedRanks {
-  double positive = 0.0;  ///< sum of the ranks of positive differences; ties share their mean rank
-  double ties = 0.0;      ///< sum of t^3 - t over groups of t equal sizes
+  std::vector<std::size_t> twice;  ///< of all differences
+  std::size_t twice_positive = 0;  ///< sum over those that are positive
+  double ties = 0.0;               ///< sum of t^3 - t over groups of t equal sizes
 };
 
 SignedRanks rank(const std::vector<double>& sorted) {
@@ -32,10 +35,11 @@ SignedRanks rank(const std::vector<double>& sorted) {
   for (std::size_t begin = 0; begin < sorted.size();) {
     std::size_t end = begin + 1;
     while (end < sorted.size() && std::abs(sorted[end]) == std::abs(sorted[begin])) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      ranks.twice.push_back(begin + 1 + end);
+      if (sorted[i] > 0.0) ranks.twice_positive += ranks.twice.back();
+    }
     const auto count = static_cast<double>(end - begin);
-    const double mean_rank = 0.5 * static_cast<double>(begin + 1 + end);
-    for (std::size_t i = begin; i < end; ++i)
-      if (sorted[i] > 0.0) ranks.positive += mean_rank;
     ranks.ties += count * count * count - count;
     begin = end;
   }
@@ -43,21 +47,24 @@ SignedRanks rank(const std::vector<double>& sorted) {
 }
 
 /// The chance that the smaller of both rank sums is at most this, by counting all signs: the number of
-/// subsets of 1..n with each sum, added up one rank after the other.
-double exact_p(double smaller_sum, std::size_t n) {
-  std::vector<double> ways(n * (n + 1) / 2 + 1, 0.0);
+/// subsets of the ranks with each sum, added up one rank after the other.
+double exact_p(const SignedRanks& ranks) {
+  const std::size_t all = std::accumulate(ranks.twice.begin(), ranks.twice.end(), std::size_t{0});
+  std::vector<double> ways(all + 1, 0.0);
   ways[0] = 1.0;
-  for (std::size_t r = 1; r <= n; ++r)
-    for (std::size_t sum = ways.size() - 1; sum >= r; --sum) ways[sum] += ways[sum - r];
+  for (const std::size_t twice_rank : ranks.twice)
+    for (std::size_t sum = all; sum >= twice_rank; --sum) ways[sum] += ways[sum - twice_rank];
+  const std::size_t smaller = std::min(ranks.twice_positive, all - ranks.twice_positive);
   double below = 0.0;
-  for (std::size_t sum = 0; static_cast<double>(sum) <= smaller_sum; ++sum) below += ways[sum];
-  return std::min(1.0, 2.0 * std::ldexp(below, -static_cast<int>(n)));
+  for (std::size_t sum = 0; sum <= smaller; ++sum) below += ways[sum];
+  return std::min(1.0, 2.0 * std::ldexp(below, -static_cast<int>(ranks.twice.size())));
 }
 
 double normal_p(const SignedRanks& ranks, double n) {
   const double mean = n * (n + 1.0) / 4.0;
   const double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranks.ties / 48.0;
-  const double off = std::max(0.0, std::abs(ranks.positive - mean) - 0.5);
+  const double positive = 0.5 * static_cast<double>(ranks.twice_positive);
+  const double off = std::max(0.0, std::abs(positive - mean) - 0.5);
   return slam::complementary_error(off / std::sqrt(variance) / std::numbers::sqrt2);
 }
 
@@ -68,9 +75,8 @@ double wilcoxon_signed_rank(std::span<const double> differences) {
   const std::vector<double> sorted = sorted_by_size(differences);
   if (sorted.empty()) return 1.0;
   const SignedRanks ranks = rank(sorted);
-  const auto n = static_cast<double>(sorted.size());
-  if (ranks.ties > 0.0 || sorted.size() > kMostForExact) return normal_p(ranks, n);
-  return exact_p(std::min(ranks.positive, n * (n + 1.0) / 2.0 - ranks.positive), sorted.size());
+  if (sorted.size() > kMostForExact) return normal_p(ranks, static_cast<double>(sorted.size()));
+  return exact_p(ranks);
 }
 
 double mcnemar(const PairedCount& count) {

@@ -22,8 +22,8 @@ struct PairedDifference {
 PairedDifference compare_paired(std::span<const double> first, std::span<const double> second);
 
 /// The probability of signed ranks at least as lopsided as these when nothing but chance decides the signs
-/// (Wilcoxon 1945). Exact below 51 differences without ties, otherwise the normal approximation with its
-/// corrections for ties and continuity. Zeros are left out.
+/// (Wilcoxon 1945). Exact below 51 differences, of which equal ones share their mean rank; otherwise the
+/// normal approximation with its corrections for ties and continuity. Zeros are left out.
 /// @return in (0, 1]
 double wilcoxon_signed_rank(std::span<const double> differences);
 

@@ -63,14 +63,19 @@ double student_t_two_sided(double t, long degrees_of_freedom) {
   return (angle + sine * cosine * series) * 2.0 / slam::kPi;
 }
 
-double student_t_95(long degrees_of_freedom) {
+double student_t_bound(double probability, long degrees_of_freedom) {
   double low = 0.0;
-  double high = 16.0;  // above 12.706, the bound of one degree of freedom
+  double high = 16.0;
+  while (student_t_two_sided(high, degrees_of_freedom) < probability) high *= 2.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (student_t_two_sided(middle, degrees_of_freedom) < 0.95 ? low : high) = middle;
+    (student_t_two_sided(middle, degrees_of_freedom) < probability ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double student_t_95(long degrees_of_freedom) {
+  return student_t_bound(0.95, degrees_of_freedom);
 }
 
 }  // namespace stereobench::harness

@@ -26,8 +26,12 @@ Summary summarise(std::span<const double> values);
 /// @param degrees_of_freedom >= 1
 double student_t_two_sided(double t, long degrees_of_freedom);
 
-/// The bound that |t| stays below with 95 % probability.
+/// The bound that |t| stays below with a probability.
+/// @param probability in (0, 1)
 /// @param degrees_of_freedom >= 1
+double student_t_bound(double probability, long degrees_of_freedom);
+
+/// The same for 95 %.
 double student_t_95(long degrees_of_freedom);
 
 }  // namespace stereobench::harness

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/vision_scoring/detection_table.h"
 #include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {
@@ -46,7 +47,7 @@ TEST_F(CompareCommand, ExitsWithOneWhereAMetricGotWorse) {
   EXPECT_EQ(compare(result(1.2), result(1.0)).exit_code, 0);
 }
 
-// A change of 5.05 % +- something lies on the margin of 5 %. Mutation: --strict read and forgotten.
+// Mutation: --strict read and forgotten.
 TEST_F(CompareCommand, IsStrictWhereItIsToldTo) {
   const std::vector<std::string> wide = {"--margin", "filters.*=1000%"};
   EXPECT_EQ(compare(result(1.0), result(1.2), with({"--strict"}, wide)).exit_code, 0);
@@ -75,10 +76,58 @@ TEST_F(CompareCommand, WritesItsVerdictsForProgramsAndForPullRequests) {
   EXPECT_THAT(bytes_of(path("out.md")), HasSubstr("| filters.ekf.ate_rms_m | REGRESSED"));
 }
 
-// Law: the outcome does not depend on who is asked, or where. Mutation: paths in what is compared.
 TEST_F(CompareCommand, SaysTheSameEachTime) {
   const Outcome once = compare(result(1.0), result(1.04));
   EXPECT_EQ(compare(result(1.0), result(1.04)).out, once.out);
+}
+
+// Mutation: nobody hears of it.
+TEST_F(CompareCommand, SaysWhatGotWorseWhenItIsQuietToo) {
+  EXPECT_THAT(compare(result(1.0), result(1.2), {"--quiet"}).err, HasSubstr("REGRESSED"));
+  const Outcome better = compare(result(1.2), result(1.0), {"--quiet"});
+  EXPECT_EQ(better.out + better.err, "");
+}
+
+// 5 seeds: 2 / 2^5 is above 1 %. Mutation: no word of it.
+TEST_F(CompareCommand, WarnsOfTooFewSeeds) {
+  const std::string few =
+      R"({"schema": 1, "scenario": "x", "seeds": [0, 1, 2, 3, 4], "per_seed": {"filters.ekf.ate_rms_m": )";
+  const Outcome outcome = compare(few + "[1, 2, 3, 4, 5]}}", few + "[10, 21, 32, 43, 54]}}");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("warning: 5 seeds cannot tell 1 changed metric from chance (alpha 0.01): 8"));
+}
+
+/// A table of ten seeds with one ball each.
+std::string detections(const std::string& outcome, const std::string& colour) {
+  std::string rows = detections_csv_header();
+  for (int seed = 0; seed < 10; ++seed)
+    rows += std::to_string(seed) + ",0," + outcome + ",0,1,3,2,0.1,100,100,90,100,12,1,1,50," + colour +
+            (outcome == "miss" ? ",,,,,,,,," : ",2,0.1,1e-6,0,1e-6,100,100,90,100") + "\n";
+  return rows;
+}
+
+// Mutations: tables that are not read; counts of the wrong metric.
+TEST_F(CompareCommand, SaysWhichBallsWereLost) {
+  const auto rates = [](const std::string& recall, const std::string& wrong) {
+    const std::string ten =
+        ", \"vision.recall\": [" + recall + "], \"vision.misidentified\": [" + wrong + "]";
+    return result(1.0, ten);
+  };
+  const std::string ones = "1,1,1,1,1,1,1,1,1,1", noughts = "0,0,0,0,0,0,0,0,0,0";
+  folder_.write("a/detections.csv.gz", detections("true_positive", "3"));
+  folder_.write("b/detections.csv.gz", detections("miss", ""));
+  const Outcome lost = compare(rates(ones, noughts), rates(noughts, noughts), {"--json", path("out.json")});
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.out, HasSubstr("of 10 balls that had to be found, A alone found 10 and B alone 0"));
+  const auto json = nlohmann::json::parse(bytes_of(path("out.json")));
+  EXPECT_EQ(json["metrics"][0]["test"], "mcnemar");
+  EXPECT_EQ(json["detections"]["found_by_first_alone"], 10);
+  folder_.write("b/detections.csv.gz", detections("wrong_identity", "7"));
+  const Outcome wrong = compare(rates(ones, noughts), rates(noughts, ones));
+  EXPECT_THAT(wrong.out,
+              AllOf(HasSubstr("B alone took 10 balls for another colour"),
+                    HasSubstr("colour 3 taken for 7: 10"), HasSubstr("vision.misidentified  REGRESSED")));
 }
 
 TEST_F(CompareCommand, RefusesWhatIsNoResult) {

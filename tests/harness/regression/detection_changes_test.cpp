@@ -20,9 +20,10 @@ using testing::StartsWith;
 using testing::ThrowsMessage;
 
 /// Balls of 20 seeds, 12 frames and 9 balls each, all found twice with errors of 1 mm and 0.05 px.
-std::vector<PairedBall> balls_at_random() {
+PairedBalls balls_at_random() {
   slam::RandomStream random(5, slam::Stream::kOracle);
-  std::vector<PairedBall> balls;
+  PairedBalls pairs;
+  std::vector<PairedBall>& balls = pairs.balls;
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     for (int frame = 0; frame < 12; ++frame)
       for (int ball = 0; ball < 9; ++ball) {
@@ -42,7 +43,7 @@ std::vector<PairedBall> balls_at_random() {
           finding->right_error_px = 0.05 * Eigen::Vector2d(random.normal(), random.normal());
         }
       }
-  return balls;
+  return pairs;
 }
 
 void lose(PairedBall& ball) {
@@ -51,26 +52,30 @@ void lose(PairedBall& ball) {
 
 // Mutation: balls that were lost before and after.
 TEST(DetectionChanges, SaysWhichBallsWereLost) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls)
     if (ball.truth.colour == 3 && ball.truth.range_m > 6.0) lose(ball);
-  const DetectionChanges changes = detection_changes(balls);
+  for (PairedBall& ball : balls)
+    if (ball.truth.colour == 5 && ball.key.frame < 6) ball.first = ball.second = {};
+  const DetectionChanges changes = detection_changes(pairs);
   EXPECT_GT(changes.found.worse, 50);
   EXPECT_EQ(changes.found.better, 0);
-  ASSERT_TRUE(changes.lost);
-  EXPECT_THAT(changes.lost->conditions, Contains(StartsWith("range")));
-  EXPECT_THAT(changes_text(changes), HasSubstr("A alone found"));
+  ASSERT_TRUE(changes.lost_slice);
+  EXPECT_THAT(changes.lost_slice->conditions, Contains(StartsWith("range")));
+  EXPECT_THAT(changes_text(changes, true), HasSubstr("A alone found"));
   EXPECT_EQ(counts_of(changes).at("vision.recall").worse, changes.found.worse);
 }
 
 // A ball that did not have to be found is no loss.
 TEST(DetectionChanges, CountsBallsThatHadToBeFound) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   balls[7].truth.is_required = false;
   lose(balls[7]);
   lose(balls[8]);
   balls[9].first = {};  // found the second time alone
-  const DetectionChanges changes = detection_changes(balls);
+  const DetectionChanges changes = detection_changes(pairs);
   EXPECT_EQ(changes.required, static_cast<long>(balls.size()) - 1);
   EXPECT_EQ(changes.found.worse, 1);
   EXPECT_EQ(changes.found.better, 1);
@@ -78,45 +83,49 @@ TEST(DetectionChanges, CountsBallsThatHadToBeFound) {
 
 // Mutation: both cameras' shifts in one number.
 TEST(DetectionChanges, SaysInWhichCameraCentresMoved) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls) ball.second.left_error_px.x() += 0.3;
-  const DetectionChanges changes = detection_changes(balls);
+  const DetectionChanges changes = detection_changes(pairs);
   EXPECT_NEAR(changes.left.mean_px.x(), 0.3, 5.0 * changes.left.standard_error_px.x());
   EXPECT_NEAR(changes.right.mean_px.x(), 0.0, 5.0 * changes.right.standard_error_px.x());
   EXPECT_LT(changes.left.standard_error_px.x(), 0.003);
 }
 
 TEST(DetectionChanges, SaysWhichColourWasTakenForWhich) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls)
     if (ball.truth.colour == 2) ball.second = {.wrong_colour = 7};
-  const DetectionChanges changes = detection_changes(balls);
-  EXPECT_EQ(changes.named.worse, 240);
+  const DetectionChanges changes = detection_changes(pairs);
+  EXPECT_EQ(changes.misidentified.worse, 240);
   ASSERT_FALSE(changes.confusions.empty());
   EXPECT_EQ(changes.confusions[0].colour, 2);
   EXPECT_EQ(changes.confusions[0].taken_for, 7);
   EXPECT_EQ(changes.confusions[0].balls, 240);
-  EXPECT_THAT(changes_text(changes), HasSubstr("colour 2 taken for 7: 240"));
-  ASSERT_TRUE(changes.misnamed);
-  EXPECT_THAT(changes.misnamed->conditions, Contains(HasSubstr("2")));
+  EXPECT_THAT(changes_text(changes, true), HasSubstr("colour 2 taken for 7: 240"));
+  ASSERT_TRUE(changes.misidentified_slice);
+  EXPECT_THAT(changes.misidentified_slice->conditions, Contains("colour 2"));
 }
 
 TEST(DetectionChanges, NamesTheFramesThatChangedMost) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls)
     if (ball.key.seed == 7 && ball.key.frame == 5) lose(ball);
-  const DetectionChanges changes = detection_changes(balls);
+  const DetectionChanges changes = detection_changes(pairs);
   ASSERT_EQ(changes.frames.size(), 10U);
   EXPECT_EQ(changes.frames[0].seed, 7U);
   EXPECT_EQ(changes.frames[0].frame, 5);
-  EXPECT_EQ(changes.frames[0].lost, 9);
+  EXPECT_EQ(changes.frames[0].balls, 9);
 }
 
 TEST(DetectionChanges, OfEqualResultsAreNone) {
-  std::vector<PairedBall> balls = balls_at_random();
+  PairedBalls pairs = balls_at_random();
+  std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls) ball.second = ball.first;
-  EXPECT_THAT(changes_text(detection_changes(balls)), IsEmpty());
-  EXPECT_THAT(changes_text(detection_changes({})), IsEmpty());
+  EXPECT_THAT(changes_text(detection_changes(pairs), true), IsEmpty());
+  EXPECT_THAT(changes_text(detection_changes({}), true), IsEmpty());
 }
 
 class DetectedBallsFile : public testing::Test {
@@ -163,12 +172,26 @@ TEST(PairedBalls, AreInTheSamePlace) {
   const DetectedBall ball{.truth = {.is_required = true, .range_m = 2.0}, .finding = {.is_found = true}};
   DetectedBall elsewhere = ball;
   elsewhere.truth.range_m = 2.1;
-  EXPECT_EQ(pair_balls({{{0, 1, 2}, ball}}, {{{0, 1, 2}, ball}}).size(), 1U);
-  EXPECT_THAT(pair_balls({{{0, 1, 2}, ball}}, {{{0, 1, 2}, elsewhere}}), IsEmpty());
-  DetectedBall extra = ball;
-  extra.truth.is_required = false;
-  EXPECT_EQ(pair_balls({{{0, 1, 2}, extra}}, {}).size(), 1U);
-  EXPECT_EQ(pair_balls({}, {{{0, 1, 2}, extra}}).size(), 1U);
+  const BallKey key{0, 1, 2};
+  EXPECT_EQ(pair_balls({{key, ball}}, {{key, ball}}).balls.size(), 1U);
+  const PairedBalls moved = pair_balls({{key, ball}}, {{key, elsewhere}});
+  EXPECT_THAT(moved.balls, IsEmpty());
+  EXPECT_EQ(moved.unpaired, 1);
+  EXPECT_THAT(counts_of(detection_changes(moved)), IsEmpty());
+  EXPECT_THAT(changes_text(detection_changes(moved), true),
+              HasSubstr("1 balls that had to be found are in one"));
+}
+
+// One that did not have to be found is one that the other run did not find. Seeds of one run are left out.
+TEST(PairedBalls, MayBeFoundOnce) {
+  const DetectedBall required{.truth = {.is_required = true}, .finding = {.is_found = true}};
+  const DetectedBall extra{.truth = {}, .finding = {.is_found = true}};
+  const DetectedBalls first = {{{0, 1, 2}, required}, {{0, 1, 3}, extra}, {{7, 1, 2}, required}};
+  const PairedBalls pairs = pair_balls(first, {{{0, 1, 2}, required}});
+  ASSERT_EQ(pairs.balls.size(), 2U);
+  EXPECT_EQ(pairs.unpaired, 0);
+  EXPECT_TRUE(pairs.balls[1].first.is_found);
+  EXPECT_FALSE(pairs.balls[1].second.is_found);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<Property> things(std::size_t count, slam::RandomStream& random) {
   return properties;
 }
 
-// 19 in 20 of the colour-3 things from 4 to 6 m are marked, and one in 100 of the others.
+// 19 in 20 of the things of colour 3 from 4 to 6 m are marked.
 // Mutation: a condition that holds too few of the marked things.
 TEST(Slice, NamesWhatMarkedThingsHaveInCommon) {
   slam::RandomStream random(1, slam::Stream::kOracle);

@@ -27,7 +27,7 @@ double sum_of(const Json& list) {
 
 // Law: means over seeds and sums over seeds are those of the seeds' own values. Rates and rms errors of
 // pictures are of all detections together, and no mean over seeds.
-// Mutations: a summary's largest value in place of its mean; a count of all seeds so far.
+// Mutations: a summary's spread in place of its mean; a count of all seeds so far.
 TEST(SeedMetrics, AddUpToTheRun) {
   const TestFolder scratch;
   const std::string out = (scratch.path() / "out").string();

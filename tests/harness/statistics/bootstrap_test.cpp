@@ -21,6 +21,12 @@ std::vector<double> sample(Law law, std::size_t count, slam::RandomStream& rando
   return values;
 }
 
+/// The interval of a mean: of the change from nothing to these values.
+Interval mean_interval(const std::vector<double>& values, double level) {
+  const std::vector<double> nothing(values.size(), 0.0);
+  return change_interval(nothing, values, level, [](double first, double second) { return second - first; });
+}
+
 /// How many of 200 intervals of 95 % hold the true mean.
 int covered(Law law, std::size_t count) {
   int covered = 0;
@@ -66,9 +72,11 @@ TEST(MeanInterval, FollowsShiftsAndScales) {
 }
 
 TEST(MeanInterval, IsAPointWhereAllValuesAreOne) {
-  const Interval interval = mean_interval(std::vector(12, 0.3), 0.99);
-  EXPECT_EQ(interval.low, 0.3);
-  EXPECT_EQ(interval.high, 0.3);
+  for (const std::size_t count : {5U, 12U}) {
+    const Interval interval = mean_interval(std::vector(count, 0.3), 0.99);
+    EXPECT_NEAR(interval.low, 0.3, 1e-12);
+    EXPECT_NEAR(interval.high, 0.3, 1e-12);
+  }
 }
 
 TEST(MeanInterval, OfOneValueSaysNothing) {
@@ -76,11 +84,30 @@ TEST(MeanInterval, OfOneValueSaysNothing) {
   EXPECT_TRUE(std::isinf(interval.low) && std::isinf(interval.high));
 }
 
-// Table 26.10 of Abramowitz and Stegun.
-TEST(StudentT, QuantilesAreThoseOfTheTables) {
-  EXPECT_NEAR(student_t_quantile(0.95, 1), 12.706, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.99, 9), 3.250, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 120), 1.980, 5e-4);
+// What pairs have in common cancels. Mutation: both drawn by themselves.
+TEST(ChangeInterval, IsOfPairs) {
+  slam::RandomStream random(3, slam::Stream::kOracle);
+  std::vector<double> first, second;
+  for (int i = 0; i < 20; ++i) {
+    first.push_back(10.0 * random.normal());
+    second.push_back(first.back() + 1.0 + 0.1 * random.normal());
+  }
+  const Interval interval = change_interval(first, second, 0.99, [](double a, double b) { return b - a; });
+  EXPECT_GT(interval.low, 0.85);
+  EXPECT_LT(interval.high, 1.15);
+}
+
+// By the rule for products of small errors: the ratio of means 4 and 2, each off by 0.1 and paired at random.
+// Mutation: the spread of the changes in place of their error.
+TEST(StandardError, IsThatOfPropagation) {
+  slam::RandomStream random(4, slam::Stream::kOracle);
+  std::vector<double> first, second;
+  for (int i = 0; i < 400; ++i) {
+    first.push_back(2.0 + 2.0 * random.normal());
+    second.push_back(4.0 + 2.0 * random.normal());
+  }
+  const double error = standard_error(first, second, [](double a, double b) { return b / a; });
+  EXPECT_NEAR(error, std::sqrt(0.05 * 0.05 + 0.1 * 0.1), 0.02);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ TEST(StudentT, AgreesWithPrintedTables) {
       {1, 12.706205}, {2, 4.302653},  {3, 3.182446},  {4, 2.776445},  {5, 2.570582},
       {9, 2.262157},  {10, 2.228139}, {30, 2.042272}, {99, 1.984217}, {1000, 1.962339}};
   for (const auto& [degrees, bound] : table) EXPECT_NEAR(student_t_95(degrees), bound, 1e-6) << degrees;
+  EXPECT_NEAR(student_t_bound(0.99, 9), 3.249836, 1e-6);
+  EXPECT_NEAR(student_t_bound(0.9999, 1), 6366.19767, 1e-4);
 }
 
 TEST(StudentT, IsCauchyForOneDegreeAndClosedForTwo) {

@@ -1,0 +1,104 @@
+#include "tests/studies/verdict_power/detector_variants.h"
+
+#include <fmt/format.h>
+
+#include "vision/camera/rig.h"
+#include "vision/stereo/range_bearing.h"
+#include "vision/stereo/sphere.h"
+
+namespace stereobench::harness {
+namespace {
+
+/// Moves a ball's centres, and its range and bearing as triangulation does.
+void shift_centres(vision::BallObservation& ball, const Eigen::Vector2d& left_px,
+                   const Eigen::Vector2d& right_px, const FoundByOurs& found) {
+  const Eigen::Isometry3d robot_from_camera = vision::robot_from_camera(found.rig);
+  const auto range_and_bearing = [&] {
+    const auto place =
+        vision::triangulate_ball(found.rig, ball.left_px, ball.right_px, found.ball_radius_m).value();
+    return vision::range_bearing(place, Eigen::Matrix3d::Identity(), robot_from_camera);
+  };
+  const slam::RangeBearing from = range_and_bearing();
+  ball.left_px += left_px;
+  ball.right_px += right_px;
+  const slam::RangeBearing to = range_and_bearing();
+  ball.range_bearing.range_m += to.range_m - from.range_m;
+  ball.range_bearing.bearing_rad += to.bearing_rad - from.bearing_rad;
+}
+
+/// A variant that changes each ball by itself.
+template <class Change>
+auto each_ball(const Change& change) {
+  return [change](const FoundByOurs& found, slam::RandomStream& chance) {
+    Observations observations = found.now;
+    for (vision::BallObservation& ball : observations) change(ball, found, chance);
+    return observations;
+  };
+}
+
+Observations as_it_is(const FoundByOurs& found, slam::RandomStream&) {
+  return found.now;
+}
+
+Observations lose_some(const FoundByOurs& found, slam::RandomStream& chance) {
+  constexpr double kLost = 0.03;
+  Observations kept;
+  for (const vision::BallObservation& ball : found.now)
+    if (chance.uniform() >= kLost) kept.push_back(ball);
+  return kept;
+}
+
+void take_one_colour_for_another(vision::BallObservation& ball, const FoundByOurs&, slam::RandomStream&) {
+  if (ball.colour != 1 && ball.colour != 2) return;
+  ball.colour = 3 - ball.colour;
+  ball.range_bearing.colour_class = ball.colour;
+}
+
+}  // namespace
+
+std::vector<Variant> faulty_variants() {
+  using Ball = vision::BallObservation;
+  const auto shifted = each_ball([](Ball& ball, const FoundByOurs& found, slam::RandomStream&) {
+    shift_centres(ball, {0.3, 0.0}, {0.0, 0.0}, found);
+  });
+  const auto long_ranges = each_ball(
+      [](Ball& ball, const FoundByOurs&, slam::RandomStream&) { ball.range_bearing.range_m *= 1.01; });
+  const auto halved = each_ball(
+      [](Ball& ball, const FoundByOurs&, slam::RandomStream&) { ball.range_bearing.covariance *= 0.5; });
+  const auto late = [](const FoundByOurs& found, slam::RandomStream&) { return found.before; };
+  const auto trust_odometry = [](slam::FilterConfig& config) {
+    for (double slam::OdometryNoise::*part :
+         {&slam::OdometryNoise::v_constant_mps, &slam::OdometryNoise::v_per_v,
+          &slam::OdometryNoise::w_constant_radps, &slam::OdometryNoise::w_per_w})
+      config.odometry_noise.*part *= 0.01;
+  };
+  return {
+      {"the same", {}, "", as_it_is},
+      {"centres of one camera shifted by 0.3 px",
+       {"vision.disparity_rms_px", "vision.disparity_bias_px"},
+       "left (+0.300",
+       shifted},
+      {"3 % of the balls lost", {"vision.recall"}, "A alone found", lose_some},
+      {"two colours swapped",
+       {"vision.misidentified"},
+       "colour 2 taken for 1",
+       each_ball(take_one_colour_for_another)},
+      {"ranges 1 % long", {"vision.range_rms_m", "vision.range_bias_m"}, "", long_ranges},
+      {"a frame late", {"vision.recall", "vision.range_rms_m"}, "", late},
+      {"covariance halved", {"vision.normalised_error"}, "", halved},
+      {"odometry believed a hundredth as noisy", {"filters.iekf.ate_rms_m"}, "", as_it_is, trust_odometry},
+  };
+}
+
+Variant noisy_variant(double sd_px) {
+  return {.name = fmt::format("centres off by {:g} px by chance", sd_px),
+          .metrics = {},
+          .says = "",
+          .detect = each_ball([sd_px](vision::BallObservation& ball, const FoundByOurs& found,
+                                      slam::RandomStream& chance) {
+            const double a = chance.normal(), b = chance.normal(), c = chance.normal(), d = chance.normal();
+            shift_centres(ball, sd_px * Eigen::Vector2d(a, b), sd_px * Eigen::Vector2d(c, d), found);
+          })};
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,225 @@
+/// How often `compare` sees planted faults of a detector, and how often it raises false alarms.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/drive/sightings.h"
+#include "harness/experiment/experiment.h"
+#include "harness/experiment/filter_config.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/text_table.h"
+#include "harness/process/process_pool.h"
+#include "harness/process/progress.h"
+#include "harness/regression/detection_changes.h"
+#include "harness/run/seed_drive.h"
+#include "harness/vision_scoring/detection_table.h"
+#include "tests/studies/verdict_power/detector_variants.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr std::uint64_t kSeedsOfRepetition = 20;
+constexpr std::size_t kNoisyVariants = 4;  ///< of each repetition; each is compared with the next one
+constexpr double kNoise_px = 0.05;
+
+/// A variant's result so far: what its folder would hold.
+struct VariantResult {
+  SeedTable table;
+  SeedMetricsTally metrics;
+  std::string detections = detections_csv_header();
+};
+
+std::vector<Variant> all_variants() {
+  std::vector<Variant> variants = faulty_variants();
+  for (std::size_t i = 0; i < kNoisyVariants; ++i) variants.push_back(noisy_variant(kNoise_px));
+  return variants;
+}
+
+/// What a variant makes of a drive that ours looks at.
+class VariantDrive {
+ public:
+  VariantDrive(const Variant& variant, std::size_t number, std::uint64_t seed)
+      : variant_(variant), seed_(seed), chance_(seed, slam::Stream::kOracle, number) {
+    score_.emplace();
+  }
+
+  void look(const FrameEvent& event, const Observations& before, const worlds::Scenario& scenario) {
+    const FoundByOurs found{event.observations, before, scenario.believed_rig, event.world.ball_radius_m()};
+    const Observations observations = variant_.detect(found, chance_);
+    const FrameMatch match =
+        match_observations({event.world, event.rig, event.world_from_robot, event.frame}, observations);
+    *score_ += score_match(match);
+    rows_ += detection_rows({seed_, event.step, event.world, event.rig}, match);
+    sightings_[event.step] =
+        sightings_of(observations, balls_observed(match), event.world.balls, scenario.identity);
+  }
+
+  void finish(const Experiment& experiment, MeasurementLog log, VariantResult& result) {
+    for (std::size_t step = 0; step < log.steps.size(); ++step) {
+      log.steps[step].measurements = sightings_[step].measurements;
+      log.steps[step].true_landmarks = sightings_[step].balls;
+    }
+    slam::FilterConfig config = filter_config(experiment);
+    variant_.believe(config);
+    SeedDrive drive{.seed = seed_, .recording = {.log = std::move(log), .vision = std::move(score_)}};
+    drive.references.batch.failed = true;
+    Timing timing;
+    drive.runs = replay_filters(drive.recording.log, {"iekf"}, config, seed_, timing);
+    result.metrics.add(score_seed(drive, {}));
+    result.table.seeds.push_back(seed_);
+    result.detections += rows_;
+  }
+
+ private:
+  const Variant& variant_;
+  std::uint64_t seed_;
+  slam::RandomStream chance_;
+  std::optional<VisionScore> score_;
+  std::map<std::size_t, Sightings> sightings_;
+  std::string rows_;
+};
+
+void drive_variants(const Experiment& experiment, std::uint64_t seed, const std::vector<Variant>& variants,
+                    std::vector<VariantResult>& results) {
+  std::vector<VariantDrive> drives;
+  for (std::size_t i = 0; i < variants.size(); ++i) drives.emplace_back(variants[i], i, seed);
+  Observations before;
+  Listeners listeners;
+  listeners.on_frame = [&](const FrameEvent& event) {
+    for (VariantDrive& drive : drives) drive.look(event, before, experiment.scenario);
+    before = event.observations;
+  };
+  const Recording recording = record(experiment, seed, listeners);
+  for (std::size_t i = 0; i < drives.size(); ++i) drives[i].finish(experiment, recording.log, results[i]);
+}
+
+/// What `compare` says of two results.
+nlohmann::json comparison_of(VariantResult& first, VariantResult& second, const std::filesystem::path& file) {
+  const auto balls_of = [&file](const VariantResult& result) {
+    write_file_atomically(file, result.detections);
+    return read_detected_balls(file);
+  };
+  const auto changes = detection_changes(pair_balls(balls_of(first), balls_of(second)));
+  for (VariantResult* result : {&first, &second}) result->table.metrics = result->metrics.metrics();
+  const ResultComparison comparison = compare_results(first.table, second.table, {}, counts_of(changes));
+  nlohmann::json said = {{"text", changes_text(changes, true)},
+                         {"compared", comparison.metrics.size()},
+                         {"regressed", nlohmann::json::array()},
+                         {"improved", nlohmann::json::array()}};
+  for (const MetricVerdict& metric : comparison.metrics) {
+    if (metric.verdict == Verdict::kRegressed) said["regressed"].push_back(metric.metric);
+    if (metric.verdict == Verdict::kImproved) said["improved"].push_back(metric.metric);
+  }
+  return said;
+}
+
+/// One repetition: each fault beside ours, and each noisy variant beside the next one.
+std::string repetition(const Experiment& experiment, std::uint64_t number,
+                       const std::filesystem::path& folder, const std::function<void(double)>& report) {
+  const std::vector<Variant> variants = all_variants();
+  std::vector<VariantResult> results(variants.size());
+  for (std::uint64_t i = 0; i < kSeedsOfRepetition; ++i) {
+    drive_variants(experiment, kSeedsOfRepetition * number + i, variants, results);
+    report(static_cast<double>(i + 1) / static_cast<double>(kSeedsOfRepetition));
+  }
+  const std::filesystem::path file = folder / fmt::format("detections_{}.csv", number);
+  const std::size_t faults = variants.size() - kNoisyVariants;
+  nlohmann::json said = nlohmann::json::array();
+  for (std::size_t i = 0; i < faults; ++i) said.push_back(comparison_of(results[0], results[i], file));
+  for (std::size_t i = faults; i + 1 < variants.size(); ++i)
+    said.push_back(comparison_of(results[i], results[i + 1], file));
+  std::filesystem::remove(file);
+  return said.dump();
+}
+
+/// What came out of one variant over all repetitions.
+struct Tally {
+  long repetitions = 0;
+  long regressed = 0;     ///< any metric
+  long improved = 0;      ///< any metric
+  long right_metric = 0;  ///< one of those that are to be
+  long right_report = 0;
+  std::map<std::string, long> by_metric;
+};
+
+void add(const Variant& variant, const nlohmann::json& said, Tally& tally) {
+  const auto regressed = said.at("regressed").get<std::vector<std::string>>();
+  ++tally.repetitions;
+  tally.regressed += regressed.empty() ? 0 : 1;
+  tally.improved += said.at("improved").empty() ? 0 : 1;
+  tally.right_metric += std::ranges::any_of(variant.metrics, [&](const std::string& metric) {
+    return std::ranges::find(regressed, metric) != regressed.end();
+  });
+  tally.right_report += said.at("text").get<std::string>().find(variant.says) != std::string::npos ? 1 : 0;
+  for (const std::string& metric : regressed) ++tally.by_metric[metric];
+}
+
+std::string most_frequent(const Tally& tally) {
+  std::string name = "-";
+  long most = 0;
+  for (const auto& [metric, count] : tally.by_metric)
+    if (count > most) {
+      most = count;
+      name = fmt::format("{} ({})", metric, count);
+    }
+  return name;
+}
+
+void print(const std::vector<Variant>& variants, const std::vector<Tally>& tallies) {
+  AlignedTable table{.header = {"variant", "comparisons", "REGRESSED", "IMPROVED", "right metric",
+                                "right report", "most often"}};
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const Tally& tally = tallies[i];
+    const auto unless = [](bool nothing, long count) { return nothing ? "-" : fmt::format("{}", count); };
+    table.rows.push_back({variants[i].name, fmt::format("{}", tally.repetitions),
+                          fmt::format("{}", tally.regressed), fmt::format("{}", tally.improved),
+                          unless(variants[i].metrics.empty(), tally.right_metric),
+                          unless(variants[i].says.empty(), tally.right_report), most_frequent(tally)});
+  }
+  fmt::print("{}", markdown(table));
+}
+
+int run_study(const std::filesystem::path& scenario, std::size_t repetitions, int jobs) {
+  const Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
+  std::vector<Variant> variants = faulty_variants();
+  const std::size_t faults = variants.size();
+  variants.push_back(noisy_variant(kNoise_px));
+  std::vector<Tally> tallies(variants.size());
+  Progress progress("verdicts", static_cast<double>(repetitions));
+  run_in_order(
+      repetitions, jobs,
+      [&](std::size_t index, const std::function<void(double)>& report) {
+        return repetition(experiment, index, std::filesystem::temp_directory_path(), report);
+      },
+      [&](std::size_t, const std::string& answer) {
+        const auto said = nlohmann::json::parse(answer);
+        for (std::size_t i = 0; i < said.size(); ++i)
+          add(variants[std::min(i, faults)], said[i], tallies[std::min(i, faults)]);
+      },
+      [&](double done) { progress.show(done); });
+  fmt::print("{} seeds a comparison, {} steps a seed\n\n", kSeedsOfRepetition,
+             experiment.scenario.path.size());
+  print(variants, tallies);
+  return 0;
+}
+
+}  // namespace
+}  // namespace stereobench::harness
+
+int main(int argc, char** argv) {
+  CLI::App program("How often compare sees planted faults, and how often it raises false alarms.");
+  std::filesystem::path scenario = STEREOBENCH_SOURCE_DIR "/assets/scenarios/ball_circle.yaml";
+  std::size_t repetitions = 100;
+  int jobs = 2;
+  program.add_option("--scenario", scenario, "with pictures")->capture_default_str();
+  program.add_option("--repetitions", repetitions, "how often each fault is planted")->capture_default_str();
+  program.add_option("--jobs", jobs, "processes at a time")->capture_default_str();
+  CLI11_PARSE(program, argc, argv);
+  return stereobench::harness::run_study(scenario, repetitions, jobs);
+}
