@@ -14,6 +14,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
 #include "harness/regression/detection_changes.h"
+#include "harness/regression/junit.h"
 #include "harness/regression/result_folder.h"
 #include "harness/regression/verdict_report.h"
 
@@ -29,6 +30,7 @@ struct CompareArguments {
   bool strict = false;
   std::filesystem::path json;
   std::filesystem::path markdown;
+  std::filesystem::path junit;
 };
 
 int exit_code_of(const ResultComparison& comparison, bool strict) {
@@ -51,13 +53,16 @@ bool is_worse(const ResultComparison& comparison, const std::string& metric) {
 }
 
 void write_files(const CompareArguments& arguments, const ResultComparison& comparison,
-                 const std::optional<DetectionChanges>& changes, const std::string& detections) {
+                 const std::optional<DetectionChanges>& changes, const std::string& scenario,
+                 const std::string& detections) {
   const ComparedNames names{arguments.first.string(), arguments.second.string()};
   if (!arguments.json.empty()) {
     nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
     json["detections"] = changes ? changes_json(*changes) : nlohmann::ordered_json(nullptr);
     write_file_atomically(arguments.json, json_text(json));
   }
+  if (!arguments.junit.empty())
+    write_file_atomically(arguments.junit, junit_xml(comparison, "compare." + scenario, detections));
   if (!arguments.markdown.empty())
     write_file_atomically(arguments.markdown,
                           verdict_page(comparison, arguments.settings, names, detections, arguments.all));
@@ -73,7 +78,7 @@ int compare(CompareArguments arguments) {
       compare_results(first.seeds, second.seeds, settings, changes ? counts_of(*changes) : PairedCounts{});
   const std::string detections =
       changes ? changes_text(*changes, is_worse(comparison, "vision.range_rms_m")) : "";
-  write_files(arguments, comparison, changes, detections);
+  write_files(arguments, comparison, changes, second.scenario, detections);
   fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,
              first.seeds.seeds.size(), arguments.second.string(), second.scenario, second.seeds.seeds.size());
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
@@ -103,6 +108,7 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
   command.add_flag("--strict", arguments.strict,
                    "exit with 3 when a metric is inconclusive, with 6 when one improved");
   command.add_option("--json", arguments.json, "write the verdicts to this file");
+  command.add_option("--junit", arguments.junit, "write the verdicts to this file as JUnit's XML, for CI");
   command.add_option("--markdown", arguments.markdown, "write the table to this file, for a pull request");
   add_quiet_option(command);
 }

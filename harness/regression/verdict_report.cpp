@@ -95,6 +95,16 @@ std::string not_judged_line(const ResultComparison& comparison) {
 
 }  // namespace
 
+std::string change_line(const MetricVerdict& metric) {
+  const std::string means =
+      fmt::format("{} in A, {} in B", format_number(metric.first_mean), format_number(metric.second_mean));
+  if (metric.equal) return means + ", equal on every seed";
+  const std::string note = note_cell(metric);
+  return fmt::format("{}; worse by {}, margin {}, p {:.2g} on {}{}", means, change_cell(metric),
+                     margin_cell(metric), metric.p_holm, counted(metric.pairs, "seed"),
+                     note.empty() ? "" : "; " + note);
+}
+
 std::string verdict_summary(const ResultComparison& comparison) {
   std::string counts;
   for (const Verdict verdict : kVerdicts)

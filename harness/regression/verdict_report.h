@@ -15,6 +15,9 @@ struct ComparedNames {
   std::string second = "B";
 };
 
+/// One line of a metric: both means, by how much it is worse, and what that is held against.
+std::string change_line(const MetricVerdict& metric);
+
 /// One line: how many metrics have which verdict, among how many comparisons.
 std::string verdict_summary(const ResultComparison& comparison);
 

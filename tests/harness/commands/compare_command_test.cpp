@@ -1,4 +1,7 @@
 /// `compare`: what it says of two results, and its exit codes.
+#include <cstdlib>
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -74,6 +77,24 @@ TEST_F(CompareCommand, WritesItsVerdictsForProgramsAndForPullRequests) {
   EXPECT_EQ(json["metrics"][0]["verdict"], "REGRESSED");
   EXPECT_NEAR(json["metrics"][0]["worse_by"].get<double>(), 0.29, 1e-9);
   EXPECT_THAT(bytes_of(path("out.md")), HasSubstr("| filters.ekf.ate_rms_m | REGRESSED"));
+}
+
+// Read by another program's parser. Mutations: an inconclusive metric that fails; a name without its escapes.
+TEST_F(CompareCommand, WritesJunitsXml) {
+  const std::string more = R"(, "filters.<&>.ate_rms_m": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10])";
+  const std::string other = R"(, "filters.<&>.ate_rms_m": [1, 2, 3, 4, 5, 6, 7, 8, 9, 12])";
+  compare(result(1.0, more), result(1.2, other), {"--junit", path("out.xml")});
+  std::ofstream(path("read.py")) << R"(
+import sys, xml.etree.ElementTree as tree
+suite = tree.parse(sys.argv[1]).getroot().find("testsuite")
+assert suite.attrib == dict(name="compare.office", tests="2", failures="1", errors="0", skipped="1"), suite.attrib
+failed, skipped = suite.findall("testcase")
+assert failed.get("name") == "filters.ekf.ate_rms_m" and failed.find("failure").get("type") == "REGRESSED"
+assert "worse by +20" in failed.find("failure").text, failed.find("failure").text
+assert skipped.get("name") == "filters.<&>.ate_rms_m" and skipped.find("skipped") is not None
+)";
+  EXPECT_EQ(std::system(("/usr/bin/python3 '" + path("read.py") + "' '" + path("out.xml") + "'").c_str()), 0)
+      << bytes_of(path("out.xml"));
 }
 
 TEST_F(CompareCommand, SaysTheSameEachTime) {
