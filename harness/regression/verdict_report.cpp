@@ -70,7 +70,7 @@ std::string note_cell(const MetricVerdict& metric) {
     return fmt::format("no value on {}", counted(metric.lost, "seed"));
   if (metric.test == ChangeTest::kExact) return "no chance in it";
   if (metric.verdict != Verdict::kInconclusive) return "";
-  return metric.more_seeds ? fmt::format("about {} more", counted(*metric.more_seeds, "seed")) : "";
+  return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
 }
 
 AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
