@@ -1,6 +1,7 @@
 #include "harness/io/gzip.h"
 
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include <zlib.h>

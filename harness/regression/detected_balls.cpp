@@ -1,5 +1,6 @@
 #include "harness/regression/detected_balls.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>

@@ -1,5 +1,6 @@
 #include "harness/regression/verdict_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

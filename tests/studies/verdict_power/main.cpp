@@ -1,7 +1,9 @@
 /// How often `compare` sees planted faults of a detector, and how often it raises false alarms.
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
