@@ -121,6 +121,15 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+/// A whole number that fits its type.
+template <class Integer>
+std::optional<Integer> parse_whole(std::string_view text) {
+  Integer value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
 bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -225,22 +234,16 @@ double number_in(const NumberTable& table, const TableRow& row, std::size_t colu
 }
 
 int whole_number_in(const NumberTable& table, const TableRow& row, std::size_t column, int smallest) {
-  const std::string& text = row.cells[column];
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < smallest) {
+  const auto value = parse_whole<int>(row.cells[column]);
+  if (!value || *value < smallest)
     refuse(table, row, column, fmt::format("expected a whole number of at least {}", smallest));
-  }
-  return value;
+  return *value;
 }
 
 std::uint64_t seed_in(const NumberTable& table, const TableRow& row, std::size_t column) {
-  const std::string& text = row.cells[column];
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size())
-    refuse(table, row, column, "expected a whole number that is not negative");
-  return seed;
+  const auto seed = parse_whole<std::uint64_t>(row.cells[column]);
+  if (!seed) refuse(table, row, column, "expected a whole number that is not negative");
+  return *seed;
 }
 
 std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::size_t column) {
@@ -250,12 +253,9 @@ std::int64_t stamp_ns_in(const NumberTable& table, const TableRow& row, std::siz
 }
 
 std::int64_t nanoseconds_in(const NumberTable& table, const TableRow& row, std::size_t column) {
-  const std::string& text = row.cells[column];
-  std::int64_t stamp_ns = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp_ns);
-  if (error != std::errc() || end != text.data() + text.size())
-    refuse(table, row, column, "expected a time as a whole number of nanoseconds");
-  return stamp_ns;
+  const auto stamp_ns = parse_whole<std::int64_t>(row.cells[column]);
+  if (!stamp_ns) refuse(table, row, column, "expected a time as a whole number of nanoseconds");
+  return *stamp_ns;
 }
 
 void refuse(const NumberTable& table, const TableRow& row, std::size_t column, std::string_view expectation) {

@@ -9,7 +9,6 @@
 #include "harness/io/number_table.h"
 #include "harness/vision_scoring/detection_outcome.h"
 #include "harness/vision_scoring/detection_table.h"
-#include "slam/models/motion.h"
 
 namespace stereobench::harness {
 namespace {
@@ -56,7 +55,6 @@ BallFinding finding_of(const DetectionLine& line, const BallTruth& truth) {
   return {.is_found = true,
           .wrong_colour = {},
           .range_error_m = line.number("range_m") - truth.range_m,
-          .bearing_error_rad = slam::wrap_angle(line.number("bearing_rad") - truth.bearing_rad),
           .left_error_px = line.pixel("left_x_px", "left_y_px") - truth.left_px,
           .right_error_px = line.pixel("right_x_px", "right_y_px") - truth.right_px};
 }

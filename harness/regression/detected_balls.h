@@ -38,7 +38,6 @@ struct BallFinding {
   bool is_found = false;            ///< with its colour, or none
   std::optional<int> wrong_colour;  ///< that it was taken for, besides or in place of being found
   double range_error_m = 0.0;       ///< of what was found, measured minus true, and so below
-  double bearing_error_rad = 0.0;
   Eigen::Vector2d left_error_px = Eigen::Vector2d::Zero();  ///< NaN without pixels
   Eigen::Vector2d right_error_px = Eigen::Vector2d::Zero();
 };

@@ -221,7 +221,7 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   std::string text;
   if (changes.unpaired > 0)
     text += fmt::format(
-        "{} balls that had to be found are in one result alone: it saw another world, other "
+        "balls that had to be found, and are in one result alone: {}; it saw another world, other "
         "frames or another path\n",
         changes.unpaired);
   if (changes.found.worse + changes.found.better > 0)

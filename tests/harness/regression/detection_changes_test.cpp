@@ -178,8 +178,7 @@ TEST(PairedBalls, AreInTheSamePlace) {
   EXPECT_THAT(moved.balls, IsEmpty());
   EXPECT_EQ(moved.unpaired, 1);
   EXPECT_THAT(counts_of(detection_changes(moved)), IsEmpty());
-  EXPECT_THAT(changes_text(detection_changes(moved), true),
-              HasSubstr("1 balls that had to be found are in one"));
+  EXPECT_THAT(changes_text(detection_changes(moved), true), HasSubstr("are in one result alone: 1;"));
 }
 
 // One that did not have to be found is one that the other run did not find. Seeds of one run are left out.
