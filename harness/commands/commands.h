@@ -15,6 +15,7 @@ enum ExitCode : int {
   kBadInput = 2,      ///< usage, files, or the machine
   kInconclusive = 3,  ///< with --strict: more seeds are needed
   kRunCrashed = 4,    ///< a worker process died, or a detector failed
+  kNoBaseline = 5,    ///< a suite's baseline is missing, or was made of other inputs or pixels
   kImproved = 6,      ///< with --strict: a metric is better than before
 };
 
@@ -26,6 +27,8 @@ void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
+void add_test_command(CLI::App& program, Action& action);
+void add_bless_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_world_command(CLI::App& program, Action& action);
 void add_detect_command(CLI::App& program, Action& action);

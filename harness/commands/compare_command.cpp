@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,7 +12,7 @@
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
-#include "harness/regression/detection_changes.h"
+#include "harness/regression/judgement.h"
 #include "harness/regression/junit.h"
 #include "harness/regression/result_folder.h"
 #include "harness/regression/verdict_report.h"
@@ -39,33 +38,27 @@ int exit_code_of(const ResultComparison& comparison, bool strict) {
   return strict && comparison.has(Verdict::kImproved) ? kImproved : kPassed;
 }
 
-/// Where detections changed; empty where one of the results has none.
-std::optional<DetectionChanges> changes_between(const StoredResult& first, const StoredResult& second) {
+/// The balls of both; empty where one of the results has no detections.
+std::optional<PairedBalls> balls_of(const StoredResult& first, const StoredResult& second) {
   if (first.detections.empty() || second.detections.empty()) return {};
-  return detection_changes(
-      pair_balls(read_detected_balls(first.detections), read_detected_balls(second.detections)));
+  return pair_balls(read_detected_balls(first.detections), read_detected_balls(second.detections));
 }
 
-bool is_worse(const ResultComparison& comparison, const std::string& metric) {
-  return std::ranges::any_of(comparison.metrics, [&](const MetricVerdict& judged) {
-    return judged.metric == metric && judged.verdict == Verdict::kRegressed;
-  });
-}
-
-void write_files(const CompareArguments& arguments, const ResultComparison& comparison,
-                 const std::optional<DetectionChanges>& changes, const std::string& scenario,
-                 const std::string& detections) {
+void write_files(const CompareArguments& arguments, const Judgement& judgement, const std::string& scenario) {
   const ComparedNames names{arguments.first.string(), arguments.second.string()};
+  const ResultComparison& comparison = judgement.comparison;
   if (!arguments.json.empty()) {
     nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
-    json["detections"] = changes ? changes_json(*changes) : nlohmann::ordered_json(nullptr);
+    json["detections"] =
+        judgement.changes ? changes_json(*judgement.changes) : nlohmann::ordered_json(nullptr);
     write_file_atomically(arguments.json, json_text(json));
   }
   if (!arguments.junit.empty())
-    write_file_atomically(arguments.junit, junit_xml(comparison, "compare." + scenario, detections));
+    write_file_atomically(
+        arguments.junit, junit_xml({{"compare." + scenario, junit_cases(comparison), judgement.detections}}));
   if (!arguments.markdown.empty())
-    write_file_atomically(arguments.markdown,
-                          verdict_page(comparison, arguments.settings, names, detections, arguments.all));
+    write_file_atomically(arguments.markdown, verdict_page(comparison, arguments.settings, names,
+                                                           judgement.detections, arguments.all));
 }
 
 int compare(CompareArguments arguments) {
@@ -73,19 +66,17 @@ int compare(CompareArguments arguments) {
   for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
   const StoredResult first = read_result(arguments.first);
   const StoredResult second = read_result(arguments.second);
-  const std::optional<DetectionChanges> changes = changes_between(first, second);
-  const ResultComparison comparison =
-      compare_results(first.seeds, second.seeds, settings, changes ? counts_of(*changes) : PairedCounts{});
-  const std::string detections =
-      changes ? changes_text(*changes, is_worse(comparison, "vision.range_rms_m")) : "";
-  write_files(arguments, comparison, changes, second.scenario, detections);
+  const Judgement judgement = judge(first.seeds, second.seeds, settings, balls_of(first, second));
+  const ResultComparison& comparison = judgement.comparison;
+  write_files(arguments, judgement, second.scenario);
   fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,
              first.seeds.seeds.size(), arguments.second.string(), second.scenario, second.seeds.seeds.size());
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
   say(few_seeds_warning(comparison, settings));
   const int outcome = exit_code_of(comparison, arguments.strict);
-  say_gates(verdict_table(comparison, settings, arguments.all) + detections + verdict_summary(comparison),
-            outcome != kPassed);
+  say_gates(
+      verdict_table(comparison, settings, arguments.all) + judgement.detections + verdict_summary(comparison),
+      outcome != kPassed);
   return outcome;
 }
 
@@ -94,7 +85,7 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
       ->required();
   command.add_option("b", arguments.second, "the result that may be worse")->required();
   command.add_option("--only", arguments.settings.only,
-                     "judge only metrics whose names fit, e.g. 'vision.*' (default: all)");
+                     "judge only metrics whose names fit, e.g. 'vision.*'; may be repeated (default: all)");
   command
       .add_option("--margin", arguments.margins,
                   "how much a metric may change before it matters: NAME=5% of its mean in A, or NAME=0.01 in "

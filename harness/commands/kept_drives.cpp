@@ -97,13 +97,30 @@ KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kFile) {
 
 void KeptDrives::complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
                           const OnSeed& on_seed) {
+  say_what_is_kept(tasks, what);
+  drive_into(store_, tasks, jobs, what, on_seed);
+}
+
+std::map<std::string, std::string> KeptDrives::complete_groups(
+    const std::vector<std::vector<DriveTask>>& groups, int jobs, const std::string& what) {
+  std::vector<DriveTask> tasks;
+  for (const std::vector<DriveTask>& group : groups) tasks.insert(tasks.end(), group.begin(), group.end());
+  say_what_is_kept(tasks, what);
+  return drive_groups(store_, groups, jobs, what);
+}
+
+void KeptDrives::hand_on(const std::vector<DriveTask>& tasks, const OnSeed& on_seed) const {
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    on_seed(i, seed_result_from_bytes(store_.read(tasks[i].key)));
+}
+
+void KeptDrives::say_what_is_kept(const std::vector<DriveTask>& tasks, const std::string& what) const {
   const auto kept =
       std::ranges::count_if(tasks, [&](const DriveTask& task) { return store_.holds(task.key); });
   if (kept > 0)
     note(fmt::format("{}: {} of {} drives are taken over from a run that was interrupted", what, kept,
                      tasks.size()));
   say_that_work_is_kept();
-  drive_into(store_, tasks, jobs, what, on_seed);
 }
 
 }  // namespace stereobench::harness

@@ -44,10 +44,19 @@ class KeptDrives {
   /// @param on_seed told of all results in the order of the tasks (drive_into)
   void complete(const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
                 const OnSeed& on_seed);
+  /// Drives what is missing of tasks that share pictures, and goes on where one fails.
+  /// @return why there is no result, by the key of the task
+  std::map<std::string, std::string> complete_groups(const std::vector<std::vector<DriveTask>>& groups,
+                                                     int jobs, const std::string& what);
+  /// Hands on results that are there.
+  /// @param on_seed told of all in the order of the tasks
+  void hand_on(const std::vector<DriveTask>& tasks, const OnSeed& on_seed) const;
   /// The results are written: the drives are no longer needed.
   void discard() { store_.remove(); }
 
  private:
+  void say_what_is_kept(const std::vector<DriveTask>& tasks, const std::string& what) const;
+
   AnswerStore store_;
 };
 

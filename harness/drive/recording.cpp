@@ -1,6 +1,9 @@
 #include "harness/drive/recording.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,67 +25,98 @@ namespace {
 constexpr const char* kOurs = "stereobench";
 constexpr const char* kCallable = "callable";
 
-using Sense = std::function<Sightings(std::size_t index, const slam::Pose& pose)>;
+/// A pair as it was taken, with the truth behind it.
+struct TakenPair {
+  ExposedFrame exposed;
+  vision::StereoPair pair;
+  double late_s = 0.0;
+};
 
-Sense oracle_sense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed) {
-  return [&scenario, &world, seed](std::size_t index, const slam::Pose& pose) {
-    slam::RandomStream noise(seed, slam::Stream::kOracle, index);
-    slam::RandomStream chance(seed, slam::Stream::kClutter, index);
-    const Sightings all = worlds::sense(world, pose, scenario.oracle, scenario.identity, noise);
-    return worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
-  };
-}
-
-/// Renders and exposes each step's pair, shows it to the detector, and scores what that finds; lives as long
-/// as the drive.
-class StereoSense {
+/// Renders and exposes pairs; lives as long as the drive.
+class StereoCamera {
  public:
-  StereoSense(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
-              renderer::Backend backend, Detector detector, const renderer::FormReader& read)
+  StereoCamera(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
+               renderer::Backend backend, const renderer::FormReader& read)
       : scenario_(scenario),
-        world_(world),
         seed_(seed),
-        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera), read),
-        detector_(std::move(detector)) {}
+        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera), read) {}
 
-  Sightings sense(std::size_t index, const slam::Pose& pose,
-                  const std::function<void(const FrameEvent&)>& on_frame) {
-    Stopwatch watch(timing_);
-    const worlds::Shutter& shutter = scenario_.shutter;
-    const std::optional<double> late_s = lateness_s(shutter, seed_, index);
+  /// @return empty where the frame is lost
+  std::optional<TakenPair> take(std::size_t index, Timing& timing) {
+    Stopwatch watch(timing);
+    const std::optional<double> late_s = lateness_s(scenario_.shutter, seed_, index);
     if (!late_s) return {};
-    const ExposedFrame exposed = watch.time(
-        "render", [&] { return open_shutter(renderer_, scenario_.path, index, shutter, *late_s); });
-    blur_.add(exposed.blur_step_px);
-    const vision::StereoPair pair =
-        watch.time("expose", [&] { return renderer::expose(exposed.frame, scenario_.camera, seed_, index); });
-    const std::int64_t stamp_ns = scenario_.path[index].stamp_ns;
-    const auto observations = watch.time("observe", [&] {
-      return detector_({index, stamp_ns, pair, scenario_.believed_rig});
-    });
-    const FrameMatch match = match_observations({world_, scenario_.rig, pose, exposed.frame}, observations);
-    score_ += score_match(match);
-    const worlds::World& meant = scenario_.world;
-    score_.rig +=
-        check_rig(scenario_.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
-    on_frame({index, stamp_ns, pose, exposed.frame, pair, observations, match, world_, scenario_.rig, *late_s,
-              &renderer_});
-    return sightings_of(observations, balls_observed(match), world_.balls, scenario_.identity);
+    TakenPair taken{.late_s = *late_s};
+    taken.exposed = watch.time(
+        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.shutter, *late_s); });
+    taken.pair = watch.time(
+        "expose", [&] { return renderer::expose(taken.exposed.frame, scenario_.camera, seed_, index); });
+    return taken;
   }
 
-  const VisionScore& score() const { return score_; }
-  const CoarseBlur& blur() const { return blur_; }
-  const Timing& timing() const { return timing_; }
+  renderer::Renderer& renderer() { return renderer_; }
 
  private:
   const worlds::Scenario& scenario_;
-  const worlds::World& world_;
   std::uint64_t seed_;
   renderer::Renderer renderer_;
+};
+
+/// Shows an onlooker's detector what was taken, and scores what that finds; lives as long as the drive.
+class StereoOnlooker {
+ public:
+  StereoOnlooker(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed)
+      : onlooker_(onlooker), world_(world), name_(kCallable) {
+    const Experiment& experiment = *onlooker.experiment;
+    const DetectorSetup setup = detector_setup(experiment.scenario);
+    detector_ = onlooker.detector;
+    if (detector_) return;
+    name_ = experiment.detector.command.empty() ? kOurs : experiment.detector.command;
+    if (const DetectorKind* const linked = find_detector(name_)) {
+      detector_ = linked->make(setup);
+      return;
+    }
+    program_.emplace(experiment.detector, setup, fmt::format("seed {}", seed));
+    detector_ = std::ref(*program_);
+  }
+
+  bool wants(std::size_t index) const { return onlooker_.listeners.is_wanted(index); }
+
+  Sightings see(const worlds::PathStep& step, std::size_t index, const TakenPair& taken,
+                renderer::Renderer& renderer) {
+    Stopwatch watch(look_.recording.timing);
+    const worlds::Scenario& scenario = onlooker_.experiment->scenario;
+    look_.recording.blur.add(taken.exposed.blur_step_px);
+    const auto observations = watch.time("observe", [&] {
+      return detector_({index, step.stamp_ns, taken.pair, scenario.believed_rig});
+    });
+    const FrameMatch match =
+        match_observations({world_, scenario.rig, step.pose, taken.exposed.frame}, observations);
+    score_ += score_match(match);
+    const worlds::World& meant = scenario.world;
+    score_.rig +=
+        check_rig(scenario.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
+    onlooker_.listeners.on_frame({index, step.stamp_ns, step.pose, taken.exposed.frame, taken.pair,
+                                  observations, match, world_, scenario.rig, taken.late_s, &renderer});
+    return sightings_of(observations, balls_observed(match), world_.balls, scenario.identity);
+  }
+
+  void finish() {
+    if (program_) program_->finish();
+    look_.recording.detector = name_;
+    look_.recording.vision = score_;
+  }
+
+  Look& look() { return look_; }
+
+ private:
+  const Onlooker& onlooker_;
+  const worlds::World& world_;
+  std::string name_;
+  std::optional<DetectorProcess> program_;
   Detector detector_;
   VisionScore score_;
-  CoarseBlur blur_;
-  Timing timing_;
+  Look look_;
 };
 
 std::vector<LandmarkTruth> landmarks_of(const worlds::World& world) {
@@ -99,55 +133,131 @@ std::vector<slam::Control> measured_odometry(const std::vector<slam::Control>& c
   return measured;
 }
 
-void drive(const worlds::Scenario& scenario, std::uint64_t seed, const Sense& sense, MeasurementLog& log,
-           const std::function<void(double)>& report) {
+/// A log with all that is not sensed.
+MeasurementLog log_without_sightings(const worlds::Scenario& scenario, const worlds::World& world,
+                                     std::uint64_t seed) {
+  MeasurementLog log;
+  log.landmarks = landmarks_of(world);
+  if (!scenario.path.empty()) log.start = scenario.path.front().pose;
   slam::RandomStream odometry_stream(seed, slam::Stream::kOdometry);
-  for (std::size_t index = 0; index < scenario.path.size(); ++index) {
-    const worlds::PathStep& step = scenario.path[index];
-    Sightings seen = sense(index, step.pose);
+  for (const worlds::PathStep& step : scenario.path)
     log.steps.push_back(
         {.stamp_ns = step.stamp_ns,
          .odometry = measured_odometry(step.controls, scenario.odometry_noise, odometry_stream),
-         .measurements = std::move(seen.measurements),
-         .truth = step.pose,
-         .true_landmarks = std::move(seen.balls)});
-    report(static_cast<double>(index + 1) / static_cast<double>(scenario.path.size()));
+         .truth = step.pose});
+  return log;
+}
+
+void put(Sightings seen, LogStep& step) {
+  step.measurements = std::move(seen.measurements);
+  step.true_landmarks = std::move(seen.balls);
+}
+
+/// What is sensed without pictures.
+Look sense_drive(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed) {
+  const worlds::Scenario& scenario = onlooker.experiment->scenario;
+  Look look;
+  look.recording.log = log_without_sightings(scenario, world, seed);
+  std::vector<LogStep>& steps = look.recording.log.steps;
+  for (std::size_t index = 0; index < steps.size(); ++index) {
+    slam::RandomStream noise(seed, slam::Stream::kOracle, index);
+    slam::RandomStream chance(seed, slam::Stream::kClutter, index);
+    const Sightings all =
+        worlds::sense(world, scenario.path[index].pose, scenario.oracle, scenario.identity, noise);
+    put(worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance), steps[index]);
+    onlooker.listeners.on_progress(static_cast<double>(index + 1) / static_cast<double>(steps.size()));
+  }
+  return look;
+}
+
+/// Lets one that is not at fault do something; a fault of its program is kept.
+void attempt(StereoOnlooker& onlooker, const std::function<void()>& action) {
+  if (onlooker.look().fault) return;
+  try {
+    action();
+  } catch (const DetectorFault&) {
+    onlooker.look().fault = std::current_exception();
   }
 }
 
+/// The pictures of a drive, each taken once and shown to each onlooker that wants it.
+class SharedDrive {
+ public:
+  SharedDrive(const std::vector<Onlooker>& onlookers, const worlds::World& world, std::uint64_t seed,
+              renderer::Backend backend, const renderer::FormReader& read)
+      : scenario_(onlookers.front().experiment->scenario), camera_(scenario_, world, seed, backend, read) {
+    for (const Onlooker& onlooker : onlookers) {
+      onlookers_.push_back(std::make_unique<StereoOnlooker>(onlooker, world, seed));
+      onlookers_.back()->look().recording.log =
+          log_without_sightings(onlooker.experiment->scenario, world, seed);
+    }
+  }
+
+  void show(std::size_t index) {
+    const auto wants_it = [&](const auto& onlooker) {
+      return !onlooker->look().fault && onlooker->wants(index);
+    };
+    const auto wanting = std::ranges::count_if(onlookers_, wants_it);
+    if (wanting == 0) return;
+    Timing taking;
+    const std::optional<TakenPair> taken = camera_.take(index, taking);
+    for (const auto& onlooker : onlookers_) {
+      if (!wants_it(onlooker)) continue;
+      Recording& recording = onlooker->look().recording;
+      for (const auto& [stage, seconds] : taking)
+        recording.timing[stage] += seconds / static_cast<double>(wanting);
+      if (taken)
+        attempt(*onlooker, [&] {
+          put(onlooker->see(scenario_.path[index], index, *taken, camera_.renderer()),
+              recording.log.steps[index]);
+        });
+    }
+  }
+
+  bool is_over() const {
+    return std::ranges::all_of(onlookers_, [](const auto& one) { return one->look().fault != nullptr; });
+  }
+
+  std::vector<Look> finish() {
+    std::vector<Look> looks;
+    for (const auto& onlooker : onlookers_) {
+      attempt(*onlooker, [&] { onlooker->finish(); });
+      looks.push_back(std::move(onlooker->look()));
+    }
+    return looks;
+  }
+
+ private:
+  const worlds::Scenario& scenario_;
+  StereoCamera camera_;
+  std::vector<std::unique_ptr<StereoOnlooker>> onlookers_;
+};
+
 }  // namespace
+
+std::vector<Look> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+                                  renderer::Backend backend, const renderer::FormReader& read) {
+  const worlds::Scenario& scenario = onlookers.front().experiment->scenario;
+  const worlds::World world = worlds::world_for_seed(scenario, seed);
+  std::vector<Look> looks;
+  if (scenario.sensor == worlds::SensorKind::kOracle) {
+    for (const Onlooker& onlooker : onlookers) looks.push_back(sense_drive(onlooker, world, seed));
+    return looks;
+  }
+  SharedDrive drive(onlookers, world, seed, backend, read);
+  for (std::size_t index = 0; index < scenario.path.size() && !drive.is_over(); ++index) {
+    drive.show(index);
+    onlookers.front().listeners.on_progress(static_cast<double>(index + 1) /
+                                            static_cast<double>(scenario.path.size()));
+  }
+  return drive.finish();
+}
 
 Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector, const renderer::FormReader& read) {
-  const worlds::Scenario& scenario = experiment.scenario;
-  Recording recording;
-  const worlds::World world = worlds::world_for_seed(scenario, seed);
-  recording.log.landmarks = landmarks_of(world);
-  if (!scenario.path.empty()) recording.log.start = scenario.path.front().pose;
-  if (scenario.sensor == worlds::SensorKind::kOracle) {
-    drive(scenario, seed, oracle_sense(scenario, world, seed), recording.log, listeners.on_progress);
-    return recording;
-  }
-  const DetectorSetup setup = detector_setup(scenario);
-  const std::string& command = experiment.detector.command;
-  const DetectorKind* const linked = find_detector(command.empty() ? kOurs : command);
-  std::optional<DetectorProcess> program;
-  if (!detector && !linked) program.emplace(experiment.detector, setup, fmt::format("seed {}", seed));
-  StereoSense stereo(scenario, world, seed, backend,
-                     program    ? Detector(std::ref(*program))
-                     : detector ? detector
-                                : linked->make(setup),
-                     read);
-  const auto sense = [&](std::size_t index, const slam::Pose& pose) {
-    return listeners.is_wanted(index) ? stereo.sense(index, pose, listeners.on_frame) : Sightings();
-  };
-  drive(scenario, seed, sense, recording.log, listeners.on_progress);
-  if (program) program->finish();
-  recording.detector = detector ? kCallable : command.empty() ? kOurs : command;
-  recording.vision = stereo.score();
-  recording.blur = stereo.blur();
-  recording.timing = stereo.timing();
-  return recording;
+  Look look = std::move(record_together({{&experiment, listeners, detector}}, seed, backend, read).front());
+  if (look.fault) std::rethrow_exception(look.fault);
+  return std::move(look.recording);
 }
 
 }  // namespace stereobench::harness

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -55,16 +56,38 @@ struct Recording {
   Timing timing;
 };
 
-/// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
-/// sensed by the oracle), and the odometry is measured with its noise.
+/// Somebody who looks at the pictures of a drive.
+struct Onlooker {
+  const Experiment* experiment = nullptr;
+  Listeners listeners = {};
+  Detector detector = {};  ///< empty: the program that the experiment names, or the vision stage
+};
+
+/// What an onlooker has of a drive.
+struct Look {
+  Recording recording;
+  std::exception_ptr fault;  ///< of the onlooker's program, a DetectorFault: there is no recording
+};
+
+/// Drives through a scenario once for several onlookers: each pair is rendered and exposed once, and shown to
+/// each.
+/// @param onlookers at least one; their scenarios have the same world, path, cameras, exposure and shutter.
+/// What each sees does not depend on the others. Progress is told to the first
 /// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
-/// @param listeners told of each look (sensors with pixels only) and of the progress
 /// @param backend what renders, for a sensor with pixels
 /// @param read meshes
+/// @return one look an onlooker: the log with truth, and how vision scored
+/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
+std::vector<Look> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+                                  renderer::Backend backend = renderer::Backend::kOsmesa,
+                                  const renderer::FormReader& read = renderer::read_form);
+
+/// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
+/// sensed by the oracle), and the odometry is measured with its noise.
+/// @param listeners told of each look (sensors with pixels only) and of the progress
 /// @param detector who looks at the pairs; empty: the program that the experiment names, or the vision stage
 /// @return the log with truth, and how vision scored
-/// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read; DetectorFault
-///   when the program does not do what it should
+/// @throws std::runtime_error as record_together; DetectorFault when the program does not do what it should
 Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {},
                  const renderer::FormReader& read = renderer::read_form);

@@ -4,6 +4,7 @@
 
 #include "harness/experiment/experiment.h"
 #include "worlds/scenario/write_scenario.h"
+#include "worlds/yaml/parse_yaml.h"
 
 namespace stereobench::harness {
 namespace {
@@ -26,6 +27,12 @@ void gather_files(const YAML::Node& node, std::set<std::string>& files) {
 
 std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   return text_of(worlds::load_yaml(file, overrides, experiment_keys()).root);
+}
+
+std::string without_keys(const std::string& scenario, const std::set<std::string>& keys) {
+  YAML::Node root = worlds::parse_yaml(scenario).front();
+  for (const std::string& key : keys) root.remove(key);
+  return text_of(root);
 }
 
 std::set<std::string> files_named_in(const std::filesystem::path& file,

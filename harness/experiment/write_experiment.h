@@ -29,6 +29,9 @@ std::string written_out(const std::filesystem::path& file, const std::vector<std
 /// @throws std::runtime_error as load_yaml
 std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
+/// The same lines without some of the keys at their top.
+std::string without_keys(const std::string& scenario, const std::set<std::string>& keys);
+
 /// The files that a scenario names, each once, as they are named: meshes, textures, paths, noise. Those that
 /// lie within a mesh file are not among them.
 /// @throws std::runtime_error as load_yaml

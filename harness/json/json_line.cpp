@@ -60,6 +60,14 @@ std::vector<JsonValue> JsonValue::list(std::size_t least, std::size_t most) cons
   return entries;
 }
 
+std::vector<std::pair<std::string, JsonValue>> JsonValue::entries() const {
+  if (!value_->is_object()) refuse("an object");
+  std::vector<std::pair<std::string, JsonValue>> entries;
+  for (const auto& [key, entry] : value_->items())
+    entries.emplace_back(key, JsonValue(entry, (place_.empty() ? "" : place_ + ".") + excerpt(key)));
+  return entries;
+}
+
 void JsonValue::allow(std::initializer_list<std::string_view> keys) const {
   if (!value_->is_object()) refuse("an object");
   for (const auto& [key, entry] : value_->items())

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -42,6 +43,8 @@ class JsonValue {
   bool is_null() const { return value_->is_null(); }
   /// The entries of a list that has between `least` and `most` of them.
   std::vector<JsonValue> list(std::size_t least, std::size_t most) const;
+  /// The keys of an object and their values.
+  std::vector<std::pair<std::string, JsonValue>> entries() const;
   /// Checks that it is an object whose keys are all known.
   void allow(std::initializer_list<std::string_view> keys) const;
   /// The value of a key; empty where there is none.

@@ -76,7 +76,8 @@ class SharedCounter {
   void* memory_;
 };
 
-[[noreturn]] void work(SharedCounter& counter, std::size_t tasks, const Task& task, int file) {
+/// @param goes_on after a task that failed
+[[noreturn]] void work(SharedCounter& counter, std::size_t tasks, const Task& task, bool goes_on, int file) {
   for (std::size_t index = counter.next(); index < tasks; index = counter.next()) {
     send(file, {MessageKind::kStarted, index, 0.0, 0}, {});
     const auto report = [&](double fraction) {
@@ -84,7 +85,7 @@ class SharedCounter {
     };
     const auto give_up = [&](MessageKind kind, const std::string& message) {
       send(file, {kind, index, 1.0, message.size()}, message);
-      ::_exit(EXIT_SUCCESS);
+      if (!goes_on) ::_exit(EXIT_SUCCESS);
     };
     try {
       const std::string answer = task(index, report);
@@ -101,8 +102,14 @@ class SharedCounter {
 /// The parent's side: starts workers, gathers answers, and leaves no process behind.
 class Pool {
  public:
-  Pool(std::size_t tasks, const OnAnswer& on_answer, const OnProgress& on_progress)
-      : fractions_(tasks, 0.0), on_answer_(on_answer), on_progress_(on_progress) {}
+  /// @param on_fault empty: the first fault ends all
+  Pool(std::size_t tasks, const Task& task, const OnAnswer& on_answer, const OnFault& on_fault,
+       const OnProgress& on_progress)
+      : task_(task),
+        fractions_(tasks, 0.0),
+        on_answer_(on_answer),
+        on_fault_(on_fault),
+        on_progress_(on_progress) {}
   ~Pool() {
     for (Worker& worker : workers_) {
       if (worker.pid > 0) ::kill(worker.pid, SIGKILL);
@@ -112,7 +119,7 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  void start_worker(const Task& task) {
+  void start_worker() {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)  // a program that a worker starts shall not hold it open
       throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
@@ -122,7 +129,7 @@ class Pool {
     if (pid == 0) {
       follow_parent(parent);
       ::close(ends[0]);
-      work(counter_, fractions_.size(), task, ends[1]);
+      work(counter_, fractions_.size(), task_, static_cast<bool>(on_fault_), ends[1]);
     }
     ::close(ends[1]);
     if (pid < 0) {
@@ -148,16 +155,17 @@ class Pool {
       return false;
     if (::poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR)
       throw std::runtime_error(fmt::format("cannot wait for workers: {}", std::strerror(errno)));
-    for (std::size_t i = 0; i < workers_.size(); ++i)
-      if (polled[i].revents != 0) receive(workers_[i]);
+    for (std::size_t i = 0; i < polled.size(); ++i)
+      if (polled[i].revents != 0) receive(i);
     return true;
   }
 
-  void receive(Worker& worker) {
+  void receive(std::size_t place) {
+    Worker& worker = workers_[place];
     char buffer[65536];
     const ssize_t count = ::read(worker.pipe, buffer, sizeof(buffer));
     if (count < 0 && errno == EINTR) return;
-    if (count <= 0) return finish(worker);
+    if (count <= 0) return finish(place);
     worker.received.append(buffer, static_cast<std::size_t>(count));
     while (take_message(worker)) {
     }
@@ -178,22 +186,29 @@ class Pool {
     worker.current = header.index;
     fractions_[header.index] = header.fraction;
     if (header.kind == MessageKind::kAnswer) on_answer_(header.index, std::move(payload));
-    if (header.kind == MessageKind::kError) error_ = std::move(payload);
-    if (header.kind == MessageKind::kCrash) crash_ = std::move(payload);
+    const bool is_fault = header.kind == MessageKind::kError || header.kind == MessageKind::kCrash;
+    if (is_fault && on_fault_)
+      on_fault_(header.index, std::move(payload));
+    else if (is_fault)
+      (header.kind == MessageKind::kCrash ? crash_ : error_) = std::move(payload);
     if (header.kind != MessageKind::kStarted && header.kind != MessageKind::kProgress) worker.current.reset();
     double done = 0.0;
     for (const double fraction : fractions_) done += fraction;
     on_progress_(done);
   }
 
-  void finish(Worker& worker) {
-    const std::optional<std::size_t> unfinished = worker.current;
-    const int status = retire(worker);
+  void finish(std::size_t place) {
+    const std::optional<std::size_t> unfinished = workers_[place].current;
+    const int status = retire(workers_[place]);
     if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
     const std::string cause = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                                   : fmt::format("exit status {}", WEXITSTATUS(status));
-    throw WorkerCrash(fmt::format("a worker process ended with {} {}", cause,
-                                  unfinished ? fmt::format("in task {}", *unfinished) : "between two tasks"));
+    if (!on_fault_ || !unfinished)
+      throw WorkerCrash(
+          fmt::format("a worker process ended with {} {}", cause,
+                      unfinished ? fmt::format("in task {}", *unfinished) : "between two tasks"));
+    on_fault_(*unfinished, fmt::format("a worker process ended with {}", cause));
+    start_worker();  // it ends at once where no task is left
   }
 
   static int retire(Worker& worker) {
@@ -207,10 +222,12 @@ class Pool {
     return status;
   }
 
+  const Task& task_;
   SharedCounter counter_;
   std::vector<Worker> workers_;
   std::vector<double> fractions_;
   const OnAnswer& on_answer_;
+  const OnFault& on_fault_;
   const OnProgress& on_progress_;
   std::optional<std::string> error_;
   std::optional<std::string> crash_;
@@ -218,13 +235,18 @@ class Pool {
 
 }  // namespace
 
+void run_all_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                          const OnFault& on_fault, const OnProgress& on_progress) {
+  if (jobs < 1) throw std::invalid_argument("run_in_processes: jobs must be at least 1");
+  Pool pool(tasks, task, on_answer, on_fault, on_progress);
+  const std::size_t workers = std::min(tasks, static_cast<std::size_t>(jobs));
+  for (std::size_t i = 0; i < workers; ++i) pool.start_worker();
+  pool.gather();
+}
+
 void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
                       const OnProgress& on_progress) {
-  if (jobs < 1) throw std::invalid_argument("run_in_processes: jobs must be at least 1");
-  Pool pool(tasks, on_answer, on_progress);
-  const std::size_t workers = std::min(tasks, static_cast<std::size_t>(jobs));
-  for (std::size_t i = 0; i < workers; ++i) pool.start_worker(task);
-  pool.gather();
+  run_all_in_processes(tasks, jobs, task, on_answer, {}, on_progress);
 }
 
 void run_in_order(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,

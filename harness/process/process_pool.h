@@ -33,6 +33,9 @@ using OnProgress = std::function<void(double tasks_done)>;
 /// Told by the parent when a task has ended, in the order in which tasks end.
 using OnAnswer = std::function<void(std::size_t index, std::string answer)>;
 
+/// Told by the parent that a task has failed, or that its process died: the message.
+using OnFault = std::function<void(std::size_t index, std::string message)>;
+
 /// Runs `task` for each index in forked processes, and hands on each answer as soon as it is there.
 /// @param tasks how many there are
 /// @param jobs processes at a time, >= 1
@@ -42,8 +45,13 @@ using OnAnswer = std::function<void(std::size_t index, std::string answer)>;
 void run_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
                       const OnProgress& on_progress);
 
-/// The same, with the answers handed on in the order of index, so that the outcome depends neither on the
-/// number of jobs nor on which task ends first. An answer that comes before its turn waits in memory.
+/// The same, but a task that fails or whose process dies does not end the others.
+void run_all_in_processes(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
+                          const OnFault& on_fault, const OnProgress& on_progress);
+
+/// The same as run_in_processes, with the answers handed on in the order of index, so that the outcome
+/// depends neither on the number of jobs nor on which task ends first. An answer that comes before its turn
+/// waits in memory.
 void run_in_order(std::size_t tasks, int jobs, const Task& task, const OnAnswer& on_answer,
                   const OnProgress& on_progress);
 

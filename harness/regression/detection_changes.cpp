@@ -135,7 +135,7 @@ std::vector<ChangedFrame> changed_frames(const std::vector<PairedBall>& balls) {
 
 template <class Right>
 PairedCount count(const Balls& balls, const Right& is_right) {
-  PairedCount counted;
+  PairedCount counted{.total = std::ssize(balls)};
   for (const PairedBall* ball : balls) {
     const bool first = is_right(ball->first);
     const bool second = is_right(ball->second);
@@ -214,7 +214,7 @@ DetectionChanges detection_changes(const PairedBalls& pairs) {
 
 PairedCounts counts_of(const DetectionChanges& changes) {
   if (changes.unpaired > 0) return {};
-  return {{"vision.recall", changes.found}, {"vision.misidentified", changes.misidentified}};
+  return {{"vision.recall", {changes.found, true}}, {"vision.misidentified", {changes.misidentified, false}}};
 }
 
 std::string changes_text(const DetectionChanges& changes, bool range_errors_grew) {

@@ -13,6 +13,7 @@ namespace stereobench::harness {
 namespace {
 
 using boost::property_tree::ptree;
+using Outcome = JunitCase::Outcome;
 
 /// XML has no way to write most control characters.
 std::string writable(std::string text) {
@@ -21,42 +22,55 @@ std::string writable(std::string text) {
   return text;
 }
 
-bool is_failure(Verdict verdict) {
-  return verdict == Verdict::kRegressed || verdict == Verdict::kVanished;
+Outcome outcome_of(Verdict verdict) {
+  if (verdict == Verdict::kRegressed || verdict == Verdict::kVanished) return Outcome::kFailed;
+  return verdict == Verdict::kInconclusive ? Outcome::kSkipped : Outcome::kPassed;
 }
 
-ptree test_case(const MetricVerdict& metric, const std::string& suite) {
-  ptree test;
-  test.put("<xmlattr>.classname", suite);
-  test.put("<xmlattr>.name", metric.metric);
-  const std::string line = fmt::format("{}: {}", text_of(metric.verdict), change_line(metric));
-  if (is_failure(metric.verdict)) {
-    test.put("failure", line);
-    test.put("failure.<xmlattr>.type", text_of(metric.verdict));
-    test.put("failure.<xmlattr>.message", line);
-  } else if (metric.verdict == Verdict::kInconclusive) {
-    test.put("skipped.<xmlattr>.message", line);
+ptree test_case(const JunitCase& test, const std::string& suite) {
+  ptree tree;
+  tree.put("<xmlattr>.classname", suite);
+  tree.put("<xmlattr>.name", writable(test.name));
+  const std::string text = writable(test.text);
+  if (test.outcome == Outcome::kFailed || test.outcome == Outcome::kError) {
+    const std::string element = test.outcome == Outcome::kFailed ? "failure" : "error";
+    tree.put(element, text);
+    tree.put(element + ".<xmlattr>.type", test.type);
+    tree.put(element + ".<xmlattr>.message", text.substr(0, text.find('\n')));
+  } else if (test.outcome == Outcome::kSkipped) {
+    tree.put("skipped.<xmlattr>.message", text);
   }
-  return test;
+  return tree;
+}
+
+ptree test_suite(const JunitSuite& suite) {
+  const std::string name = writable(suite.name);
+  ptree tree;
+  tree.put("<xmlattr>.name", name);
+  tree.put("<xmlattr>.tests", suite.cases.size());
+  for (const auto& [counted, outcome] :
+       {std::pair("failures", Outcome::kFailed), {"errors", Outcome::kError}, {"skipped", Outcome::kSkipped}})
+    tree.put(std::string("<xmlattr>.") + counted,
+             std::ranges::count(suite.cases, outcome, &JunitCase::outcome));
+  for (const JunitCase& test : suite.cases) tree.add_child("testcase", test_case(test, name));
+  if (!suite.output.empty()) tree.put("system-out", writable(suite.output));
+  return tree;
 }
 
 }  // namespace
 
-std::string junit_xml(const ResultComparison& comparison, const std::string& suite,
-                      const std::string& detections) {
-  const std::string name = writable(suite);
-  ptree cases;
-  cases.put("<xmlattr>.name", name);
-  cases.put("<xmlattr>.tests", comparison.metrics.size());
-  cases.put("<xmlattr>.failures",
-            std::ranges::count_if(comparison.metrics, is_failure, &MetricVerdict::verdict));
-  cases.put("<xmlattr>.errors", 0);
-  cases.put("<xmlattr>.skipped",
-            std::ranges::count(comparison.metrics, Verdict::kInconclusive, &MetricVerdict::verdict));
-  for (const MetricVerdict& metric : comparison.metrics) cases.add_child("testcase", test_case(metric, name));
-  if (!detections.empty()) cases.put("system-out", writable(detections));
+std::vector<JunitCase> junit_cases(const ResultComparison& comparison) {
+  std::vector<JunitCase> cases;
+  for (const MetricVerdict& metric : comparison.metrics)
+    cases.push_back({metric.metric, outcome_of(metric.verdict), text_of(metric.verdict),
+                     fmt::format("{}: {}", text_of(metric.verdict), change_line(metric))});
+  return cases;
+}
+
+std::string junit_xml(const std::vector<JunitSuite>& suites) {
   ptree document;
-  document.add_child("testsuites.testsuite", cases);
+  ptree& all = document.add_child("testsuites", {});
+  for (const JunitSuite& suite : suites) all.add_child("testsuite", test_suite(suite));
   std::ostringstream xml;
   boost::property_tree::write_xml(xml, document,
                                   boost::property_tree::xml_writer_settings<std::string>(' ', 2));

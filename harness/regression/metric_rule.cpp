@@ -21,20 +21,22 @@ struct NamedRule {
   MetricRule rule;
 };
 
-/// The first that fits counts.
+/// The first that fits counts. From the pictures to the map.
 constexpr std::array kRules = std::to_array<NamedRule>({
     {"vision.recall", {.better = Better::kHigher, .relative_margin = 0.0, .absolute_margin = 0.005}},
     {"vision.precision", {.better = Better::kHigher, .relative_margin = 0.0, .absolute_margin = 0.005}},
-    {"vision.found", {.better = Better::kHigher, .relative_margin = 0.005}},
-    {"vision.*_bias_*", {.better = Better::kNearZero, .relative_margin = 0.1}},
-    {"vision.normalised_error", {.better = Better::kNearOne, .relative_margin = 0.0, .absolute_margin = 0.1}},
-    {"vision.*_rms_*", {}},
     {"vision.misidentified", {}},
     {"vision.spurious", {}},
     {"vision.repeated", {}},
     {"vision.flagged", {}},
-    {"batch.failures", {}},
-    {"batch.*_m", {}},
+    {"vision.*_rms_*", {}},
+    {"vision.*_bias_*", {.better = Better::kNearZero, .relative_margin = 0.1}},
+    {"vision.normalised_error", {.better = Better::kNearOne, .relative_margin = 0.0, .absolute_margin = 0.1}},
+    {"filters.*.failures", {}},
+    {"filters.*_rms_m", {}},
+    {"filters.*_rms_rad", {}},
+    {"filters.*.ate_max_m", {.relative_margin = 0.1}},
+    {"filters.*.final_drift", {}},
     {"filters.*.anees", {.better = Better::kNearOne, .relative_margin = 0.0, .absolute_margin = 0.1}},
     {"filters.*.nis.per_run", {.better = Better::kNearOne, .relative_margin = 0.0, .absolute_margin = 0.1}},
     {"filters.*.within_50",
@@ -49,17 +51,23 @@ constexpr std::array kRules = std::to_array<NamedRule>({
     {"filters.*.landmarks.*", {}},
     {"filters.*.association.*", {}},
     {"filters.*.counters.*", {}},
-    {"filters.*.failures", {}},
-    {"filters.*.final_drift", {}},
-    {"filters.*_rms_m", {}},
-    {"filters.*_rms_rad", {}},
-    {"filters.*.ate_max_m", {.relative_margin = 0.1}},
+    {"batch.failures", {}},
+    {"batch.*_m", {}},
 });
+
+const NamedRule* named_rule(const std::string& name) {
+  return std::ranges::find_if(kRules, [&](const NamedRule& named) { return fits(name, named.pattern); });
+}
 
 }  // namespace
 
 bool fits(const std::string& name, const std::string& pattern) {
   return fnmatch(pattern.c_str(), name.c_str(), FNM_NOESCAPE) == 0;
+}
+
+bool fits_any(const std::string& name, std::span<const std::string> patterns) {
+  return patterns.empty() ||
+         std::ranges::any_of(patterns, [&](const std::string& pattern) { return fits(name, pattern); });
 }
 
 Margin parse_margin(const std::string& text) {
@@ -81,8 +89,7 @@ Margin parse_margin(const std::string& text) {
 }
 
 std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margin> margins) {
-  const auto* const found =
-      std::ranges::find_if(kRules, [&](const NamedRule& named) { return fits(name, named.pattern); });
+  const NamedRule* const found = named_rule(name);
   if (found == kRules.end()) return {};
   MetricRule rule = found->rule;
   for (const Margin& margin : margins) {
@@ -91,6 +98,17 @@ std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margi
     rule.absolute_margin = margin.relative ? 0.0 : margin.value;
   }
   return rule;
+}
+
+MetricFamily family_of(const std::string& name) {
+  constexpr std::array kCounts = {"vision.recall",   "vision.precision", "vision.misidentified",
+                                  "vision.spurious", "vision.repeated",  "vision.flagged"};
+  if (std::ranges::count(kCounts, name) > 0) return MetricFamily::kDetectionCounts;
+  return name.starts_with("vision.") ? MetricFamily::kDetectionErrors : MetricFamily::kSlam;
+}
+
+int rank_of(const std::string& name) {
+  return static_cast<int>(named_rule(name) - kRules.begin());
 }
 
 std::string scale_of(const std::string& name) {

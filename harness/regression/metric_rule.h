@@ -37,10 +37,20 @@ Margin parse_margin(const std::string& text);
 /// for one of some
 bool fits(const std::string& name, const std::string& pattern);
 
+/// @return whether a name fits one of the patterns, or there are none
+bool fits_any(const std::string& name, std::span<const std::string> patterns);
+
 /// @param margins of which the last one that fits counts
 /// @return how a metric is judged; empty for numbers that are neither good nor bad, such as how many balls
 /// were to be found
 std::optional<MetricRule> rule_of(const std::string& name, std::span<const Margin> margins = {});
+
+/// Metrics whose p-values are corrected together.
+enum class MetricFamily { kDetectionCounts, kDetectionErrors, kSlam };
+MetricFamily family_of(const std::string& name);
+
+/// @return the place of a judged metric on the way from the pictures to the map: causes come before effects
+int rank_of(const std::string& name);
 
 /// @return the metric whose mean in the first result a relative margin is a share of: of a bias the rms
 /// error, else the metric itself

@@ -28,35 +28,37 @@ fs::path file_of(const fs::path& path) {
   return file;
 }
 
-StoredResult result_of(const nlohmann::json& json) {
-  const JsonValue run(json, "");
-  if (!json.is_object()) run.refuse("an object");
-  run.at("schema").integer(1, 1);
-  StoredResult result{.scenario = run.at("scenario").text()};
-  for (const JsonValue& seed : run.at("seeds").list(1, kMostSeeds))
-    result.seeds.seeds.push_back(seed.natural_number());
-  result.seeds.is_one_log = run.find("log").has_value();
-  if (std::set(result.seeds.seeds.begin(), result.seeds.seeds.end()).size() != result.seeds.seeds.size())
-    run.at("seeds").refuse("each seed once");
-  if (!run.find("per_seed")) run.refuse("\"per_seed\", which older versions did not write: run it again");
-  const JsonValue metrics = run.at("per_seed");
-  if (!json.at("per_seed").is_object()) metrics.refuse("an object");
-  for (const auto& [name, values] : json.at("per_seed").items()) {
-    std::vector<double>& numbers = result.seeds.metrics[name];
-    const std::size_t count = result.seeds.seeds.size();
-    for (const JsonValue& value : JsonValue(values, "per_seed." + excerpt(name)).list(count, count))
-      numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                        : value.number(-kLargest, kLargest));
-  }
-  return result;
+std::vector<double> values_of(const JsonValue& list, std::size_t seeds) {
+  std::vector<double> values;
+  for (const JsonValue& value : list.list(seeds, seeds))
+    values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                     : value.number(-kLargest, kLargest));
+  return values;
 }
 
 }  // namespace
 
+SeedTable seed_table_of(const JsonValue& run) {
+  SeedTable table;
+  for (const JsonValue& seed : run.at("seeds").list(1, kMostSeeds))
+    table.seeds.push_back(seed.natural_number());
+  table.is_one_log = run.find("log").has_value();
+  if (std::set(table.seeds.begin(), table.seeds.end()).size() != table.seeds.size())
+    run.at("seeds").refuse("each seed once");
+  if (!run.find("per_seed")) run.refuse("\"per_seed\", which older versions did not write: run it again");
+  for (const auto& [name, values] : run.at("per_seed").entries())
+    table.metrics[name] = values_of(values, table.seeds.size());
+  return table;
+}
+
 StoredResult read_result(const fs::path& path) {
   const fs::path file = file_of(path);
   try {
-    StoredResult result = result_of(parse_line(read_text(file)));
+    const nlohmann::json json = parse_line(read_text(file));
+    const JsonValue run(json, "");
+    if (!json.is_object()) run.refuse("an object");
+    run.at("schema").integer(1, 1);
+    StoredResult result{.scenario = run.at("scenario").text(), .seeds = seed_table_of(run)};
     const fs::path detections = file.parent_path() / kDetections;
     if (fs::exists(detections)) result.detections = detections;
     return result;

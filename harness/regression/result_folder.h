@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/json/json_line.h"
 #include "harness/regression/verdict.h"
 
 namespace stereobench::harness {
@@ -14,6 +15,10 @@ struct StoredResult {
   SeedTable seeds;
   std::filesystem::path detections;  ///< its detections.csv.gz; empty where there is none
 };
+
+/// The seeds and their metrics in a run.json, or in what has its keys.
+/// @throws BadLine where they are not as `run` writes them
+SeedTable seed_table_of(const JsonValue& run);
 
 /// Reads the metrics of each seed from a result.
 /// @param path a folder that `run` or `slam` wrote, or its run.json

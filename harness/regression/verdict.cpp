@@ -5,8 +5,10 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/statistics/chi_square.h"
 #include "harness/statistics/statistics.h"
@@ -15,6 +17,9 @@ namespace stereobench::harness {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The probability of the widest interval that a bootstrap can tell.
+constexpr double kWidestInterval = 0.9999;
 
 /// How many seeds nobody runs.
 constexpr double kMoreThanAnybodyRuns = 1e6;
@@ -81,9 +86,9 @@ std::vector<double> differences_of(const Pairs& pairs) {
 
 /// @return how many seeds there must be for a p-value that is small enough among so many metrics: that of
 /// changes which all go one way is 2^(1 - seeds)
-long fewest_that_tell(long metrics, double alpha) {
+long fewest_that_tell(long correction, double alpha) {
   long seeds = 1;
-  for (double p = static_cast<double>(metrics); p >= alpha; p *= 0.5) ++seeds;
+  for (double p = static_cast<double>(correction); p >= alpha; p *= 0.5) ++seeds;
   return seeds;
 }
 
@@ -114,7 +119,8 @@ MetricVerdict measure(const std::string& name, const Pairs& all, const MetricRul
   metric.change = change(metric.first_mean, metric.second_mean);
   metric.margin = std::max(rule.absolute_margin, rule.relative_margin * scale);
   if (metric.margin > rule.absolute_margin) metric.scale = scale;
-  metric.interval = change_interval(pairs.first, pairs.second, 1.0 - alpha, change);
+  metric.interval =
+      change_interval(pairs.first, pairs.second, std::min(1.0 - alpha, kWidestInterval), change);
   metric.more_seeds = more_seeds_for(metric, standard_error(pairs.first, pairs.second, change), alpha);
   if (metric.equal || pairs.first.empty()) return metric;
   metric.test = ChangeTest::kWilcoxon;
@@ -160,20 +166,42 @@ std::set<std::string> names_of_both(const SeedTable& first, const SeedTable& sec
   return names;
 }
 
+bool is_tested(const MetricVerdict& metric) {
+  return metric.test == ChangeTest::kWilcoxon || metric.test == ChangeTest::kMcnemar;
+}
+
+/// How many p-values were corrected, and by how much the smallest one was at most.
+struct Correction {
+  long tested = 0;
+  long largest = 0;
+};
+
+/// Corrects the p-values of each family by Holm, and for the number of families that there are.
+Correction correct(std::vector<MetricVerdict>& metrics) {
+  std::map<MetricFamily, std::vector<MetricVerdict*>> families;
+  for (MetricVerdict& metric : metrics) families[family_of(metric.metric)].push_back(&metric);
+  Correction correction;
+  for (const auto& [family, members] : families) {
+    std::vector<double> p_values;
+    for (const MetricVerdict* metric : members)
+      if (is_tested(*metric)) p_values.push_back(metric->p);
+    correction.tested += std::ssize(p_values);
+    correction.largest =
+        std::max(correction.largest, static_cast<long>(std::ssize(p_values) * std::ssize(families)));
+    const std::vector<double> corrected = holm(p_values);
+    auto next = corrected.begin();
+    for (MetricVerdict* metric : members)
+      if (is_tested(*metric)) metric->p_holm = std::min(1.0, *next++ * static_cast<double>(families.size()));
+  }
+  return correction;
+}
+
 /// Corrects p-values for their number, and judges.
 void decide(ResultComparison& comparison, double alpha) {
-  std::vector<double> p_values;
-  const auto is_tested = [](const MetricVerdict& metric) {
-    return metric.test == ChangeTest::kWilcoxon || metric.test == ChangeTest::kMcnemar;
-  };
-  for (const MetricVerdict& metric : comparison.metrics)
-    if (is_tested(metric)) p_values.push_back(metric.p);
-  comparison.changed = std::ssize(p_values);
-  comparison.fewest_seeds = fewest_that_tell(comparison.changed, alpha);
-  const std::vector<double> corrected = holm(p_values);
-  auto next = corrected.begin();
+  const Correction correction = correct(comparison.metrics);
+  comparison.changed = correction.tested;
+  comparison.fewest_seeds = fewest_that_tell(correction.largest, alpha);
   for (MetricVerdict& metric : comparison.metrics) {
-    if (is_tested(metric)) metric.p_holm = *next++;
     metric.verdict = judge(metric, alpha);
     const bool is_beyond = std::abs(metric.change) > metric.margin;
     const bool is_hopeless = metric.test == ChangeTest::kMcnemar && is_beyond;
@@ -181,7 +209,20 @@ void decide(ResultComparison& comparison, double alpha) {
     if (metric.more_seeds && is_beyond)
       metric.more_seeds = std::max(*metric.more_seeds, comparison.fewest_seeds - metric.pairs);
   }
-  std::ranges::stable_sort(comparison.metrics, {}, &MetricVerdict::verdict);
+  std::ranges::stable_sort(comparison.metrics, {}, [](const MetricVerdict& metric) {
+    return std::pair(metric.verdict, rank_of(metric.metric));
+  });
+}
+
+/// A metric that counts single things is judged by them.
+void take_count(const MetricCount& counted, std::size_t seeds, double alpha, MetricVerdict& metric) {
+  metric.test = ChangeTest::kMcnemar;
+  metric.count = counted.count;
+  metric.p = mcnemar(counted.count);
+  const double all = static_cast<double>(counted.count.total);
+  const double unit = counted.is_rate ? 1.0 : all / static_cast<double>(seeds);
+  const Interval share = paired_share_interval(counted.count, 1.0 - alpha);
+  metric.interval = {unit * share.low, unit * share.high};
 }
 
 /// @throws std::runtime_error for a margin that is of no metric
@@ -194,11 +235,12 @@ void check_margins(const ResultComparison& comparison, const std::vector<Margin>
   }
 }
 
-[[noreturn]] void refuse_nothing(const ResultComparison& comparison, const std::string& only) {
+[[noreturn]] void refuse_nothing(const ResultComparison& comparison, const std::vector<std::string>& only) {
+  const std::string asked = only.empty() ? "*" : fmt::format("{}", fmt::join(only, "', '"));
   if (comparison.not_judged.empty())
-    throw std::runtime_error(fmt::format("no metric fits '{}' in either result: nothing to compare", only));
+    throw std::runtime_error(fmt::format("no metric fits '{}' in either result: nothing to compare", asked));
   throw std::runtime_error(
-      fmt::format("what fits '{}' is neither better nor worse, and not judged: nothing to compare", only));
+      fmt::format("what fits '{}' is neither better nor worse, and not judged: nothing to compare", asked));
 }
 
 }  // namespace
@@ -234,7 +276,7 @@ ResultComparison compare_results(const SeedTable& first, const SeedTable& second
   for (const std::string& name : names_of_both(first, second)) {
     const Pairs pairs{values_at(first.metrics, name, seeds, &SharedSeed::in_first),
                       values_at(second.metrics, name, seeds, &SharedSeed::in_second)};
-    if (!fits(name, settings.only) || (!has_value(pairs.first) && !has_value(pairs.second))) continue;
+    if (!fits_any(name, settings.only) || (!has_value(pairs.first) && !has_value(pairs.second))) continue;
     const std::optional<MetricRule> rule = rule_of(name, settings.margins);
     if (!rule) {
       if (!are_equal(pairs)) comparison.not_judged.push_back(name);
@@ -247,9 +289,7 @@ ResultComparison compare_results(const SeedTable& first, const SeedTable& second
     if (is_one_log && is_constant(pairs.first) && is_constant(pairs.second) && !metric.equal) {
       take_as_exact(metric);
     } else if (counted != counts.end() && metric.test == ChangeTest::kWilcoxon) {
-      metric.test = ChangeTest::kMcnemar;
-      metric.count = counted->second;
-      metric.p = mcnemar(counted->second);
+      take_count(counted->second, seeds.size(), settings.alpha, metric);
     }
     comparison.metrics.push_back(std::move(metric));
   }

@@ -56,7 +56,7 @@ struct MetricVerdict {
   double scale = 0.0;   ///< what a relative margin is a share of; 0 for an absolute margin
   ChangeTest test = ChangeTest::kNone;
   double p = 1.0;                    ///< of no change
-  double p_holm = 1.0;               ///< the same among all metrics that changed
+  double p_holm = 1.0;               ///< the same, corrected for all metrics that changed
   std::optional<PairedCount> count;  ///< what McNemar's test counted
   std::optional<long> more_seeds;    ///< of an inconclusive one: about how many decide
 };
@@ -64,16 +64,22 @@ struct MetricVerdict {
 struct VerdictSettings {
   double alpha = 0.01;  ///< chance of any false REGRESSED or IMPROVED, all metrics together
   std::vector<Margin> margins;
-  std::string only = "*";  ///< pattern of the metrics that are judged
+  std::vector<std::string> only;  ///< patterns of the metrics that are judged; empty: all
+};
+
+/// What a metric counts.
+struct MetricCount {
+  PairedCount count;
+  bool is_rate = true;  ///< the metric is a share of all; else the mean number in a seed
 };
 
 /// Counts by the name of their metric.
-using PairedCounts = std::map<std::string, PairedCount>;
+using PairedCounts = std::map<std::string, MetricCount>;
 
 /// Two results beside each other.
 struct ResultComparison {
   std::vector<std::uint64_t> seeds;     ///< that both have, in ascending order
-  std::vector<MetricVerdict> metrics;   ///< by verdict, then by name
+  std::vector<MetricVerdict> metrics;   ///< by verdict, then from the pictures to the map (rank_of)
   std::vector<std::string> not_judged;  ///< metrics that no rule calls better or worse, and that differ
   long changed = 0;                     ///< metrics among which p-values are corrected
   long fewest_seeds = 0;                ///< below which no p-value of that many metrics can be small enough
@@ -83,12 +89,14 @@ struct ResultComparison {
 
 /// Judges each metric on the seeds that both results have.
 ///
-/// REGRESSED is a metric whose p-value is below alpha, corrected by Holm for all metrics that changed, and
-/// whose whole interval (of probability 1 - alpha) is worse than the margin; IMPROVED the same on the other
-/// side. PASS is one whose whole interval lies within the margins. VANISHED is one that the second result has
-/// no value of at a seed where the first has one. All others are INCONCLUSIVE.
-/// @param counts of metrics that count single things, such as balls. Their p-value is McNemar's, which takes
-/// each of them for independent
+/// REGRESSED is a metric whose p-value is below alpha, corrected for all metrics that changed, and whose
+/// whole interval (of probability 1 - alpha, at most 0.9999) is worse than the margin; IMPROVED the same on
+/// the other side. Metrics are three families, of which each has an equal share of alpha, corrected by Holm
+/// within: counts of detections, errors of detections, and SLAM. PASS is one whose whole interval lies within
+/// the margins. VANISHED is one that the second result has no value of at a seed where the first has one. All
+/// others are INCONCLUSIVE.
+/// @param counts of metrics that count single things, such as balls. Their p-value is McNemar's and their
+/// interval Tango's, which take each of them for independent
 /// @throws std::runtime_error, one line, when there is no seed or no metric to compare, or a margin is of no
 /// metric that is judged
 ResultComparison compare_results(const SeedTable& first, const SeedTable& second,

@@ -15,6 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A table for people has so many rows of metrics that more seeds may decide, and names so many that are not
+/// judged.
+constexpr long kMostInconclusive = 10;
+constexpr std::size_t kMostNotJudged = 5;
+
 constexpr std::array kVerdicts = {Verdict::kRegressed, Verdict::kVanished, Verdict::kInconclusive,
                                   Verdict::kImproved,  Verdict::kNew,      Verdict::kPass};
 
@@ -43,14 +48,17 @@ const char* text_of(ChangeTest test) {
 
 std::string signed_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "-" : value < 0.0 ? "-inf" : "inf";
-  return fmt::format("{:+.3g}", value);
+  return (value < 0.0 ? "-" : "+") + format_number(std::abs(value));
 }
 
 /// "+12 [+8, +17] %"
 std::string change_cell(const MetricVerdict& metric) {
   if (!std::isfinite(metric.change)) return "-";
   const double unit = unit_of_change(metric);
-  const auto in_unit = [unit](double value) { return signed_number(value / unit); };
+  const double rounding = 1e-12 * std::max(std::abs(metric.first_mean), std::abs(metric.second_mean));
+  const auto in_unit = [&](double value) {
+    return signed_number(std::abs(value) < rounding ? 0.0 : value / unit);
+  };
   return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
                      in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
 }
@@ -78,8 +86,10 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
   AlignedTable table{.header = {"metric", "verdict", "A", "B",
                                 fmt::format("worse by, {:g} % interval", 100.0 * (1.0 - settings.alpha)),
                                 "margin", "p (Holm)", "seeds", "note"}};
+  long inconclusive = 0;
   for (const MetricVerdict& metric : comparison.metrics) {
     if (metric.verdict == Verdict::kPass && !all) continue;
+    if (metric.verdict == Verdict::kInconclusive && ++inconclusive > kMostInconclusive && !all) continue;
     table.rows.push_back({metric.metric, text_of(metric.verdict), format_number(metric.first_mean),
                           format_number(metric.second_mean), metric.equal ? "equal" : change_cell(metric),
                           margin_cell(metric),
@@ -89,9 +99,18 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
   return table;
 }
 
-std::string not_judged_line(const ResultComparison& comparison) {
-  if (comparison.not_judged.empty()) return "";
-  return fmt::format("not judged, but different: {}\n", fmt::join(comparison.not_judged, ", "));
+/// What the table leaves out.
+std::string lines_below(const ResultComparison& comparison, bool all) {
+  std::string lines;
+  const long left_out = count_of(comparison, Verdict::kInconclusive) - kMostInconclusive;
+  if (!all && left_out > 0) lines += counted(left_out, "more metric") + " INCONCLUSIVE\n";
+  const std::vector<std::string>& names = comparison.not_judged;
+  if (names.empty()) return lines;
+  const std::size_t shown = all ? names.size() : std::min(names.size(), kMostNotJudged);
+  const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown));
+  lines += fmt::format("not judged, but different: {}{}\n", fmt::join(first, ", "),
+                       shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
+  return lines;
 }
 
 }  // namespace
@@ -118,7 +137,7 @@ std::string verdict_summary(const ResultComparison& comparison) {
 
 std::string verdict_table(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
   const AlignedTable table = table_of(comparison, settings, all);
-  return (table.rows.empty() ? std::string() : plain_text(table) + "\n") + not_judged_line(comparison);
+  return (table.rows.empty() ? std::string() : plain_text(table) + "\n") + lines_below(comparison, all);
 }
 
 std::string few_seeds_warning(const ResultComparison& comparison, const VerdictSettings& settings) {
@@ -136,8 +155,8 @@ std::string verdict_page(const ResultComparison& comparison, const VerdictSettin
   const AlignedTable table = table_of(comparison, settings, all);
   if (!table.rows.empty()) page += "\n" + markdown(table);
   if (!detections.empty()) page += "\n```text\n" + detections + "```\n";
-  const std::string not_judged = not_judged_line(comparison);
-  return not_judged.empty() ? page : page + "\n" + not_judged;
+  const std::string below = lines_below(comparison, all);
+  return below.empty() ? page : page + "\n" + below;
 }
 
 Json verdict_json(const ResultComparison& comparison, const VerdictSettings& settings,

@@ -22,7 +22,7 @@ std::string change_line(const MetricVerdict& metric);
 std::string verdict_summary(const ResultComparison& comparison);
 
 /// A table of the metrics that did not pass, worst verdict first, and what it rests on.
-/// @param all whether metrics that passed are listed too
+/// @param all whether metrics that passed are listed too, and more than ten INCONCLUSIVE ones
 std::string verdict_table(const ResultComparison& comparison, const VerdictSettings& settings, bool all);
 
 /// A line that begins with "warning: " where there are too few seeds for any verdict but PASS; else empty.

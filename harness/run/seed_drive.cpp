@@ -1,6 +1,8 @@
 #include "harness/run/seed_drive.h"
 
 #include <algorithm>
+#include <exception>
+#include <utility>
 
 #include "harness/experiment/filter_config.h"
 #include "harness/process/stopwatch.h"
@@ -29,6 +31,45 @@ slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, 
                        {noise.position_sd_m * x, noise.position_sd_m * y, noise.heading_sd_rad * heading});
 }
 
+/// Looks for a task, and keeps what it asks for.
+/// @param drive must live as long as the onlooker
+Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive,
+                     const std::function<void(double)>& on_progress) {
+  Onlooker onlooker{.experiment = task.experiment, .detector = task.detector};
+  onlooker.listeners.on_progress = on_progress;
+  onlooker.listeners.on_frame = [&task, &drive](const FrameEvent& event) {
+    const worlds::Scenario& scenario = task.experiment->scenario;
+    if (task.parts.detections)
+      drive.detections += detection_rows({task.seed, event.step, event.world, event.rig}, event.match);
+    if (is_snapshot_step(event.step, task.parts.snapshots, scenario.path.size()))
+      drive.snapshots.push_back(
+          {event.step, draw_detection_picture(for_display(event.pair, scenario.camera), event.observations)});
+  };
+  return onlooker;
+}
+
+/// Replays what was recorded for each filter and reference.
+void run_filters(const DriveTask& task, SeedDrive& drive) {
+  const slam::FilterConfig config = filter_config(*task.experiment);
+  const worlds::Scenario& scenario = task.experiment->scenario;
+  MeasurementLog& log = drive.recording.log;
+  Stopwatch watch(drive.recording.timing);
+  drive.references.bound = watch.time("reference.bound", [&] {
+    return replay_bound(log, scenario.path, scenario.odometry_noise, start_covariance(scenario.start_noise));
+  });
+  log.start = told_start(log.start, scenario.start_noise, task.seed);
+  drive.runs = replay_filters(log, task.experiment->filters, config, task.seed, drive.recording.timing);
+  drive.references.batch = watch.time("reference.batch", [&] { return replay_batch(log, config); });
+}
+
+std::string message_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
 std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vector<std::string>& filters,
@@ -42,28 +83,32 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress) {
   SeedDrive drive{.seed = task.seed};
-  Listeners listeners;
-  listeners.on_progress = on_progress;
-  listeners.on_frame = [&](const FrameEvent& event) {
-    if (task.parts.detections)
-      drive.detections += detection_rows({task.seed, event.step, event.world, event.rig}, event.match);
-    if (is_snapshot_step(event.step, task.parts.snapshots, task.experiment->scenario.path.size()))
-      drive.snapshots.push_back(
-          {event.step, draw_detection_picture(for_display(event.pair, task.experiment->scenario.camera),
-                                              event.observations)});
-  };
-  drive.recording = record(*task.experiment, task.seed, listeners, task.backend, task.detector);
-  const slam::FilterConfig config = filter_config(*task.experiment);
-  const worlds::Scenario& scenario = task.experiment->scenario;
-  MeasurementLog& log = drive.recording.log;
-  Stopwatch watch(drive.recording.timing);
-  drive.references.bound = watch.time("reference.bound", [&] {
-    return replay_bound(log, scenario.path, scenario.odometry_noise, start_covariance(scenario.start_noise));
-  });
-  log.start = told_start(log.start, scenario.start_noise, task.seed);
-  drive.runs = replay_filters(log, task.experiment->filters, config, task.seed, drive.recording.timing);
-  drive.references.batch = watch.time("reference.batch", [&] { return replay_batch(log, config); });
+  const Onlooker onlooker = onlooker_of(task, drive, on_progress);
+  Look look = std::move(record_together({onlooker}, task.seed, task.backend).front());
+  if (look.fault) std::rethrow_exception(look.fault);
+  drive.recording = std::move(look.recording);
+  run_filters(task, drive);
   return drive;
+}
+
+std::vector<SharedSeedDrive> drive_together(const std::vector<DriveTask>& tasks,
+                                            const std::function<void(double)>& on_progress) {
+  std::vector<SharedSeedDrive> drives(tasks.size());
+  std::vector<Onlooker> onlookers;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    drives[i].drive.seed = tasks[i].seed;
+    onlookers.push_back(onlooker_of(tasks[i], drives[i].drive, on_progress));
+  }
+  std::vector<Look> looks = record_together(onlookers, tasks.front().seed, tasks.front().backend);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (looks[i].fault) {
+      drives[i].fault = message_of(looks[i].fault);
+      continue;
+    }
+    drives[i].drive.recording = std::move(looks[i].recording);
+    run_filters(tasks[i], drives[i].drive);
+  }
+  return drives;
 }
 
 }  // namespace stereobench::harness

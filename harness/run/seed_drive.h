@@ -58,4 +58,16 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 /// Drives a seed: the world is rendered once and replayed for each filter and reference.
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress);
 
+/// What became of a task that was driven together with others.
+struct SharedSeedDrive {
+  SeedDrive drive;
+  std::string fault;  ///< one line: its detector is at fault, and there is no drive; empty: there is one
+};
+
+/// Drives a seed for several tasks whose pictures are the same: they are rendered once.
+/// @param tasks of one seed and one back end, at least one; see record_together
+/// @return one a task
+std::vector<SharedSeedDrive> drive_together(const std::vector<DriveTask>& tasks,
+                                            const std::function<void(double)>& on_progress);
+
 }  // namespace stereobench::harness

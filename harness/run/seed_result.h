@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,6 +71,13 @@ void drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::strin
 /// @param tasks each with its key
 void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
                 const OnSeed& on_seed);
+
+/// Drives tasks that share pictures into a store, and goes on where one fails.
+/// @param groups tasks with their keys; those of a group are driven together (drive_together)
+/// @return why there is no result, by the key of the task: its detector is at fault, or its process died
+std::map<std::string, std::string> drive_groups(AnswerStore& store,
+                                                const std::vector<std::vector<DriveTask>>& groups, int jobs,
+                                                const std::string& what);
 
 /// The first line of steps.csv.
 std::string steps_csv_header();

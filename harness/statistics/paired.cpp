@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 
 #include "slam/math/elementary.h"
 
@@ -68,6 +69,28 @@ double normal_p(const SignedRanks& ranks, double n) {
   return slam::complementary_error(off / std::sqrt(variance) / std::numbers::sqrt2);
 }
 
+/// The score statistic of a difference of paired shares, a standard normal where it is the true one.
+double share_score(const PairedCount& count, double difference) {
+  const auto n = static_cast<double>(count.total), worse = static_cast<double>(count.worse),
+             better = static_cast<double>(count.better);
+  const double a = 2.0 * n, b = (2.0 * n - worse + better) * difference - worse - better,
+               c = -better * difference * (1.0 - difference);
+  const double share_better = (std::sqrt(std::max(0.0, b * b - 4.0 * a * c)) - b) / (2.0 * a);
+  const double variance = n * (2.0 * share_better + difference * (1.0 - difference));
+  const double excess = worse - better - n * difference;
+  return variance > 0.0 ? excess / std::sqrt(variance) : excess > 0.0 ? 1e300 : -1e300;
+}
+
+/// Where the score, which falls, is `level`. @return within [low, high]
+double where_score_is(const PairedCount& count, double level, double low, double high) {
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (share_score(count, middle) > level ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 double wilcoxon_signed_rank(std::span<const double> differences) {
@@ -92,6 +115,13 @@ PairedDifference compare_paired(std::span<const double> first, std::span<const d
   std::vector<double> differences;
   for (std::size_t i = 0; i < first.size(); ++i) differences.push_back(first[i] - second[i]);
   return {summarise(differences), wilcoxon_signed_rank(differences)};
+}
+
+Interval paired_share_interval(const PairedCount& count, double probability) {
+  const boost::math::normal normal;
+  const double bound = boost::math::quantile(normal, 0.5 + 0.5 * probability);
+  const double found = static_cast<double>(count.worse - count.better) / static_cast<double>(count.total);
+  return {where_score_is(count, bound, -1.0, found), where_score_is(count, -bound, found, 1.0)};
 }
 
 }  // namespace stereobench::harness

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "harness/statistics/bootstrap.h"
 #include "harness/statistics/statistics.h"
 
 namespace stereobench::harness {
@@ -31,11 +32,19 @@ double wilcoxon_signed_rank(std::span<const double> differences);
 struct PairedCount {
   long worse = 0;   ///< that came out right the first time alone
   long better = 0;  ///< that came out right the second time alone
+  long total = 0;   ///< that were tried
 };
 
 /// The probability of counts at least as lopsided as these when nothing but chance decides which time comes
 /// out right: McNemar's test, exact, two-sided.
 /// @return in (0, 1]; 1 where nothing differs
 double mcnemar(const PairedCount& count);
+
+/// The interval of how much larger the share of things that come out wrong is the second time: all values
+/// that a score test at the probability's level does not refuse (Tango, Statistics in Medicine 17, 1998).
+/// @param count whose total is at least 1
+/// @param probability in (0, 1)
+/// @return within [-1, 1]
+Interval paired_share_interval(const PairedCount& count, double probability);
 
 }  // namespace stereobench::harness

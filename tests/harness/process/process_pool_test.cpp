@@ -1,6 +1,7 @@
 #include "harness/process/process_pool.h"
 
 #include <chrono>
+#include <map>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -50,6 +51,27 @@ TEST(ProcessPool, ErrorOfATaskReachesTheCaller) {
   for (const int jobs : {1, 2})
     EXPECT_THAT([&] { run_in_processes(10, jobs, task, kSilent); },
                 testing::ThrowsMessage<std::runtime_error>("no ball in sight"));
+}
+
+// Mutations: a worker that ends after an error; none in the place of one that died; a fault that is
+// forgotten.
+TEST(ProcessPool, OthersGoOnWhereFaultsAreAskedFor) {
+  const Task task = [](std::size_t index, const auto& report) {
+    if (index % 4 == 1) throw std::runtime_error("no ball in sight");
+    if (index % 4 == 3) ::raise(SIGKILL);
+    return square(index, report);
+  };
+  for (const int jobs : {1, 3}) {
+    std::map<std::size_t, std::string> answers, faults;
+    run_all_in_processes(
+        20, jobs, task, [&](std::size_t index, std::string answer) { answers[index] = std::move(answer); },
+        [&](std::size_t index, std::string message) { faults[index] = std::move(message); }, kSilent);
+    ASSERT_EQ(answers.size(), 10u);
+    ASSERT_EQ(faults.size(), 10u);
+    EXPECT_EQ(answers.at(2), square(2, [](double) {}));
+    EXPECT_EQ(faults.at(1), "no ball in sight");
+    EXPECT_THAT(faults.at(3), testing::HasSubstr("signal 9"));
+  }
 }
 
 TEST(ProcessPool, CrashOfATaskIsAnErrorThatNamesIt) {

@@ -64,7 +64,7 @@ TEST(DetectionChanges, SaysWhichBallsWereLost) {
   ASSERT_TRUE(changes.lost_slice);
   EXPECT_THAT(changes.lost_slice->conditions, Contains(StartsWith("range")));
   EXPECT_THAT(changes_text(changes, true), HasSubstr("A alone found"));
-  EXPECT_EQ(counts_of(changes).at("vision.recall").worse, changes.found.worse);
+  EXPECT_EQ(counts_of(changes).at("vision.recall").count.worse, changes.found.worse);
 }
 
 // A ball that did not have to be found is no loss.

@@ -7,17 +7,13 @@
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
-#include "harness/dataset/draws_file.h"
-#include "harness/experiment/filter_config.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/run/result_table.h"
-#include "harness/run/run_output.h"
+#include "harness/run_command/run_folder.h"
 
 namespace stereobench::harness {
 namespace {
-
-constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4, .log = true, .detections = true};
 
 int run(const ScenarioArguments& arguments) {
   const Experiment experiment = read_experiment(arguments);
@@ -35,20 +31,11 @@ int run(const ScenarioArguments& arguments) {
   prepare_output_folder(out);
   KeptDrives kept(out);
   const std::string pixels = pixels_of(scenario, arguments.backend);
-  const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kParts);
-  std::vector<SensorLog> logs;
-  RunOutput output(out, RunTally(scenario.name, rendered_by(scenario, arguments.backend)));
-  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name, [&](std::size_t, const SeedResult& seed) {
-    output.add(seed);
-    if (seed.log) logs.push_back(*seed.log);
-  });
-  RunResult result = output.result();
-  result.noise = check_noise(logs, filter_config(experiment), arguments.run.jobs);
-  warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
-  result.made_from = provenance_of(arguments, {}, experiment, pixels);
-  output.write(result, scenario.world.walls);
-  const std::string draws = draws_jsonl(scenario, experiment.seeds);
-  if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
+  const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kRunParts);
+  RunFolder folder(out, arguments, experiment, pixels);
+  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name,
+                [&](std::size_t, const SeedResult& seed) { folder.add(seed); });
+  const RunResult result = folder.finish();
   kept.discard();
   fmt::print("{}: {} seed{}, {} steps\n\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",
              scenario.path.size());

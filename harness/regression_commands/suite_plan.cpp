@@ -1,0 +1,137 @@
+#include "harness/regression_commands/suite_plan.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/kept_drives.h"
+#include "harness/experiment/write_experiment.h"
+#include "harness/io/sha256.h"
+#include "harness/regression/gates.h"
+#include "renderer/backend.h"
+#include "worlds/yaml/excerpt.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Keys of a scenario that say what is compared, and not what it is compared on.
+const std::set<std::string> kNoInputs = {
+    "name", "description", "seeds", "gates", "filters", "detector", "detector_timeout_s", "detector_start_s"};
+
+/// Further keys that pictures do not depend on.
+const std::set<std::string> kNotSeen = {"particles",
+                                        "draw_every",
+                                        "association",
+                                        "odometry_noise",
+                                        "start_noise",
+                                        "believed_oracle",
+                                        "believed_odometry_noise",
+                                        "believed_start_noise",
+                                        "believed_measurement_noise"};
+
+ScenarioArguments arguments_of(const SuiteCase& what) {
+  ScenarioArguments arguments{.scenario = what.scenario,
+                              .overrides = what.set,
+                              .detector = what.detector,
+                              .detector_timeout_s = what.detector_timeout_s,
+                              .detector_start_s = what.detector_start_s};
+  arguments.run.filters = what.filters;
+  arguments.run.particles = what.particles;
+  arguments.run.seeds = what.seeds;
+  arguments.run.gates = what.gates;
+  return arguments;
+}
+
+bool has_pictures(const Experiment& experiment) {
+  return experiment.scenario.sensor == worlds::SensorKind::kStereo;
+}
+
+/// The scenario's lines but for some keys, and the hashes of its files.
+std::string text_of(const ScenarioArguments& arguments, const Experiment& experiment,
+                    const std::set<std::string>& without) {
+  std::vector<std::string> overrides = arguments.overrides;
+  overrides.push_back(fmt::format("particles={}", experiment.particles));
+  const std::string lines = without_keys(with_overrides(arguments.scenario, overrides), without);
+  return lines + nlohmann::json(hashes_of_named_files(arguments.scenario, overrides)).dump();
+}
+
+void check_frames(const PlannedCase& planned) {
+  const auto& frames = planned.what.golden.frames;
+  if (frames.empty()) return;
+  if (!has_pictures(planned.experiment))
+    throw std::runtime_error("golden: the sensor of the scenario is the oracle, which has no pictures");
+  const std::size_t steps = planned.experiment.scenario.path.size();
+  for (const int frame : frames)
+    if (static_cast<std::size_t>(frame) >= steps)
+      throw std::runtime_error(fmt::format("golden.frames: expected frames below {} (got {})", steps, frame));
+}
+
+PlannedCase plan_case(const SuiteCase& what, const SuiteArguments& suite) {
+  PlannedCase planned{.what = what, .arguments = arguments_of(what)};
+  planned.experiment = read_experiment(planned.arguments);
+  planned.asked_seeds = planned.experiment.seeds;
+  planned.arguments.backend = suite.backend;
+  planned.arguments.run.jobs = suite.run.jobs;
+  if (!suite.run.seeds.empty()) planned.arguments.run.seeds = suite.run.seeds;
+  if (!suite.detector.empty() && has_pictures(planned.experiment))
+    planned.arguments.detector = suite.detector;
+  planned.experiment = read_experiment(planned.arguments);
+  planned.gates = gates_of(planned.experiment);
+  check_metrics(planned.gates, result_without_values(planned.experiment));
+  check_frames(planned);
+  std::set<std::string> not_seen = kNoInputs;
+  not_seen.insert(kNotSeen.begin(), kNotSeen.end());
+  planned.inputs.sha256 = sha256_of(text_of(planned.arguments, planned.experiment, kNoInputs));
+  planned.pictures = text_of(planned.arguments, planned.experiment, not_seen);
+  return planned;
+}
+
+}  // namespace
+
+SuitePlan plan_suite(const SuiteArguments& arguments) {
+  SuitePlan plan{.suite = read_suite(arguments.suite)};
+  plan.baseline = arguments.baseline.empty() ? usual_baseline(arguments.suite) : arguments.baseline;
+  for (const SuiteCase& what : plan.suite.cases) {
+    if (!fits_any(what.name, arguments.only)) continue;
+    try {
+      plan.cases.push_back(plan_case(what, arguments));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("case {}: {}", what.name, error.what()));
+    }
+  }
+  if (plan.cases.empty())
+    throw std::runtime_error(fmt::format("--only: no case of {} has such a name", arguments.suite.string()));
+  for (PlannedCase& planned : plan.cases) {
+    if (has_pictures(planned.experiment)) {
+      if (plan.pixels.empty()) plan.pixels = pixels_of(planned.experiment.scenario, arguments.backend);
+      planned.inputs.pixels = plan.pixels;
+    }
+    planned.baseline = read_baseline(baseline_file(plan.baseline, planned.what.name));
+  }
+  return plan;
+}
+
+std::string obstacle_to_comparison(const PlannedCase& planned, const SuitePlan& plan) {
+  const std::string file = baseline_file(plan.baseline, planned.what.name).string();
+  const char* const bless = "look at the result; where it is good: stereobench bless OUT --reason WHY";
+  if (!planned.baseline) return fmt::format("there is no {}: {}", file, bless);
+  const BaselineInputs& before = planned.baseline->inputs;
+  if (before.pixels != planned.inputs.pixels)
+    return fmt::format(
+        "{} was made with pixels {}, this renderer has {}: take the same packages (`stereobench doctor`), or "
+        "a "
+        "baseline of this machine: stereobench test {} --baseline OTHER, then stereobench bless",
+        file, worlds::excerpt(before.pixels), planned.inputs.pixels, plan.suite.file.string());
+  if (before.sha256 != planned.inputs.sha256)
+    return fmt::format("{} is of another scenario: its file, `set:`, `particles:` or a mesh has changed; {}",
+                       file, bless);
+  return {};
+}
+
+}  // namespace stereobench::harness

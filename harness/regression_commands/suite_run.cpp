@@ -1,0 +1,169 @@
+#include "harness/regression_commands/suite_run.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/io/atomic_file.h"
+#include "harness/regression/gates.h"
+#include "harness/regression/result_folder.h"
+#include "harness/run_command/run_folder.h"
+#include "harness/suite/findings_file.h"
+#include "harness/suite/looks.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case under way: the seeds that it is looked at with, look after look.
+struct CaseRun {
+  const PlannedCase* planned = nullptr;
+  Experiment experiment;  ///< with the seeds of the present look
+  std::vector<std::uint64_t> seeds;
+  std::vector<std::size_t> looks;
+  std::vector<DriveTask> tasks;
+  CaseReport report;
+  bool is_done = false;
+};
+
+/// @param obstacle to a comparison with the baseline; empty where there is none
+void plan_looks(const SuiteArguments& arguments, const std::string& obstacle, CaseRun& run) {
+  run.seeds = run.planned->experiment.seeds;
+  run.looks = {run.seeds.size()};
+  if (!arguments.until_decided || !obstacle.empty()) return;
+  run.seeds = run.planned->baseline->seeds.seeds;
+  run.looks = look_sizes(std::min(run.seeds.size(), static_cast<std::size_t>(arguments.max_seeds)));
+}
+
+VerdictSettings settings_of(const CaseRun& run, const Suite& suite) {
+  const double alpha = suite.alpha / static_cast<double>(suite.cases.size());
+  return {.alpha = alpha_of_look(alpha, run.looks.size()),
+          .margins = run.planned->what.margins,
+          .only = run.planned->what.metrics};
+}
+
+/// Margins of metrics that a case has not are let be: a preset has those of several.
+void drop_margins_of_nothing(const SeedTable& first, const SeedTable& second, std::vector<Margin>& margins) {
+  std::erase_if(margins, [&](const Margin& margin) {
+    const auto is_its = [&](const auto& entry) { return fits(entry.first, margin.pattern); };
+    return std::ranges::none_of(first.metrics, is_its) && std::ranges::none_of(second.metrics, is_its);
+  });
+}
+
+std::optional<PairedBalls> balls_of(const fs::path& before, const StoredResult& now) {
+  if (!fs::exists(before) || now.detections.empty()) return {};
+  return pair_findings(read_findings(before), read_detected_balls(now.detections));
+}
+
+/// What the suite's case asks for, and the present look has not.
+std::string what_is_missing(const CaseRun& run) {
+  const std::vector<std::uint64_t>& asked = run.planned->asked_seeds;
+  const auto is_missing = [&](std::uint64_t seed) {
+    return std::ranges::count(run.experiment.seeds, seed) == 0;
+  };
+  const auto missing = std::ranges::count_if(asked, is_missing);
+  if (missing == 0) return {};
+  return fmt::format("{} of the {} seeds that the suite asks for were not run", missing, asked.size());
+}
+
+/// Writes the result of a case and holds it against gates and baseline.
+void judge_case(const SuitePlan& plan, const fs::path& out, KeptDrives& kept, CaseRun& run) {
+  const PlannedCase& planned = *run.planned;
+  const fs::path folder = out / planned.what.name;
+  prepare_output_folder(folder);
+  RunFolder files(folder, planned.arguments, run.experiment, plan.pixels);
+  kept.hand_on(run.tasks, [&](std::size_t, const SeedResult& seed) { files.add(seed); });
+  const RunResult result = files.finish();
+  run.report.inputs.detector = result.detector;
+  run.report.partial = what_is_missing(run);
+  run.report.broken_gates.clear();
+  for (const BrokenGate& gate : broken_gates(run_json(result), planned.gates))
+    run.report.broken_gates.push_back(gate.message);
+  if (!run.report.not_compared.empty()) return;
+  const StoredResult now = read_result(folder);
+  VerdictSettings& settings = run.report.settings = settings_of(run, plan.suite);
+  drop_margins_of_nothing(planned.baseline->seeds, now.seeds, settings.margins);
+  run.report.judgement = judge(planned.baseline->seeds, now.seeds, settings,
+                               balls_of(findings_file(plan.baseline, planned.what.name), now));
+}
+
+void note_look(std::size_t seeds, CaseRun& run) {
+  if (run.looks.size() < 2) return;
+  const auto& metrics = run.report.judgement->comparison.metrics;
+  run.report.looks.push_back({seeds, run.report.settings.alpha,
+                              std::ranges::count(metrics, Verdict::kInconclusive, &MetricVerdict::verdict)});
+}
+
+void note_error(const std::string& message, const fs::path& out, CaseRun& run) {
+  run.is_done = true;
+  run.report = {.name = run.planned->what.name,
+                .inputs = run.planned->inputs,
+                .error = message,
+                .gates = run.planned->gates.size()};
+  fs::remove(out / run.planned->what.name / "run.json");  // of an earlier test
+}
+
+/// Cases that differ only in how they are judged have the same tasks.
+void add_once(const DriveTask& task, std::vector<DriveTask>& group) {
+  if (std::ranges::count(group, task.key, &DriveTask::key) == 0) group.push_back(task);
+}
+
+/// Drives what the look needs, for all cases together: those that see the same pictures share them.
+std::map<std::string, std::string> drive(const SuitePlan& plan, const SuiteArguments& arguments,
+                                         std::size_t look, std::vector<CaseRun>& runs, KeptDrives& kept) {
+  std::map<std::pair<std::string, std::uint64_t>, std::vector<DriveTask>> groups;
+  for (CaseRun& run : runs) {
+    if (run.is_done) continue;
+    const auto seeds = static_cast<std::ptrdiff_t>(run.looks[look]);
+    run.experiment.seeds.assign(run.seeds.begin(), run.seeds.begin() + seeds);
+    run.tasks = drive_tasks(run.planned->arguments, {}, run.experiment, plan.pixels, kRunParts);
+    const std::size_t driven = look == 0 ? 0 : run.looks[look - 1];
+    for (std::size_t i = driven; i < run.tasks.size(); ++i)
+      add_once(run.tasks[i], groups[{run.planned->pictures, run.tasks[i].seed}]);
+  }
+  std::vector<std::vector<DriveTask>> tasks;
+  for (auto& [pictures_and_seed, group] : groups) tasks.push_back(std::move(group));
+  return kept.complete_groups(tasks, arguments.run.jobs, "test " + plan.suite.name);
+}
+
+void judge_look(const SuitePlan& plan, const fs::path& out, std::size_t look,
+                const std::map<std::string, std::string>& faults, KeptDrives& kept, CaseRun& run) {
+  const auto is_fault = [&](const DriveTask& task) { return faults.contains(task.key); };
+  const auto fault = std::ranges::find_if(run.tasks, is_fault);
+  if (fault != run.tasks.end()) return note_error(faults.at(fault->key), out, run);
+  judge_case(plan, out, kept, run);
+  const bool is_last = look + 1 == run.looks.size();
+  if (run.report.judgement) note_look(run.looks[look], run);
+  run.is_done = is_last || is_decided(run.report.judgement->comparison);
+}
+
+}  // namespace
+
+std::vector<CaseReport> run_suite(const SuitePlan& plan, const SuiteArguments& arguments, const fs::path& out,
+                                  KeptDrives& kept) {
+  std::vector<CaseRun> runs;
+  std::size_t looks = 1;
+  for (const PlannedCase& planned : plan.cases) {
+    CaseRun& run = runs.emplace_back(CaseRun{.planned = &planned, .experiment = planned.experiment});
+    run.report = {.name = planned.what.name,
+                  .inputs = planned.inputs,
+                  .not_compared = obstacle_to_comparison(planned, plan),
+                  .gates = planned.gates.size()};
+    plan_looks(arguments, run.report.not_compared, run);
+    looks = std::max(looks, run.looks.size());
+  }
+  for (std::size_t look = 0; look < looks; ++look) {
+    const auto faults = drive(plan, arguments, look, runs, kept);
+    for (CaseRun& run : runs)
+      if (!run.is_done) judge_look(plan, out, look, faults, kept, run);
+  }
+  std::vector<CaseReport> reports;
+  for (CaseRun& run : runs) reports.push_back(std::move(run.report));
+  return reports;
+}
+
+}  // namespace stereobench::harness

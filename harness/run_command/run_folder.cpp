@@ -1,0 +1,38 @@
+#include "harness/run_command/run_folder.h"
+
+#include <utility>
+
+#include "harness/commands/kept_drives.h"
+#include "harness/dataset/draws_file.h"
+#include "harness/experiment/filter_config.h"
+#include "harness/io/atomic_file.h"
+
+namespace stereobench::harness {
+
+RunFolder::RunFolder(std::filesystem::path out, const ScenarioArguments& arguments,
+                     const Experiment& experiment, std::string pixels)
+    : out_(std::move(out)),
+      arguments_(arguments),
+      experiment_(experiment),
+      pixels_(std::move(pixels)),
+      output_(out_, RunTally(experiment.scenario.name, rendered_by(experiment.scenario, arguments.backend))) {
+}
+
+void RunFolder::add(const SeedResult& seed) {
+  output_.add(seed);
+  if (seed.log) logs_.push_back(*seed.log);
+}
+
+RunResult RunFolder::finish() {
+  const worlds::Scenario& scenario = experiment_.scenario;
+  RunResult result = output_.result();
+  result.noise = check_noise(logs_, filter_config(experiment_), arguments_.run.jobs);
+  warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
+  result.made_from = provenance_of(arguments_, {}, experiment_, pixels_);
+  output_.write(result, scenario.world.walls);
+  const std::string draws = draws_jsonl(scenario, experiment_.seeds);
+  if (!draws.empty()) write_file_atomically(out_ / "draws.jsonl", draws);
+  return result;
+}
+
+}  // namespace stereobench::harness

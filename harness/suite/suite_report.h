@@ -1,0 +1,26 @@
+/// A suite's cases for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/regression/junit.h"
+#include "harness/suite/case_report.h"
+
+namespace stereobench::harness {
+
+/// A table with one row a case, and below it what is to be said of those that did not pass.
+std::string suite_text(const std::vector<CaseReport>& cases);
+
+/// The same as a page for pull requests, in Markdown.
+std::string suite_page(const std::string& suite, const std::vector<CaseReport>& cases);
+
+/// The content of test.json: no time, path or host in it.
+nlohmann::ordered_json suite_json(const std::string& suite, const std::vector<CaseReport>& cases);
+
+/// One JUnit suite a case, with a test case a metric, a gate, a picture; a case that broke down is one error.
+std::vector<JunitSuite> suite_junit(const std::string& suite, const std::vector<CaseReport>& cases);
+
+}  // namespace stereobench::harness

@@ -1,0 +1,164 @@
+/// `test` and `bless`: a baseline comes into being, holds, and is not written by anything else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/harness/regression_commands/tiny_suite.h"
+
+namespace stereobench::harness {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const char* const kField = "  - {name: field, scenario: field.yaml}\n";
+const char* const kBaselineOfField = "tiny.baseline/field.json";
+
+/// Makes all errors of the baseline smaller: what is tested looks worse.
+void flatter(TinySuite& suite, double factor) {
+  auto json = nlohmann::ordered_json::parse(bytes_of(suite.path(kBaselineOfField)));
+  for (auto& value : json["per_seed"]["filters.iekf.ate_rms_m"]) value = factor * value.get<double>();
+  suite.folder().write(kBaselineOfField, json.dump());
+}
+
+// Mutations: a missing baseline that passes; `test` that writes what is missing; a comparison of the means
+// alone.
+TEST(TestCommand, HoldsASuiteAgainstWhatWasBlessed) {
+  TinySuite suite(kField);
+  const Outcome first = suite.test();
+  EXPECT_EQ(first.exit_code, 5) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("NO BASELINE"), HasSubstr("stereobench bless")));
+  EXPECT_FALSE(suite.has("tiny.baseline"));
+  const Outcome blessed = suite.bless();
+  EXPECT_EQ(blessed.exit_code, 0) << blessed.err;
+  const std::string baseline = bytes_of(suite.path(kBaselineOfField));
+  EXPECT_THAT(baseline, AllOf(HasSubstr("because it is good"), HasSubstr("\"filters.iekf.ate_rms_m\": [")));
+  EXPECT_THAT(baseline, Not(HasSubstr(suite.path(""))));
+  const Outcome second = suite.test();
+  EXPECT_EQ(second.exit_code, 0) << second.out << second.err;
+  flatter(suite, 0.5);
+  const std::string flattered = bytes_of(suite.path(kBaselineOfField));
+  const Outcome worse = suite.test({"--junit", suite.path("junit.xml"), "--markdown", suite.path("page.md")});
+  EXPECT_EQ(worse.exit_code, 1);
+  EXPECT_THAT(worse.out, AllOf(HasSubstr("REGRESSED"), HasSubstr("filters.iekf.ate_rms_m")));
+  EXPECT_THAT(bytes_of(suite.path("junit.xml")),
+              AllOf(HasSubstr("classname=\"tiny.field\""), HasSubstr("type=\"REGRESSED\"")));
+  EXPECT_THAT(bytes_of(suite.path("page.md")), HasSubstr("| filters.iekf.ate_rms_m | REGRESSED"));
+  EXPECT_EQ(bytes_of(suite.path(kBaselineOfField)), flattered);
+  flatter(suite, 4.0);
+  EXPECT_EQ(suite.test().exit_code, 0);
+  EXPECT_EQ(suite.test({"--strict"}).exit_code, 6);
+}
+
+// Mutations: hashes of inputs that are not compared; seeds or filters among the inputs.
+TEST(TestCommand, DoesNotCompareWhatIsOfOtherInputs) {
+  TinySuite suite(kField);
+  suite.test();
+  suite.bless();
+  std::string other = kTinyField;
+  other.replace(other.find("range_sd_m: 0.05"), 16, "range_sd_m: 0.06");
+  suite.folder().write("field.yaml", other);
+  const Outcome outcome = suite.test();
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.out, HasSubstr("is of another scenario"));
+  suite.folder().write("field.yaml", std::string("# a comment\n") + kTinyField);
+  EXPECT_EQ(suite.test().exit_code, 0);
+  suite.folder().write("tiny.yaml",
+                       "suite: tiny\ncases:\n  - {name: field, scenario: field.yaml, seeds: 3..7}\n");
+  EXPECT_EQ(suite.test().exit_code, 0);
+}
+
+// Mutations: each refusal of `check` left out.
+TEST(BlessCommand, RefusesWhatIsNoBaseline) {
+  TinySuite suite(kField);
+  EXPECT_THAT(suite.bless().err, HasSubstr("places.json"));
+  suite.test({"--seeds", "0..1"});
+  const Outcome partial = suite.bless();
+  EXPECT_EQ(partial.exit_code, 2);
+  EXPECT_THAT(partial.err, HasSubstr("8 of the 10 seeds that the suite asks for were not run"));
+  suite.test();
+  EXPECT_EQ(run_stereobench({"bless", suite.path("out")}).exit_code, 2);
+  EXPECT_THAT(suite.bless({"--only", "nothing"}).err, HasSubstr("--only"));
+  EXPECT_EQ(suite.bless().exit_code, 0);
+  flatter(suite, 0.97);
+  suite.test();
+  const Outcome undecided = suite.bless();
+  EXPECT_EQ(undecided.exit_code, 0) << "a change of 3 % on each seed lies within the margin of 5 %";
+  std::filesystem::remove(suite.path("out/test.json"));
+  EXPECT_THAT(suite.bless().err, HasSubstr("did not end"));
+}
+
+TEST(BlessCommand, RefusesAResultThatIsNotDecided) {
+  TinySuite suite(kField);
+  suite.test();
+  suite.bless();
+  auto json = nlohmann::ordered_json::parse(bytes_of(suite.path(kBaselineOfField)));
+  auto& errors = json["per_seed"]["filters.iekf.ate_rms_m"];
+  errors[3] = 10.0 * errors[3].get<double>();
+  const std::string odd = json.dump();
+  suite.folder().write(kBaselineOfField, odd);
+  EXPECT_EQ(suite.test().exit_code, 0);
+  EXPECT_EQ(suite.test({"--strict"}).exit_code, 3);
+  const Outcome refused = suite.bless();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("inconclusive"));
+  EXPECT_EQ(bytes_of(suite.path(kBaselineOfField)), odd);
+  EXPECT_EQ(suite.bless({"--undecided"}).exit_code, 0);
+  EXPECT_EQ(suite.test({"--strict"}).exit_code, 0);
+}
+
+TEST(BlessCommand, RefusesABrokenGate) {
+  TinySuite suite(
+      "  - {name: field, scenario: field.yaml, gates: [{metric: filters.iekf.failures, at_least: 1}]}\n");
+  const Outcome outcome = suite.test();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("gate broken: filters.iekf.failures is 0"));
+  EXPECT_THAT(suite.bless().err, HasSubstr("a gate is broken"));
+}
+
+// A blessing without a change is none: version control shows no difference.
+TEST(BlessCommand, LeavesEqualBaselinesAlone) {
+  TinySuite suite(kField);
+  suite.test();
+  suite.bless();
+  const std::string before = bytes_of(suite.path(kBaselineOfField));
+  suite.test();
+  const Outcome again = run_stereobench({"bless", suite.path("out"), "--reason", "another reason"});
+  EXPECT_THAT(again.out, HasSubstr("unchanged"));
+  EXPECT_EQ(bytes_of(suite.path(kBaselineOfField)), before);
+}
+
+// Mutation: a loop that stops at the first look.
+TEST(TestCommand, RunsSeedsUntilTheyDecide) {
+  TinySuite suite("  - {name: field, scenario: field.yaml, seeds: 0..39, metrics: [filters.*.ate_rms_m]}\n");
+  suite.test();
+  suite.bless();
+  const Outcome equal = suite.test({"--until-decided"});
+  EXPECT_EQ(equal.exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(suite.path("out/test.json")))["cases"][0]["looks"].size(), 1u);
+  auto json = nlohmann::ordered_json::parse(bytes_of(suite.path(kBaselineOfField)));
+  auto& errors = json["per_seed"]["filters.iekf.ate_rms_m"];
+  for (std::size_t i = 0; i < errors.size(); i += 2) errors[i] = 2.0 * errors[i].get<double>();
+  for (std::size_t i = 1; i < errors.size(); i += 2) errors[i] = 0.5 * errors[i].get<double>();
+  suite.folder().write(kBaselineOfField, json.dump());
+  const Outcome odd = suite.test({"--until-decided", "--max-seeds", "20"});
+  EXPECT_THAT(odd.out, AllOf(HasSubstr("look at 10 seeds, alpha 0.005: 1 inconclusive"),
+                             HasSubstr("look at 20 seeds, alpha 0.005: 1 inconclusive")));
+}
+
+// A seed of both cases: one drive, and results as without the other. Mutation: a key of pictures with the
+// filters in it (the test of shared pictures is red, not this one).
+TEST(TestCommand, CasesGiveTheSameAsIfTheyWereAlone) {
+  const std::string cases =
+      "  - {name: one, scenario: room.yaml}\n"
+      "  - {name: two, scenario: room.yaml, filters: [smoother], set: [odometry_noise.v_constant_mps=0.1]}\n";
+  TinySuite suite(cases);
+  suite.test();
+  const std::string together = bytes_of(suite.path("out/two/run.json"));
+  suite.test({"--only", "two", "--jobs", "1"});
+  EXPECT_EQ(bytes_of(suite.path("out/two/run.json")), together);
+}
+
+}  // namespace
+}  // namespace stereobench::harness
