@@ -77,7 +77,8 @@ int compare(CompareArguments arguments) {
   const ResultComparison comparison =
       compare_results(first.seeds, second.seeds, settings, changes ? counts_of(*changes) : PairedCounts{});
   const std::string detections =
-      changes ? changes_text(*changes, is_worse(comparison, "vision.range_rms_m")) : "";
+      changes ? changes_text(*changes, is_worse(comparison, "vision.range_rms_m"), arguments.second.string())
+              : "";
   write_files(arguments, comparison, changes, second.scenario, detections);
   fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,
              first.seeds.seeds.size(), arguments.second.string(), second.scenario, second.seeds.seeds.size());
