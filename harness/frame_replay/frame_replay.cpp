@@ -22,15 +22,6 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-void check_step(const worlds::Scenario& scenario, const FrameName& frame) {
-  if (scenario.sensor != worlds::SensorKind::kStereo)
-    throw std::runtime_error(
-        fmt::format("the sensor of {} is the oracle, which has no pictures", scenario.name));
-  if (frame.step >= scenario.path.size())
-    throw std::runtime_error(fmt::format("the drive of {} has the steps 0 to {} (got {})", scenario.name,
-                                         scenario.path.size() - 1, frame.step));
-}
-
 ReplayedFrame replayed(std::uint64_t seed, const FrameEvent& event, const worlds::CameraSensor& camera) {
   return {.name = {seed, event.step},
           .world = event.world,
@@ -58,15 +49,27 @@ std::vector<ReplayedFrame> replay_seed(const Experiment& experiment, std::uint64
   record(experiment, seed, listeners, backend, {}, meshes.forms());
   auto seen = frames.begin();
   for (const std::size_t step : steps) {
-    if (seen == frames.end() || seen->name.step != step)
-      throw std::runtime_error(
-          fmt::format("seed {} step {}: the shutter drops this frame, it has no pictures", seed, step));
+    if (seen == frames.end() || seen->name.step != step) refuse_dropped({seed, step});
     ++seen;
   }
   return frames;
 }
 
 }  // namespace
+
+void require_frame(const worlds::Scenario& scenario, const FrameName& frame) {
+  if (scenario.sensor != worlds::SensorKind::kStereo)
+    throw std::runtime_error(
+        fmt::format("the sensor of {} is the oracle, which has no pictures", scenario.name));
+  if (frame.step >= scenario.path.size())
+    throw std::runtime_error(fmt::format("the drive of {} has the steps 0 to {} (got {})", scenario.name,
+                                         scenario.path.size() - 1, frame.step));
+}
+
+void refuse_dropped(const FrameName& frame) {
+  throw std::runtime_error(fmt::format("seed {} step {}: the shutter drops this frame, it has no pictures",
+                                       frame.seed, frame.step));
+}
 
 Experiment experiment_of(const Invocation& invocation, renderer::MeshCache& meshes) {
   Experiment experiment = read_experiment(invocation.scenario, invocation.overrides, meshes.occluders());
@@ -82,7 +85,7 @@ std::vector<ReplayedFrame> replay_frames(const Experiment& experiment, std::span
                                          bool with_before) {
   std::map<std::uint64_t, Steps> steps_of_seeds;
   for (const FrameName& frame : frames) {
-    check_step(experiment.scenario, frame);
+    require_frame(experiment.scenario, frame);
     steps_of_seeds[frame.seed].insert(frame.step);
   }
   std::vector<ReplayedFrame> replayed_frames;

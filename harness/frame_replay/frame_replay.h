@@ -30,6 +30,12 @@ struct ReplayedFrame {
   std::string rows;  ///< its lines of detections.csv
 };
 
+/// @throws std::runtime_error where the sensor has no pictures, or the drive has no such step
+void require_frame(const worlds::Scenario& scenario, const FrameName& frame);
+
+/// @throws std::runtime_error that says that the shutter drops a frame
+[[noreturn]] void refuse_dropped(const FrameName& frame);
+
 /// The experiment that a result is of, as read_experiment reads it. Its detector is called from the folder
 /// from which the run called it, as long as that is there.
 /// @param meshes outlives what is done with the experiment
