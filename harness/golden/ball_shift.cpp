@@ -74,11 +74,10 @@ Eigen::Vector2d centre_of(const cv::Mat& mask) {
   return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-/// Where a ball is or was, and two pixels around it; not where smoothing reaches beyond the picture's border.
+/// Where a ball is or was, and two pixels around it.
 cv::Mat around(const cv::Mat& one, const cv::Mat& other) {
   cv::Mat mask;
   cv::dilate(one | other, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
-  cv::rectangle(mask, {0, 0}, {mask.cols - 1, mask.rows - 1}, cv::Scalar::all(0), 2 * kKernelRadius_px - 1);
   return mask;
 }
 

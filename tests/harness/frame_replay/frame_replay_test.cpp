@@ -69,8 +69,11 @@ TEST(FrameReplay, CallsAProgramFromWhereTheRunDid) {
   const std::string lines =
       lines_of_run(short_invocation({"detector=/usr/bin/python3 '" + root + kBlobs + "'"}), 1);
   EXPECT_NE(lines, lines_of_run(short_invocation(), 1));
-  Invocation relative = short_invocation({std::string("detector=/usr/bin/python3 .") + kBlobs});
-  relative.folder = root;
+  const TestFolder folder;
+  fs::create_directory(folder.path() / "it's here");
+  fs::copy_file(root + kBlobs, folder.path() / "it's here/blobs.py");
+  Invocation relative = short_invocation({"detector=/usr/bin/python3 blobs.py"});
+  relative.folder = folder.path() / "it's here";
   std::vector<FrameName> names;
   for (std::size_t step = 0; step < 7; ++step) names.push_back({1, step});
   std::string lines_now;
