@@ -184,6 +184,12 @@ TEST_F(ResultFolder, MayBeAskedForWithAScenarioThatMoved) {
 }
 
 TEST_F(ResultFolder, OfWhichSomethingIsMissingIsRefused) {
+  folder_.write("out/run.json", "{}");
+  EXPECT_THAT(refusal(), HasSubstr("run.json: expected \"made_from\""));
+  folder_.write("out/run.json", R"({"made_from": 3})");
+  EXPECT_THAT(refusal(), HasSubstr("run.json: made_from: expected"));
+  folder_.write("out/run.json", R"({"made_from": {"scenario_sha256": "x", "files_sha256": []}})");
+  EXPECT_THAT(refusal(), HasSubstr("made_from.files_sha256: expected an object"));
   folder_.write("out/invocation.json",
                 R"({"scenario": "/a", "folder": "/b", "overrides": 3, "backend": "egl"})");
   EXPECT_THAT(refusal(), HasSubstr("invocation.json: overrides: expected a list"));
