@@ -49,7 +49,7 @@ status=0
 wait "$other" || status=$?
 [ "$status" -eq 0 ] || exit 2
 # Times differ from run to run, and where a command prints one the line names its seconds.
-find "$place" \( -name timing.json -o -name '*.err' \) -delete
+find "$place" \( -name timing.json -o -name invocation.json -o -name '*.err' \) -delete
 sed -i -E '/ [0-9.]+ m?s\b.*(took|second|pair)|seconds/d' "$place"/*/*.out
 if ! diff -rq "$place/before" "$place/after"; then
   [ -z "${KEEP:-}" ] || cp -r "$place" "$KEEP"

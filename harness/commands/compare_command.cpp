@@ -66,7 +66,8 @@ int compare(CompareArguments arguments) {
   for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
   const StoredResult first = read_result(arguments.first);
   const StoredResult second = read_result(arguments.second);
-  const Judgement judgement = judge(first.seeds, second.seeds, settings, balls_of(first, second));
+  const Judgement judgement =
+      judge(first.seeds, second.seeds, settings, balls_of(first, second), arguments.second.string());
   const ResultComparison& comparison = judgement.comparison;
   write_files(arguments, judgement, second.scenario);
   fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,

@@ -38,14 +38,6 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
 
 }  // namespace
 
-std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& scenario,
-                                                         const std::vector<std::string>& overrides) {
-  std::map<std::string, std::string> hashes;
-  for (const std::string& name : files_named_in(scenario, overrides))
-    hashes[name] = sha256_of_file(scenario.parent_path() / name);
-  return hashes;
-}
-
 std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend) {
   if (scenario.sensor != worlds::SensorKind::kStereo) return {};
   const Task look = [&](std::size_t, const auto&) {
@@ -60,6 +52,10 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
   const std::filesystem::path& file = arguments.scenario;
   const auto overrides = all_overrides(arguments, more_overrides, experiment);
   Provenance provenance{.scenario = with_overrides(file, overrides), .set = arguments.overrides};
+  provenance.invocation = Invocation{.scenario = std::filesystem::absolute(file),
+                                     .overrides = overrides,
+                                     .folder = std::filesystem::current_path(),
+                                     .backend = arguments.backend};
   provenance.set.insert(provenance.set.end(), more_overrides.begin(), more_overrides.end());
   provenance.files = hashes_of_named_files(file, overrides);
   if (experiment.scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;

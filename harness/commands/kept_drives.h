@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,6 @@ namespace stereobench::harness {
 /// The fingerprint of the pixels that a scenario's cameras get here; empty for a sensor without pixels. It is
 /// found in a process of its own: this one shall have no GL context when it forks.
 std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend);
-
-/// SHA-256 of each file that a scenario names, by that name.
-std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& scenario,
-                                                         const std::vector<std::string>& overrides);
 
 /// What an experiment was read from.
 /// @param experiment as read_experiment gives it for the same arguments

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "harness/experiment/experiment.h"
+#include "harness/io/sha256.h"
 #include "worlds/scenario/write_scenario.h"
 #include "worlds/yaml/parse_yaml.h"
 
@@ -40,6 +41,14 @@ std::set<std::string> files_named_in(const std::filesystem::path& file,
   std::set<std::string> files;
   gather_files(worlds::load_yaml(file, overrides, experiment_keys()).root, files);
   return files;
+}
+
+std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& file,
+                                                         const std::vector<std::string>& overrides) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& name : files_named_in(file, overrides))
+    hashes[name] = sha256_of_file(file.parent_path() / name);
+  return hashes;
 }
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,5 +38,10 @@ std::string without_keys(const std::string& scenario, const std::set<std::string
 /// @throws std::runtime_error as load_yaml
 std::set<std::string> files_named_in(const std::filesystem::path& file,
                                      const std::vector<std::string>& overrides);
+
+/// SHA-256 of each of these files, by its name there.
+/// @throws std::runtime_error as load_yaml, and when a file cannot be read
+std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& file,
+                                                         const std::vector<std::string>& overrides);
 
 }  // namespace stereobench::harness

@@ -217,7 +217,7 @@ PairedCounts counts_of(const DetectionChanges& changes) {
   return {{"vision.recall", {changes.found, true}}, {"vision.misidentified", {changes.misidentified, false}}};
 }
 
-std::string changes_text(const DetectionChanges& changes, bool range_errors_grew) {
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew, const std::string& second) {
   std::string text;
   if (changes.unpaired > 0)
     text += fmt::format(
@@ -241,7 +241,11 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   if (range_errors_grew && changes.misplaced_slice && !changes.misplaced_slice->conditions.empty())
     text +=
         "  nine tenths of the growth of squared range errors: " + slice_text(*changes.misplaced_slice) + "\n";
-  if (!changes.frames.empty()) text += "frames that changed most: " + frames_text(changes.frames) + "\n";
+  if (changes.frames.empty()) return text;
+  text += "frames that changed most: " + frames_text(changes.frames) + "\n";
+  const ChangedFrame& worst = changes.frames.front();
+  text +=
+      fmt::format("  look at it: stereobench replay '{}' --frame {}:{}\n", second, worst.seed, worst.frame);
   return text;
 }
 

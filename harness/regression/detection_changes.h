@@ -64,7 +64,9 @@ PairedCounts counts_of(const DetectionChanges& changes);
 
 /// Some lines for people; empty where nothing changed.
 /// @param range_errors_grew significantly: then it is said where
-std::string changes_text(const DetectionChanges& changes, bool range_errors_grew);
+/// @param second where B lies, for the command that renders the worst frame again
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew,
+                         const std::string& second = "B");
 
 /// The same for programs.
 nlohmann::ordered_json changes_json(const DetectionChanges& changes);

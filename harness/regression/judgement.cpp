@@ -14,14 +14,14 @@ bool is_worse(const ResultComparison& comparison, const std::string& metric) {
 }  // namespace
 
 Judgement judge(const SeedTable& first, const SeedTable& second, const VerdictSettings& settings,
-                const std::optional<PairedBalls>& balls) {
+                const std::optional<PairedBalls>& balls, const std::string& result) {
   Judgement judgement;
   if (balls) judgement.changes = detection_changes(*balls);
   judgement.comparison = compare_results(first, second, settings,
                                          judgement.changes ? counts_of(*judgement.changes) : PairedCounts{});
   if (judgement.changes)
     judgement.detections =
-        changes_text(*judgement.changes, is_worse(judgement.comparison, "vision.range_rms_m"));
+        changes_text(*judgement.changes, is_worse(judgement.comparison, "vision.range_rms_m"), result);
   return judgement;
 }
 

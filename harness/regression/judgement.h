@@ -17,8 +17,9 @@ struct Judgement {
 
 /// Judges each metric, and says which detections changed.
 /// @param balls of both results; empty where one of them has no detections
+/// @param result the folder of the second one, for the command that shows a frame of it
 /// @throws std::runtime_error as compare_results
 Judgement judge(const SeedTable& first, const SeedTable& second, const VerdictSettings& settings,
-                const std::optional<PairedBalls>& balls);
+                const std::optional<PairedBalls>& balls, const std::string& result);
 
 }  // namespace stereobench::harness

@@ -87,8 +87,9 @@ void judge_case(const SuitePlan& plan, const fs::path& out, KeptDrives& kept, Ca
   const StoredResult now = read_result(folder);
   VerdictSettings& settings = run.report.settings = settings_of(run, plan.suite);
   drop_margins_of_nothing(planned.baseline->seeds, now.seeds, settings.margins);
-  run.report.judgement = judge(planned.baseline->seeds, now.seeds, settings,
-                               balls_of(findings_file(plan.baseline, planned.what.name), now));
+  run.report.judgement =
+      judge(planned.baseline->seeds, now.seeds, settings,
+            balls_of(findings_file(plan.baseline, planned.what.name), now), folder.string());
 }
 
 void note_look(std::size_t seeds, CaseRun& run) {

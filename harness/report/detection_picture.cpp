@@ -19,6 +19,8 @@ namespace {
 
 constexpr Colour kLine = {1.0, 1.0, 1.0, 1.0};
 constexpr Colour kShade = {0.0, 0.0, 0.0, 0.75};
+constexpr Colour kTrue = {0.337, 0.906, 0.914, 1.0};
+constexpr Colour kMissed = {1.0, 0.25, 0.1, 1.0};
 
 void check(const vision::StereoPair& pair, int max_width_px) {
   const bool alike = !pair.left.empty() && pair.left.size() == pair.right.size();
@@ -105,8 +107,9 @@ class LabelPlacer {
   std::vector<Box> taken_;
 };
 
-void draw_label(Canvas& canvas, LabelPlacer& placer, const Point& below, const std::string& label) {
-  const TextStyle style = {.size_px = 13.0, .colour = kLine};
+void draw_label(Canvas& canvas, LabelPlacer& placer, const Point& below, const std::string& label,
+                const Colour& colour = kLine) {
+  const TextStyle style = {.size_px = 13.0, .colour = colour};
   const Box box = placer.place(below, canvas.text_width_px(label, style) + 8.0, 17.0);
   const double right_px = box.left_px + box.width_px;
   const double bottom_px = box.top_px + box.height_px;
@@ -149,6 +152,31 @@ std::vector<Ring> rings_of(std::span<const vision::MeasuredOutline> outlines,
   return rings;
 }
 
+/// Draws the border of each true ball's pixels, and its label above.
+/// @param scale pixels of the picture per pixel of the camera's image
+void draw_truth(Canvas& canvas, const Box& box, double scale, const cv::Mat& ids,
+                std::span<const TrueBall> balls) {
+  canvas.clip_to(box);
+  LabelPlacer placer(box);
+  for (const TrueBall& ball : balls) {
+    std::vector<std::vector<cv::Point>> borders;
+    cv::findContours(ids == ball.id, borders, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    const Colour& colour = ball.is_missed ? kMissed : kTrue;
+    Point top = {0.0, box.top_px + box.height_px};
+    for (const std::vector<cv::Point>& border : borders) {
+      std::vector<Point> line;
+      for (const cv::Point& pixel : border)
+        line.push_back({box.left_px + scale * (pixel.x + 0.5), box.top_px + scale * (pixel.y + 0.5)});
+      line.push_back(line.front());
+      canvas.draw_line(line, {colour, 1.4});
+      for (const Point& point : line)
+        if (point.y_px < top.y_px) top = point;
+    }
+    if (!borders.empty()) draw_label(canvas, placer, {top.x_px, top.y_px - 23.0}, ball.label, colour);
+  }
+  canvas.clip_to({});
+}
+
 /// Draws rings on a camera's part of the picture.
 /// @param scale pixels of the picture per pixel of the camera's image
 void draw_side(Canvas& canvas, const Box& box, double scale, std::span<const Ring> rings) {
@@ -181,7 +209,8 @@ vision::StereoPair for_display(const vision::StereoPair& pair, const worlds::Cam
 }
 
 std::string draw_detection_picture(const vision::StereoPair& pair,
-                                   std::span<const vision::BallObservation> observations, int max_width_px) {
+                                   std::span<const vision::BallObservation> observations, int max_width_px,
+                                   const DrawnTruth& truth) {
   check(pair, max_width_px);
   const double scale = std::min(1.0, max_width_px / (2.0 * pair.left.cols));
   const cv::Mat both = side_by_side(pair, scale);
@@ -190,7 +219,10 @@ std::string draw_detection_picture(const vision::StereoPair& pair,
   for (const vision::Side side : {vision::Side::kLeft, vision::Side::kRight}) {
     const double left_px = side == vision::Side::kLeft ? 0.0 : side_width_px;
     const Box box = {left_px, 0.0, side_width_px, static_cast<double>(both.rows)};
-    draw_side(canvas, box, side_width_px / pair.left.cols, rings_of(observations, side));
+    const double drawn_scale = side_width_px / pair.left.cols;
+    draw_side(canvas, box, drawn_scale, rings_of(observations, side));
+    const bool is_left = side == vision::Side::kLeft;
+    draw_truth(canvas, box, drawn_scale, is_left ? truth.left_ids : truth.right_ids, truth.balls);
   }
   const std::vector<Point> seam = {{side_width_px, 0.0}, {side_width_px, static_cast<double>(both.rows)}};
   canvas.draw_line(seam, {kLine, 2.0});

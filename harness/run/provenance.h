@@ -2,10 +2,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "harness/frame_replay/invocation.h"
 
 namespace stereobench::harness {
 
@@ -14,6 +17,7 @@ struct Provenance {
   std::vector<std::string> set;              ///< what --set and --vary changed: "key=value"
   std::map<std::string, std::string> files;  ///< SHA-256 of each file that the scenario names, by that name
   std::string pixels;                        ///< the renderer's fingerprint; empty without pictures
+  std::optional<Invocation> invocation;      ///< with paths of this machine: never compared
 };
 
 /// The block `made_from` of run.json: version, hashes, what was changed. No path, host or time that the user

@@ -121,6 +121,8 @@ void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& 
   write_file_atomically(out_ / "timing.json",
                         timing_json(tally_.timing(), result.seeds.size()).dump(2) + "\n");
   if (result.made_from) write_file_atomically(out_ / kResolvedScenario, result.made_from->scenario);
+  if (result.made_from && result.made_from->invocation)
+    write_file_atomically(out_ / kInvocation, invocation_text(*result.made_from->invocation));
   write_file_atomically(out_ / "run.json", json_text(run_json(result)));
 }
 

@@ -52,8 +52,8 @@ class RunOutput {
   RunResult result() const;
 
   /// Writes steps.csv and detections.csv.gz under their names, map.png and error.png, frames/*.png,
-  /// timing.json, the resolved scenario and, last of all, run.json: where there is a run.json, the run is
-  /// complete.
+  /// timing.json, the resolved scenario, invocation.json and, last of all, run.json: where there is a
+  /// run.json, the run is complete.
   /// @param result of result(), with what it lacks
   /// @param walls drawn into the map
   /// @throws std::runtime_error when a file cannot be written

@@ -15,16 +15,11 @@ namespace stereobench::harness {
 namespace {
 
 void add_errors(const BallInPair& ball, const vision::BallObservation& observation, VisionScore& score) {
-  const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
-  const slam::RangeBearing& measured = observation.range_bearing;
-  const double true_bearing_rad = slam::arc_tangent(true_position.y(), true_position.x());
-  const Eigen::Vector2d error(measured.range_m - true_position.norm(),
-                              slam::wrap_angle(measured.bearing_rad - true_bearing_rad));
-  score.range_errors_m.push_back(error.x());
-  score.bearing_errors_rad.push_back(error.y());
+  const DetectionError error = detection_error(ball, observation);
+  score.range_errors_m.push_back(error.range_m);
+  score.bearing_errors_rad.push_back(error.bearing_rad);
   if (observation.has_pixels) score.disparity_errors_px.push_back(disparity_error_px(ball, observation));
-  const double squared = error.dot(measured.covariance.inverse() * error);
-  if (std::isfinite(squared)) score.normalised_errors.push_back(squared / 2.0);
+  if (std::isfinite(error.normalised)) score.normalised_errors.push_back(error.normalised);
 }
 
 double sorted_sum(std::vector<double> values) {
@@ -100,6 +95,15 @@ VisionScore& VisionScore::operator+=(const VisionScore& other) {
   append(normalised_errors, other.normalised_errors);
   rig += other.rig;
   return *this;
+}
+
+DetectionError detection_error(const BallInPair& ball, const vision::BallObservation& undistorted) {
+  const Eigen::Vector2d true_position = ball.ball_in_robot.head<2>();
+  const slam::RangeBearing& measured = undistorted.range_bearing;
+  const double true_bearing_rad = slam::arc_tangent(true_position.y(), true_position.x());
+  const Eigen::Vector2d error(measured.range_m - true_position.norm(),
+                              slam::wrap_angle(measured.bearing_rad - true_bearing_rad));
+  return {error.x(), error.y(), error.dot(measured.covariance.inverse() * error) / 2.0};
 }
 
 double disparity_error_px(const BallInPair& ball, const vision::BallObservation& undistorted) {

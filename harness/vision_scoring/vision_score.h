@@ -41,6 +41,16 @@ struct VisionScore {
 /// Scores the observations of one pair, judged by judge_detections().
 VisionScore score_match(const FrameMatch& match);
 
+/// Measured minus true, of one ball.
+struct DetectionError {
+  double range_m = 0.0;
+  double bearing_rad = 0.0;  ///< in (-pi, pi]
+  double normalised = 0.0;   ///< squared error in units of the stated covariance, over 2; 1 on average
+};
+
+/// @param undistorted of a MatchedObservation
+DetectionError detection_error(const BallInPair& ball, const vision::BallObservation& undistorted);
+
 /// Measured minus true. @param undistorted of a MatchedObservation @return NaN for one without pixels
 double disparity_error_px(const BallInPair& ball, const vision::BallObservation& undistorted);
 

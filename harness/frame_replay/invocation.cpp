@@ -1,0 +1,109 @@
+#include "harness/frame_replay/invocation.h"
+
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/experiment/write_experiment.h"
+#include "harness/io/sha256.h"
+#include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
+#include "renderer/backend.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostOverrides = 10'000;
+
+/// What a run's scenario was, as run.json has it.
+struct ScenarioHashes {
+  std::string scenario;
+  std::map<std::string, std::string> files;
+};
+
+/// Reads a file of JSON with a function of its value. @throws std::runtime_error "file: key: what was
+/// expected"
+template <class Read>
+auto read_json_file(const fs::path& file, const Read& read) {
+  try {
+    const nlohmann::json json = parse_line(read_text(file));
+    return read(JsonValue(json, ""), json);
+  } catch (const BadLine& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+Invocation invocation_of(const JsonValue& value) {
+  value.allow({"scenario", "folder", "overrides", "backend"});
+  Invocation invocation{.scenario = value.at("scenario").text(), .folder = value.at("folder").text()};
+  for (const JsonValue& entry : value.at("overrides").list(0, kMostOverrides))
+    invocation.overrides.push_back(entry.text());
+  try {
+    invocation.backend = renderer::backend_named(value.at("backend").text());
+  } catch (const std::runtime_error&) {
+    value.at("backend").refuse("the name of a back end");
+  }
+  return invocation;
+}
+
+ScenarioHashes hashes_in(const JsonValue& run, const nlohmann::json& json) {
+  const JsonValue made_from = run.at("made_from");
+  ScenarioHashes hashes{.scenario = made_from.at("scenario_sha256").text()};
+  const JsonValue files = made_from.at("files_sha256");
+  if (!json["made_from"]["files_sha256"].is_object()) files.refuse("an object");
+  for (const auto& [name, hash] : json["made_from"]["files_sha256"].items())
+    hashes.files[name] = JsonValue(hash, "made_from.files_sha256." + excerpt(name)).text();
+  return hashes;
+}
+
+void check_unchanged(const fs::path& result, const Invocation& invocation, const ScenarioHashes& hashes) {
+  const auto refuse = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{}: {} is not as it was when this result was made: run it again",
+                                         result.string(), what));
+  };
+  if (sha256_of(with_overrides(invocation.scenario, invocation.overrides)) != hashes.scenario)
+    refuse(fmt::format("the scenario {}", invocation.scenario.string()));
+  const auto now = hashes_of_named_files(invocation.scenario, invocation.overrides);
+  for (const auto& [name, hash] : hashes.files) {
+    const auto found = now.find(name);
+    if (found == now.end() || found->second != hash)
+      refuse(fmt::format("the file {} of {}", name, invocation.scenario.string()));
+  }
+}
+
+}  // namespace
+
+std::string invocation_text(const Invocation& invocation) {
+  using Json = nlohmann::ordered_json;
+  const Json json = {{"scenario", invocation.scenario.string()},
+                     {"folder", invocation.folder.string()},
+                     {"overrides", invocation.overrides},
+                     {"backend", renderer::name_of(invocation.backend)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Invocation read_invocation(const fs::path& result, const fs::path& scenario) {
+  const fs::path folder = fs::is_directory(result) ? result : result.parent_path();
+  const fs::path run = folder / "run.json", file = folder / kInvocation;
+  if (!fs::exists(run))
+    throw std::runtime_error(
+        fmt::format("{}: expected a folder with a run.json, which `run` writes last", result.string()));
+  if (!fs::exists(file))
+    throw std::runtime_error(
+        fmt::format("{}: has no {}, which `run` alone writes, and older versions did not: run it again",
+                    result.string(), kInvocation));
+  Invocation invocation =
+      read_json_file(file, [](const JsonValue& value, const auto&) { return invocation_of(value); });
+  if (!scenario.empty()) invocation.scenario = fs::absolute(scenario);
+  if (!fs::exists(invocation.scenario))
+    throw std::runtime_error(fmt::format("{}: the scenario {} is not there: --scenario says where it is now",
+                                         result.string(), invocation.scenario.string()));
+  check_unchanged(result, invocation, read_json_file(run, hashes_in));
+  return invocation;
+}
+
+}  // namespace stereobench::harness
