@@ -11,13 +11,21 @@
 #include "harness/experiment/filter_config.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
+#include "harness/result_pages/run_page.h"
 #include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr SeedParts kParts = {.steps = true, .map = true, .snapshots = 4, .log = true, .detections = true};
+constexpr SeedParts kParts = {
+    .steps = true, .map = true, .snapshots = 4, .log = true, .detections = true, .pairs = 12};
+
+ReportCommands report_commands(const ScenarioArguments& arguments) {
+  std::vector<std::string> render = {"stereobench", "render", arguments.scenario.string()};
+  for (const std::string& change : arguments.overrides) render.insert(render.end(), {"--set", change});
+  return {arguments.run.words, render};
+}
 
 int run(const ScenarioArguments& arguments) {
   const Experiment experiment = read_experiment(arguments);
@@ -46,7 +54,10 @@ int run(const ScenarioArguments& arguments) {
   result.noise = check_noise(logs, filter_config(experiment), arguments.run.jobs);
   warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
   result.made_from = provenance_of(arguments, {}, experiment, pixels);
-  output.write(result, scenario.world.walls);
+  const RunStory story = {report_commands(arguments), gates, scenario.world.walls, scenario.rig};
+  output.write(result, scenario.world.walls, [&](const RunResult& run, const RunCurves& curves) {
+    write_run_report(out, run, curves, story);
+  });
   const std::string draws = draws_jsonl(scenario, experiment.seeds);
   if (!draws.empty()) write_file_atomically(out / "draws.jsonl", draws);
   kept.discard();
@@ -74,7 +85,10 @@ void add_run_command(CLI::App& program, Action& action) {
       "Exits with 1 when a gate of the scenario is broken.\n\n"
       "Example: stereobench run assets/scenarios/ball_circle.yaml --seeds 0..9 --set "
       "camera.noise_sd_levels=4");
-  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->run.words = words_of(*command);
+    action = [arguments] { return run(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

@@ -42,6 +42,8 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress) {
   SeedDrive drive{.seed = task.seed};
+  WorstPairs worst(task.parts.pairs);
+  const worlds::CameraSensor& camera = task.experiment->scenario.camera;
   Listeners listeners;
   listeners.on_progress = on_progress;
   listeners.on_frame = [&](const FrameEvent& event) {
@@ -49,10 +51,12 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
       drive.detections += detection_rows({task.seed, event.step, event.world, event.rig}, event.match);
     if (is_snapshot_step(event.step, task.parts.snapshots, task.experiment->scenario.path.size()))
       drive.snapshots.push_back(
-          {event.step, draw_detection_picture(for_display(event.pair, task.experiment->scenario.camera),
-                                              event.observations)});
+          {event.step, draw_detection_picture(for_display(event.pair, camera), event.observations)});
+    worst.offer({task.seed, event.step, badness_of(score_match(event.match)), {}, {}},
+                [&](KeptPair& kept) { keep_pictures(kept, for_display(event.pair, camera)); });
   };
   drive.recording = record(*task.experiment, task.seed, listeners, task.backend, task.detector);
+  drive.pairs = worst.pairs();
   const slam::FilterConfig config = filter_config(*task.experiment);
   const worlds::Scenario& scenario = task.experiment->scenario;
   MeasurementLog& log = drive.recording.log;

@@ -1,0 +1,119 @@
+/** Draws the interval of each point. */
+const intervals = {
+  id: 'intervals',
+  beforeDatasetDraw(chart, {index}) {
+    const dataset = chart.data.datasets[index];
+    if (!dataset.intervals || !chart.isDatasetVisible(index)) return;
+    const {ctx, scales: {x, y}, chartArea} = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(chartArea.left, chartArea.top, chartArea.width, chartArea.height);
+    ctx.clip();
+    ctx.strokeStyle = dataset.borderColor;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    for (const [at, low, high] of dataset.intervals) {
+      if (low === null || high === null) continue;
+      const px = x.getPixelForValue(at);
+      const [from, to] = [y.getPixelForValue(low), y.getPixelForValue(high)];
+      ctx.moveTo(px, from);
+      ctx.lineTo(px, to);
+      for (const end of [from, to]) {
+        ctx.moveTo(px - 4, end);
+        ctx.lineTo(px + 4, end);
+      }
+    }
+    ctx.stroke();
+    ctx.restore();
+  },
+};
+
+function points(x, y, logarithmic) {
+  return x.map((at, i) => ({x: at, y: logarithmic && !(y[i] > 0) ? null : y[i]}));
+}
+
+/** A band is two lines, the second of which is filled down to the first. */
+function bandDatasets(series, chart, colour) {
+  const line = (y, more) => ({
+    label: series.name, data: points(series.x, y, chart.log_y), borderColor: 'transparent', pointRadius: 0,
+    pointHitRadius: 0, spanGaps: false, ...more});
+  return [line(series.low, {hiddenInLegend: true, fill: false}),
+          line(series.high, {fill: '-1', backgroundColor: `${colour}38`})];
+}
+
+function datasetsOf(series, chart) {
+  const {colour, dash} = look(series.name);
+  if (series.look === 'band') return bandDatasets(series, chart, colour);
+  const isPoints = series.look === 'points';
+  const many = series.x.length > 300;
+  return [{
+    label: series.name, data: points(series.x, series.y, chart.log_y), borderColor: colour,
+    backgroundColor: isPoints && many ? `${colour}88` : colour, showLine: !isPoints, borderWidth: 2,
+    pointRadius: isPoints ? (many ? 1.5 : 3.5) : 0, pointHitRadius: 6, spanGaps: false,
+    borderDash: series.look === 'dashes' ? [4, 4] : isPoints ? [] : dash,
+    intervals: series.low.length > 0 ? series.x.map((at, i) => [at, series.low[i], series.high[i]]) : null,
+  }];
+}
+
+/** Ticks of a logarithmic axis: 1, 2 and 5 of each power of ten. */
+function logarithmicTick(value) {
+  const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
+  return [1, 2, 5].includes(digit) ? shown(value) : null;
+}
+
+function axis(title, logarithmic, names) {
+  const made = {
+    type: logarithmic ? 'logarithmic' : 'linear', title: {display: true, text: title, color: paint('ink')},
+    grid: {color: paint('line'), borderColor: paint('faint')}, ticks: {color: paint('faint'), maxRotation: 60}};
+  if (logarithmic) made.ticks.callback = logarithmicTick;
+  if (names.length > 0) {
+    Object.assign(made, {min: -0.5, max: names.length - 0.5, afterBuildTicks: (scale) => {
+      scale.ticks = names.map((_, i) => ({value: i}));
+    }});
+    made.ticks.callback = (value) => names[value] ?? null;
+    made.ticks.autoSkip = false;
+  }
+  return made;
+}
+
+function configuration(chart) {
+  return {
+    type: 'line', plugins: [intervals],
+    data: {datasets: chart.series.flatMap((series) => datasetsOf(series, chart))},
+    options: {
+      animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
+      interaction: {mode: 'nearest', intersect: false},
+      scales: {x: {...axis(chart.x, chart.log_x, chart.x_names)}, y: axis(chart.y, chart.log_y, [])},
+      plugins: {
+        legend: {position: 'bottom', labels: {
+          color: paint('ink'), boxWidth: 26, boxHeight: 2,
+          filter: (item, data) => !data.datasets[item.datasetIndex].hiddenInLegend}},
+        tooltip: {callbacks: {
+          title: ([item]) => item && `${chart.x}: ${chart.x_names[item.parsed.x] ?? shown(item.parsed.x)}`,
+          label: (item) => `${item.dataset.label}: ${shown(item.parsed.y)}`}},
+      },
+    },
+  };
+}
+
+function chartsView(content) {
+  const canvas = element('canvas', {role: 'img'});
+  const view = element('div', {});
+  const place = element('div', {class: 'chart'}, canvas);
+  let chosen = content.charts[0];
+  let drawn = null;
+  const draw = () => {
+    drawn?.destroy();
+    canvas.setAttribute('aria-label', chosen.words);
+    drawn = new Chart(canvas, configuration(chosen));
+  };
+  if (content.charts.length > 1)
+    view.append(element('div', {class: 'tools'}, choice('which chart', content.charts.map(({name}) => name), (i) => {
+      chosen = content.charts[i];
+      draw();
+    })));
+  view.append(place);
+  redraws.push(draw);
+  whenPlaced.push(draw);
+  return view;
+}
