@@ -46,32 +46,9 @@ std::string signed_number(double value) {
   return fmt::format("{:+.3g}", value);
 }
 
-/// "+12 [+8, +17] %"
-std::string change_cell(const MetricVerdict& metric) {
-  if (!std::isfinite(metric.change)) return "-";
-  const double unit = unit_of_change(metric);
-  const auto in_unit = [unit](double value) { return signed_number(value / unit); };
-  return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
-                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
-}
-
-std::string margin_cell(const MetricVerdict& metric) {
-  if (!std::isfinite(metric.margin)) return "-";
-  const double unit = unit_of_change(metric);
-  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
-}
-
 /// "1 seed", "2 seeds"
 std::string counted(long count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-std::string note_cell(const MetricVerdict& metric) {
-  if (metric.verdict == Verdict::kVanished)
-    return fmt::format("no value on {}", counted(metric.lost, "seed"));
-  if (metric.test == ChangeTest::kExact) return "no chance in it";
-  if (metric.verdict != Verdict::kInconclusive) return "";
-  return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
 }
 
 AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
@@ -81,12 +58,36 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
   for (const MetricVerdict& metric : comparison.metrics) {
     if (metric.verdict == Verdict::kPass && !all) continue;
     table.rows.push_back({metric.metric, text_of(metric.verdict), format_number(metric.first_mean),
-                          format_number(metric.second_mean), metric.equal ? "equal" : change_cell(metric),
-                          margin_cell(metric),
+                          format_number(metric.second_mean), metric.equal ? "equal" : change_text(metric),
+                          margin_text(metric),
                           metric.test == ChangeTest::kNone ? "-" : fmt::format("{:.2g}", metric.p_holm),
-                          fmt::format("{}", metric.pairs), note_cell(metric)});
+                          fmt::format("{}", metric.pairs), note_text(metric)});
   }
   return table;
+}
+
+}  // namespace
+
+std::string change_text(const MetricVerdict& metric) {
+  if (!std::isfinite(metric.change)) return "-";
+  const double unit = unit_of_change(metric);
+  const auto in_unit = [unit](double value) { return signed_number(value / unit); };
+  return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
+                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
+}
+
+std::string margin_text(const MetricVerdict& metric) {
+  if (!std::isfinite(metric.margin)) return "-";
+  const double unit = unit_of_change(metric);
+  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
+}
+
+std::string note_text(const MetricVerdict& metric) {
+  if (metric.verdict == Verdict::kVanished)
+    return fmt::format("no value on {}", counted(metric.lost, "seed"));
+  if (metric.test == ChangeTest::kExact) return "no chance in it";
+  if (metric.verdict != Verdict::kInconclusive) return "";
+  return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
 }
 
 std::string not_judged_line(const ResultComparison& comparison) {
@@ -94,15 +95,13 @@ std::string not_judged_line(const ResultComparison& comparison) {
   return fmt::format("not judged, but different: {}\n", fmt::join(comparison.not_judged, ", "));
 }
 
-}  // namespace
-
 std::string change_line(const MetricVerdict& metric) {
   const std::string means =
       fmt::format("{} in A, {} in B", format_number(metric.first_mean), format_number(metric.second_mean));
   if (metric.equal) return means + ", equal on every seed";
-  const std::string note = note_cell(metric);
-  return fmt::format("{}; worse by {}, margin {}, p {:.2g} on {}{}", means, change_cell(metric),
-                     margin_cell(metric), metric.p_holm, counted(metric.pairs, "seed"),
+  const std::string note = note_text(metric);
+  return fmt::format("{}; worse by {}, margin {}, p {:.2g} on {}{}", means, change_text(metric),
+                     margin_text(metric), metric.p_holm, counted(metric.pairs, "seed"),
                      note.empty() ? "" : "; " + note);
 }
 

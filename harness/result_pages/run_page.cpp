@@ -12,6 +12,7 @@
 #include "harness/result_pages/detection_charts.h"
 #include "harness/result_pages/filter_blocks.h"
 #include "harness/result_pages/frame_panels.h"
+#include "harness/result_pages/gates_block.h"
 #include "harness/result_pages/map_block.h"
 #include "harness/vision_scoring/detection_table.h"
 
@@ -30,38 +31,6 @@ std::string line_of(std::vector<std::string> words, const std::vector<std::strin
 std::string render_line(const RunStory& story, const KeptPair& pair) {
   return line_of(story.commands.render,
                  {"--seeds", fmt::format("{}", pair.seed), "--frames", fmt::format("{}", pair.frame)});
-}
-
-Block gates_block(const std::vector<Gate>& gates, const nlohmann::ordered_json& json) {
-  PageTable table{.header = {"gate", "verdict", "value", "limit", "room"}};
-  for (const Gate& gate : gates) {
-    const std::optional<double> value = limited_value(json, gate);
-    const bool at_most = gate.relation == Gate::Relation::kAtMost;
-    const double room = !value ? std::nan("") : at_most ? gate.limit - *value : *value - gate.limit;
-    const bool holds = value && room >= 0.0;
-    const PageCell verdict{.text = holds ? "HOLDS" : "BROKEN",
-                           .number = holds ? 1.0 : 0.0,
-                           .mark = holds ? CellMark::kGood : CellMark::kBad};
-    const PageCell limit{
-        .text = fmt::format("{} {}", at_most ? "at most" : "at least", format_number(gate.limit)),
-        .number = gate.limit};
-    table.rows.push_back({{{.text = gate.metric},
-                           verdict,
-                           number_cell(value.value_or(std::nan(""))),
-                           limit,
-                           number_cell(room)}});
-  }
-  std::ranges::stable_sort(table.rows, {}, [](const PageRow& row) { return row.cells[1].number; });
-  const auto broken = std::ranges::count_if(
-      table.rows, [](const PageRow& row) { return row.cells[1].mark == CellMark::kBad; });
-  Block block{.title = "Gates", .note = fmt::format("{} of {} gates broken.", broken, gates.size())};
-  if (gates.empty()) {
-    block.note = "";
-    block.content = PageText{{"No gate limits this result."}};
-  } else {
-    block.content = std::move(table);
-  }
-  return block;
 }
 
 Block vision_block(const VisionScore& vision) {

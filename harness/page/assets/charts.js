@@ -42,14 +42,14 @@ function bandDatasets(series, chart, colour) {
 }
 
 function datasetsOf(series, chart) {
-  const {colour, dash} = look(series.name);
+  const {colour, dash, point} = look(series.name);
   if (series.look === 'band') return bandDatasets(series, chart, colour);
   const isPoints = series.look === 'points';
   const many = series.x.length > 300;
   return [{
     label: series.name, data: points(series.x, series.y, chart.log_y), borderColor: colour,
     backgroundColor: isPoints && many ? `${colour}88` : colour, showLine: !isPoints, borderWidth: 2,
-    pointRadius: isPoints ? (many ? 1.5 : 3.5) : 0, pointHitRadius: 6, spanGaps: false,
+    pointStyle: isPoints && !many ? point : 'circle', pointRadius: isPoints ? (many ? 1.5 : 4) : 0, pointHitRadius: 6, spanGaps: false,
     borderDash: series.look === 'dashes' ? [4, 4] : isPoints ? [] : dash,
     intervals: series.low.length > 0 ? series.x.map((at, i) => [at, series.low[i], series.high[i]]) : null,
   }];
@@ -58,13 +58,15 @@ function datasetsOf(series, chart) {
 /** Ticks of a logarithmic axis: 1, 2 and 5 of each power of ten. */
 function logarithmicTick(value) {
   const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
-  return [1, 2, 5].includes(digit) ? shown(value) : null;
+  if (![1, 2, 5].includes(digit)) return null;
+  return value < 1e-3 || value >= 1e5 ? value.toExponential(0) : shown(value);
 }
 
-function axis(title, logarithmic, names) {
+function axis(title, logarithmic, names, isX) {
   const made = {
     type: logarithmic ? 'logarithmic' : 'linear', title: {display: true, text: title, color: paint('ink')},
     grid: {color: paint('line'), borderColor: paint('faint')}, ticks: {color: paint('faint'), maxRotation: 60}};
+  if (isX) made.bounds = 'data';
   if (logarithmic) made.ticks.callback = logarithmicTick;
   if (names.length > 0) {
     Object.assign(made, {min: -0.5, max: names.length - 0.5, afterBuildTicks: (scale) => {
@@ -77,16 +79,19 @@ function axis(title, logarithmic, names) {
 }
 
 function configuration(chart) {
+  const allPoints = chart.series.every(({look: drawn}) => drawn === 'points');
   return {
     type: 'line', plugins: [intervals],
     data: {datasets: chart.series.flatMap((series) => datasetsOf(series, chart))},
     options: {
       animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
       interaction: {mode: 'nearest', intersect: false},
-      scales: {x: {...axis(chart.x, chart.log_x, chart.x_names)}, y: axis(chart.y, chart.log_y, [])},
+      scales: {x: axis(chart.x, chart.log_x, chart.x_names, true), y: axis(chart.y, chart.log_y, [], false)},
       plugins: {
         legend: {position: 'bottom', labels: {
-          color: paint('ink'), boxWidth: 26, boxHeight: 2,
+          color: paint('ink'), boxWidth: allPoints ? 8 : 26,
+          boxHeight: allPoints ? 8 : 2,
+          usePointStyle: allPoints,
           filter: (item, data) => !data.datasets[item.datasetIndex].hiddenInLegend}},
         tooltip: {callbacks: {
           title: ([item]) => item && `${chart.x}: ${chart.x_names[item.parsed.x] ?? shown(item.parsed.x)}`,

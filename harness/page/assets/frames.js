@@ -1,19 +1,25 @@
-function outline({corners, label, fate}, size) {
+/** Where a label is held so that it stays in the picture. */
+function anchor(x, width) {
+  return x < width / 8 ? 'start' : x > 7 * width / 8 ? 'end' : 'middle';
+}
+
+function outline({corners, label, fate}, size, width) {
   const points = pairs(corners);
   const drawn = [shape('polygon', {class: fate, points: points.map(([x, y]) => `${x + 0.5},${y + 0.5}`).join(' ')})];
   const top = points.reduce((least, point) => (point[1] < least[1] ? point : least), points[0]);
   if (label && top)
     drawn.push(shape('text', {class: 'label', x: top[0], y: top[1] - 0.4 * size, 'font-size': size,
-                              'text-anchor': 'middle'}, label));
+                              'text-anchor': anchor(top[0], width)}, label));
   return drawn;
 }
 
-function centre({at: [x, y], label, fate}, size) {
+function centre({at: [x, y], label, fate}, size, width) {
   const arm = 0.45 * size;
   const drawn = [shape('path', {class: fate, d: `M${x + 0.5 - arm} ${y + 0.5}h${2 * arm}M${x + 0.5} ${y + 0.5 - arm}v${
     2 * arm}`})];
   if (label)
-    drawn.push(shape('text', {class: 'label', x: x + 0.5 * size, y: y + 1.5 * size, 'font-size': size}, label));
+    drawn.push(shape('text', {class: 'label', x, y: y + 1.6 * size, 'font-size': size,
+                              'text-anchor': anchor(x, width)}, label));
   return drawn;
 }
 
@@ -21,8 +27,8 @@ function panelView(panel, content, title) {
   const [width, height] = [content.width_px, content.height_px];
   const size = width / 48;
   const drawing = shape('svg', {viewBox: `0 0 ${width} ${height}`, 'aria-hidden': 'true'},
-                        shape('g', {class: 'truth'}, ...panel.truth.flatMap((ball) => outline(ball, size))),
-                        shape('g', {class: 'seen'}, ...panel.detections.flatMap((seen) => centre(seen, size))));
+                        shape('g', {class: 'truth'}, ...panel.truth.flatMap((ball) => outline(ball, size, width))),
+                        shape('g', {class: 'seen'}, ...panel.detections.flatMap((seen) => centre(seen, size, width))));
   const view = element('div', {class: 'view'});
   if (panel.picture === null) {
     drawing.prepend(shape('text', {class: 'nothing', x: width / 2, y: height - size, 'font-size': size,

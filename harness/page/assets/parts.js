@@ -82,18 +82,27 @@ function paint(name) {
 const lookColours = [
   ['#0072b2', '#56b4e9'], ['#d55e00', '#ff8a3d'], ['#009e73', '#3ddbb0'], ['#cc79a7', '#e8a3c8'],
   ['#8a6d00', '#f0e442'], ['#56b4e9', '#9bd4f5']];
-const lookOf = new Map();  // by name: the same in all charts
-const greyNames = ['dead_reckoning', 'bound', 'honest', 'stated', '95 % band', 'no change'];
+const greyNames = ['dead_reckoning', 'bound', 'honest', '95 % band', 'no change'];
+const usualPlaces = {  // of what is no filter
+  A: 0, B: 1, 'B minus A': 0, 'single detections': 0, found: 0, rms: 1, mean: 1, 'mean, 95 % interval': 1};
+const pointStyles = ['circle', 'triangle', 'rect', 'rectRot', 'crossRot', 'star'];
+const lookOf = new Map();  // places of filters: the same in all charts
 
-/** How a name is drawn: {colour, dash}. */
+/** How a name is drawn: {colour, dash, point}. What follows a comma does not count. */
 function look(name) {
-  if (greyNames.includes(name))
-    return {colour: isDark() ? '#a3adb7' : '#6b7580', dash: name === 'dead_reckoning' ? [6, 4] : [2, 3]};
+  const base = name in usualPlaces ? name : name.split(', ')[0];
+  if (greyNames.includes(base))
+    return {colour: isDark() ? '#a3adb7' : '#6b7580', dash: base === 'dead_reckoning' ? [6, 4] : [2, 3],
+            point: 'circle'};
+  if (base in usualPlaces)
+    return {colour: lookColours[usualPlaces[base]][isDark() ? 1 : 0], dash: [], point: base === 'B' ? 'triangle' :
+      'circle'};
   if (!lookOf.has(name)) lookOf.set(name, lookOf.size);
   const place = lookOf.get(name);
   const dashes = [[], [8, 3], [2, 2]];
   return {colour: lookColours[place % lookColours.length][isDark() ? 1 : 0],
-          dash: dashes[Math.floor(place / lookColours.length) % dashes.length]};
+          dash: dashes[Math.floor(place / lookColours.length) % dashes.length],
+          point: pointStyles[place % pointStyles.length]};
 }
 
 /** A number for people. */

@@ -40,8 +40,7 @@ function tableView(content, title) {
   const rows = content.rows.map(({cells, quiet}) => {
     const row = element('tr', {}, ...cells.map((cell, column) => {
       const attributes = words[column] ? {class: 'words'} : {};
-      return column === 0 ? element('td', attributes, cellContent(cell)) :
-                            element('td', attributes, cellContent(cell));
+      return element('td', attributes, cellContent(cell));
     }));
     row.hidden = quiet;
     return {row, cells, quiet};
@@ -70,10 +69,13 @@ function tableView(content, title) {
     let open = false;
     const toggle = button('', () => {
       open = !open;
-      for (const {row} of quiet) row.hidden = !open;
       say();
     });
-    const say = () => { toggle.textContent = `${open ? 'Hide' : 'Show'} ${quiet.length} ${content.quiet}`; };
+    const say = () => {
+      for (const {row} of quiet) row.hidden = !open;
+      table.hidden = !open && quiet.length === rows.length;
+      toggle.textContent = `${open ? 'Hide' : 'Show'} ${quiet.length} ${content.quiet}`;
+    };
     say();
     view.append(element('div', {class: 'tools'}, toggle));
   }
