@@ -66,6 +66,11 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
   return table;
 }
 
+std::string not_judged_line(const ResultComparison& comparison) {
+  if (comparison.not_judged.empty()) return "";
+  return fmt::format("not judged, but different: {}\n", fmt::join(comparison.not_judged, ", "));
+}
+
 }  // namespace
 
 std::string change_text(const MetricVerdict& metric) {
@@ -88,11 +93,6 @@ std::string note_text(const MetricVerdict& metric) {
   if (metric.test == ChangeTest::kExact) return "no chance in it";
   if (metric.verdict != Verdict::kInconclusive) return "";
   return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
-}
-
-std::string not_judged_line(const ResultComparison& comparison) {
-  if (comparison.not_judged.empty()) return "";
-  return fmt::format("not judged, but different: {}\n", fmt::join(comparison.not_judged, ", "));
 }
 
 std::string change_line(const MetricVerdict& metric) {

@@ -27,9 +27,6 @@ std::string margin_text(const MetricVerdict& metric);
 /// How many more seeds decide, or why there are no statistics; empty where there is nothing to say.
 std::string note_text(const MetricVerdict& metric);
 
-/// Metrics that no rule calls better or worse, and that differ: one line, empty where there are none.
-std::string not_judged_line(const ResultComparison& comparison);
-
 /// One line: how many metrics have which verdict, among how many comparisons.
 std::string verdict_summary(const ResultComparison& comparison);
 

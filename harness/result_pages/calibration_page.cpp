@@ -25,12 +25,11 @@ Block bins_block(const std::vector<CalibrationBin>& bins) {
                              "bearing sd / bound", "NIS/2 stated", "NIS/2 per observation", "NIS/2 stereo"}};
   for (const CalibrationBin& bin : bins)
     table.rows.push_back(
-        {{depth_cell(bin), number_cell(static_cast<double>(bin.samples)),
-          number_cell(static_cast<double>(bin.refused)), number_cell(kThousand * bin.bias.x()),
-          number_cell(kThousand * bin.sd.x()), number_cell(bin.over_bound.x()),
-          number_cell(kThousand * bin.bias.y()), number_cell(kThousand * bin.sd.y()),
-          number_cell(bin.over_bound.y()), number_cell(bin.half_nis[0]), number_cell(bin.half_nis[1]),
-          number_cell(bin.half_nis[2])}});
+        {{depth_cell(bin), count_cell(bin.samples), count_cell(bin.refused),
+          number_cell(kThousand * bin.bias.x()), number_cell(kThousand * bin.sd.x()),
+          number_cell(bin.over_bound.x()), number_cell(kThousand * bin.bias.y()),
+          number_cell(kThousand * bin.sd.y()), number_cell(bin.over_bound.y()), number_cell(bin.half_nis[0]),
+          number_cell(bin.half_nis[1]), number_cell(bin.half_nis[2])}});
   return {.title = "Errors by depth",
           .note =
               "Of the half of the scenes that is held out. The bound is that of Cramer and Rao. NIS/2 is 1 "
@@ -62,7 +61,7 @@ Chart depth_chart(const std::string& name, const std::string& label, std::vector
 std::vector<Chart> charts_over_depth(const std::vector<CalibrationBin>& bins) {
   const auto sd_and_bound = [&](int coordinate) {
     return std::vector<Series>{
-        over_depth("rms", bins, [=](const CalibrationBin& bin) { return kThousand * bin.sd[coordinate]; }),
+        over_depth("sd", bins, [=](const CalibrationBin& bin) { return kThousand * bin.sd[coordinate]; }),
         over_depth("bound", bins, [=](const CalibrationBin& bin) {
           return kThousand * bin.sd[coordinate] / bin.over_bound[coordinate];
         })};

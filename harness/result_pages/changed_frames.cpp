@@ -43,6 +43,11 @@ FramePanel panel_of_side(const SideOfFrame& side, const vision::StereoRig& rig, 
   return panel;
 }
 
+std::string growth_text(const ChangedFrame& frame) {
+  if (!(frame.worse_m2 > 0.0)) return "";
+  return fmt::format("; squared range errors grew by {} mm^2", format_number(1e6 * frame.worse_m2));
+}
+
 std::string faults_text(const SideOfFrame& side) {
   const std::string faults = faults_of(side.rows);
   return fmt::format("{}: {}", side.name, faults.empty() ? "no fault" : faults);
@@ -63,9 +68,9 @@ PageFrames changed_frames(const ResultFrames& first, const ResultFrames& second,
     after.is_borrowed = !after.kept && before.kept;
     if (before.is_borrowed) before.kept = after.kept;
     if (after.is_borrowed) after.kept = before.kept;
-    PageFrame made{.title = fmt::format("seed {}, frame {}", frame.seed, frame.frame),
-                   .note = fmt::format("{}; {}; squared range errors grew by {} mm^2", faults_text(before),
-                                       faults_text(after), format_number(1e6 * frame.worse_m2))};
+    PageFrame made{
+        .title = fmt::format("seed {}, frame {}", frame.seed, frame.frame),
+        .note = fmt::format("{}; {}{}", faults_text(before), faults_text(after), growth_text(frame))};
     for (const vision::Side camera : {vision::Side::kLeft, vision::Side::kRight})
       for (const SideOfFrame* side : {&before, &after})
         made.panels.push_back(panel_of_side(*side, *rig, camera, shown.jpegs));

@@ -41,25 +41,25 @@ PageRow verdict_row(const MetricVerdict& metric) {
            verdict,
            number_cell(metric.first_mean),
            number_cell(metric.second_mean),
-           change,
            drawn,
+           change,
            {.text = margin_text(metric), .number = metric.margin},
            p,
-           number_cell(static_cast<double>(metric.pairs)),
+           count_cell(metric.pairs),
            {.text = note_text(metric)}},
           metric.verdict == Verdict::kPass};
 }
 
 Block verdict_block(const ComparisonStory& story) {
-  PageTable table{.header = {"metric", "verdict", "A", "B",
+  PageTable table{.header = {"metric", "verdict", "A", "B", "in margins",
                              fmt::format("worse by, {:g} % interval", 100.0 * (1.0 - story.settings.alpha)),
-                             "in margins", "margin", "p (Holm)", "seeds", "note"},
+                             "margin", "p (Holm)", "seeds", "note"},
                   .quiet = "metrics that pass"};
   for (const MetricVerdict& metric : story.comparison.metrics) table.rows.push_back(verdict_row(metric));
-  Block block{.title = "Verdicts", .note = verdict_summary(story.comparison), .content = std::move(table)};
-  block.note += few_seeds_warning(story.comparison, story.settings) + not_judged_line(story.comparison) +
-                "Drawn to the right is worse; the grey zone is the margin.";
-  return block;
+  return {.title = "Verdicts",
+          .note = verdict_summary(story.comparison) + few_seeds_warning(story.comparison, story.settings) +
+                  "In margins: drawn to the right is worse, and the grey zone is the margin.",
+          .content = std::move(table)};
 }
 
 /// The values of a metric on the seeds that both results have.
@@ -135,7 +135,7 @@ std::vector<Block> paired_blocks(const ComparisonStory& story) {
 }
 
 PageRow slice_row(const char* what, const Slice& slice) {
-  const auto count = [](std::size_t number) { return number_cell(static_cast<double>(number)); };
+  const auto count = [](std::size_t number) { return count_cell(static_cast<long>(number)); };
   const std::string where = slice.conditions.empty() ? "nothing in common that chance does not explain"
                                                      : fmt::format("{}", fmt::join(slice.conditions, ", "));
   return {{{.text = what},
@@ -166,6 +166,14 @@ std::vector<Block> slice_blocks(const ComparisonStory& story) {
     blocks.push_back(
         {.title = "What changed detections have in common", .note = "", .content = std::move(table)});
   return blocks;
+}
+
+std::vector<Block> other_blocks(const ComparisonStory& story) {
+  const std::vector<std::string>& metrics = story.comparison.not_judged;
+  if (metrics.empty()) return {};
+  return {{.title = "Not judged, but different",
+           .note = "No rule calls these numbers better or worse.",
+           .content = PageText{metrics}}};
 }
 
 void append_blocks(std::vector<Block>& blocks, std::vector<Block> more) {
@@ -217,6 +225,7 @@ std::vector<Block> comparison_blocks(const ComparisonStory& story) {
   append_blocks(blocks, paired_blocks(story));
   append_blocks(blocks, slice_blocks(story));
   append_blocks(blocks, table_blocks(story));
+  append_blocks(blocks, other_blocks(story));
   if (!story.words.empty())
     for (Block& block : blocks) block.commands = {shell_line(story.words)};
   return blocks;

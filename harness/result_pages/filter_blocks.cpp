@@ -16,10 +16,6 @@ PageCell text_cell(const std::string& text) {
   return {.text = text};
 }
 
-PageCell count_cell(long count) {
-  return {.text = fmt::format("{}", count), .number = static_cast<double>(count)};
-}
-
 /// A count that should be 0.
 PageCell fault_cell(long count) {
   PageCell cell = count_cell(count);
@@ -189,6 +185,10 @@ Chart ratio_chart(const std::string& label, const std::vector<double>& time_s,
 }
 
 }  // namespace
+
+PageCell count_cell(long count) {
+  return {.text = fmt::format("{}", count), .number = static_cast<double>(count)};
+}
 
 PageCell number_cell(double value) {
   if (!std::isfinite(value)) return text_cell("-");

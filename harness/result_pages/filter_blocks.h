@@ -12,6 +12,9 @@ namespace stereobench::harness {
 /// "0.228 +- 0.049", sorted by the mean.
 PageCell summary_cell(const Summary& summary);
 
+/// A whole number.
+PageCell count_cell(long count);
+
 /// Sorted by its value.
 PageCell number_cell(double value);
 

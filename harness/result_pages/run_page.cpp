@@ -35,23 +35,24 @@ std::string render_line(const RunStory& story, const KeptPair& pair) {
 
 Block vision_block(const VisionScore& vision) {
   PageTable table{.header = {"what", "value", "unit"}};
-  const auto add = [&](const char* what, double value, const char* unit) {
-    table.rows.push_back({{{.text = what}, number_cell(value), {.text = unit}}});
+  const auto add = [&](const char* what, const PageCell& value, const char* unit) {
+    table.rows.push_back({{{.text = what}, value, {.text = unit}}});
   };
-  add("recall: found of the balls that had to be", vision.recall(), "");
-  add("precision: right of the detections", vision.precision(), "");
-  add("balls that had to be found", static_cast<double>(vision.visible), "");
-  add("missed", static_cast<double>(vision.visible - vision.found), "");
-  add("taken for another colour", static_cast<double>(vision.misidentified), "");
-  add("detections of no ball", static_cast<double>(vision.spurious), "");
-  add("repeated detections", static_cast<double>(vision.repeated), "");
-  add("range error, rms", 1e3 * vision.range_rms_m(), "mm");
-  add("range error, mean", 1e3 * vision.range_bias_m(), "mm");
-  add("bearing error, rms", 1e3 * vision.bearing_rms_rad(), "mrad");
-  add("bearing error, mean", 1e3 * vision.bearing_bias_rad(), "mrad");
-  add("disparity error, rms", vision.disparity_rms_px(), "px");
-  add("disparity error, mean", vision.disparity_bias_px(), "px");
-  add("normalised error: 1 where the stated noise is honest", vision.mean_normalised_error(), "");
+  add("recall: found of the balls that had to be", number_cell(vision.recall()), "");
+  add("precision: right of the detections", number_cell(vision.precision()), "");
+  add("balls that had to be found", count_cell(vision.visible), "");
+  add("missed", count_cell(vision.visible - vision.found), "");
+  add("taken for another colour", count_cell(vision.misidentified), "");
+  add("detections of no ball", count_cell(vision.spurious), "");
+  add("repeated detections", count_cell(vision.repeated), "");
+  add("range error, rms", number_cell(1e3 * vision.range_rms_m()), "mm");
+  add("range error, mean", number_cell(1e3 * vision.range_bias_m()), "mm");
+  add("bearing error, rms", number_cell(1e3 * vision.bearing_rms_rad()), "mrad");
+  add("bearing error, mean", number_cell(1e3 * vision.bearing_bias_rad()), "mrad");
+  add("disparity error, rms", number_cell(vision.disparity_rms_px()), "px");
+  add("disparity error, mean", number_cell(vision.disparity_bias_px()), "px");
+  add("normalised error: 1 where the stated noise is honest", number_cell(vision.mean_normalised_error()),
+      "");
   Block block{.title = "Vision", .note = "", .content = std::move(table)};
   for (const std::string& warning : rig_warnings(vision.rig)) block.note += "Warning: " + warning + ". ";
   return block;

@@ -15,7 +15,8 @@ const intervals = {
     for (const [at, low, high] of dataset.intervals) {
       if (low === null || high === null) continue;
       const px = x.getPixelForValue(at);
-      const [from, to] = [y.getPixelForValue(low), y.getPixelForValue(high)];
+      const within = y.type === 'logarithmic' ? Math.max(low, y.min) : low;  // 0 and less are far below
+      const [from, to] = [y.getPixelForValue(within), y.getPixelForValue(high)];
       ctx.moveTo(px, from);
       ctx.lineTo(px, to);
       for (const end of [from, to]) {
@@ -57,16 +58,34 @@ function datasetsOf(series, chart) {
 
 /** Ticks of a logarithmic axis: 1, 2 and 5 of each power of ten. */
 function logarithmicTick(value) {
-  const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
-  if (![1, 2, 5].includes(digit)) return null;
+  const digits = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
+  if (![1, 2, 5].some((digit) => Math.abs(digits / digit - 1) < 1e-6)) return null;
   return value < 1e-3 || value >= 1e5 ? value.toExponential(0) : shown(value);
 }
 
-function axis(title, logarithmic, names, isX) {
+/** The least and the greatest of some numbers that an axis can show. */
+function limitsOf(numbers, logarithmic) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const number of numbers) {
+    if (number === null || (logarithmic && !(number > 0))) continue;
+    low = Math.min(low, number);
+    high = Math.max(high, number);
+  }
+  return low < high ? [low, high] : [undefined, undefined];
+}
+
+function axis(title, logarithmic, names, [low, high], isX) {
   const made = {
     type: logarithmic ? 'logarithmic' : 'linear', title: {display: true, text: title, color: paint('ink')},
     grid: {color: paint('line'), borderColor: paint('faint')}, ticks: {color: paint('faint'), maxRotation: 60}};
-  if (isX) made.bounds = 'data';
+  if (isX) {
+    made.ticks.includeBounds = false;  // so that the others are round
+    Object.assign(made, {min: low, max: high, afterBuildTicks: (scale) => {
+      scale.ticks = scale.ticks.filter(({value}) => value >= scale.min && value <= scale.max);
+    }});
+  } else {
+    Object.assign(made, {suggestedMin: low, suggestedMax: high});
+  }
   if (logarithmic) made.ticks.callback = logarithmicTick;
   if (names.length > 0) {
     Object.assign(made, {min: -0.5, max: names.length - 0.5, afterBuildTicks: (scale) => {
@@ -84,9 +103,12 @@ function configuration(chart) {
     type: 'line', plugins: [intervals],
     data: {datasets: chart.series.flatMap((series) => datasetsOf(series, chart))},
     options: {
-      animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
+      animation: false, responsive: true, maintainAspectRatio: false,
       interaction: {mode: 'nearest', intersect: false},
-      scales: {x: axis(chart.x, chart.log_x, chart.x_names, true), y: axis(chart.y, chart.log_y, [], false)},
+      scales: {
+        x: axis(chart.x, chart.log_x, chart.x_names, limitsOf(chart.series.flatMap(({x}) => x), chart.log_x), true),
+        y: axis(chart.y, chart.log_y, [], limitsOf(chart.series.flatMap(
+          ({y, low, high}) => [...y, ...low, ...high]), chart.log_y), false)},
       plugins: {
         legend: {position: 'bottom', labels: {
           color: paint('ink'), boxWidth: allPoints ? 8 : 26,

@@ -19,7 +19,7 @@ function blockView(block, i) {
   const section = element('section', {id: identity || `part-${i + 1}`});
   if (content.kind === 'table') section.classList.add('long');
   section.append(element('h2', chapter ? {class: 'chapter'} : {}, title));
-  if (note) section.append(element('p', {class: 'note'}, note));
+  for (const line of note.split('\n').filter((text) => text)) section.append(element('p', {class: 'note'}, line));
   section.append(views[content.kind](content, title));
   for (const command of commands) section.append(commandLine(command));
   return section;

@@ -54,24 +54,22 @@ function commandLine(text) {
     said.textContent = 'Copied';
     setTimeout(() => { said.textContent = 'Copy'; }, 1500);
   }, {'aria-label': `Copy: ${text}`});
-  return element('div', {class: 'command'}, element('code', {}, text), said);
+  return element('div', {class: 'command'}, element('code', {tabindex: '0'}, text), said);
 }
 
 const darkScreen = matchMedia('(prefers-color-scheme: dark)');
-let printing = false;
+const paper = matchMedia('print');
 const redraws = [];  // what is drawn in the colours of the screen
 
 function isDark() {
-  return darkScreen.matches && !printing;
+  return darkScreen.matches && !paper.matches;
 }
 
 function redrawAll() {
   for (const redraw of redraws) redraw();
 }
 
-darkScreen.addEventListener('change', redrawAll);
-addEventListener('beforeprint', () => { printing = true; redrawAll(); });
-addEventListener('afterprint', () => { printing = false; redrawAll(); });
+for (const surface of [darkScreen, paper]) surface.addEventListener('change', redrawAll);
 
 /** A colour of the style sheet. */
 function paint(name) {
@@ -84,7 +82,7 @@ const lookColours = [
   ['#8a6d00', '#f0e442'], ['#56b4e9', '#9bd4f5']];
 const greyNames = ['dead_reckoning', 'bound', 'honest', '95 % band', 'no change'];
 const usualPlaces = {  // of what is no filter
-  A: 0, B: 1, 'B minus A': 0, 'single detections': 0, found: 0, rms: 1, mean: 1, 'mean, 95 % interval': 1};
+  A: 0, B: 1, 'B minus A': 0, 'single detections': 0, found: 0, sd: 1, rms: 1, mean: 1, 'mean, 95 % interval': 1};
 const pointStyles = ['circle', 'triangle', 'rect', 'rectRot', 'crossRot', 'star'];
 const lookOf = new Map();  // places of filters: the same in all charts
 

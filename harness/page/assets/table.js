@@ -4,12 +4,12 @@ function intervalDrawing([low, value, high]) {
   const x = (change) => 65 + 20 * Math.max(-most, Math.min(most, change));
   const known = (change, otherwise) => (change === null ? otherwise : change);
   const ends = [known(low, -most), known(high, most)];
-  const side = ends[0] > 1 ? 'bar worse' : ends[1] < -1 ? 'bar better' : 'bar';
+  const side = ends[0] > 1 ? 'worse' : ends[1] < -1 ? 'better' : 'unsure';
   return shape('svg', {class: 'interval', viewBox: '0 0 130 16', 'aria-hidden': 'true'},
                shape('rect', {class: 'zone', x: x(-1), y: 1, width: x(1) - x(-1), height: 14}),
                shape('line', {class: 'zero', x1: 65, x2: 65, y1: 0, y2: 16}),
-               shape('line', {class: side, x1: x(ends[0]), x2: x(ends[1]), y1: 8, y2: 8}),
-               shape('circle', {cx: x(known(value, 0)), cy: 8, r: 3}));
+               shape('line', {class: `bar ${side}`, x1: x(ends[0]), x2: x(ends[1]), y1: 8, y2: 8}),
+               shape('circle', {class: side, cx: x(known(value, 0)), cy: 8, r: 3}));
 }
 
 function cellContent(cell) {
