@@ -29,7 +29,6 @@ function sortKey(cell) {
 
 function compareKeys(a, b) {
   const number = (key) => typeof key === 'number';
-  if (number(a) && number(b)) return a - b;
   if (number(a) !== number(b)) return number(a) ? -1 : 1;
   return a < b ? -1 : a > b ? 1 : 0;
 }
