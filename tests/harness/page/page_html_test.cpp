@@ -45,8 +45,8 @@ Page page_saying(const std::string& text) {
                                                  .series = {{.name = text, .x = {0.0}, .y = {1.0}}}}}}});
   page.blocks.push_back({.title = "",
                          .note = "",
-                         .content = PageMap{.landmarks = {{{}, text}}, .estimates = {{.name = text}}}});
-  const FramePanel panel{text, {}, {{{}, text}}, {{{}, text}}};
+                         .content = PageMap{.landmarks = {{.colour = text}}, .estimates = {{.name = text}}}});
+  const FramePanel panel{text, {}, {{.label = text}}, {{.label = text}}};
   page.blocks.push_back(
       {.title = "", .note = "", .content = PageFrames{.frames = {{text, text, text, {panel}}}}});
   return page;
