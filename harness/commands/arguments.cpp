@@ -1,8 +1,10 @@
 #include "harness/commands/arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -124,6 +126,29 @@ void add_backend_option(CLI::App& command, renderer::Backend& backend) {
           "other pixels)")
       ->type_name("NAME")
       ->default_str(renderer::name_of(backend));
+}
+
+std::vector<std::string> words_of(const CLI::App& command) {
+  constexpr std::array<std::string_view, 6> kLeftOut = {"--seeds",   "--jobs",  "--out",
+                                                        "--dry-run", "--quiet", "--html"};
+  std::vector<std::string> words = {"stereobench", command.get_name()};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::ranges::find(kLeftOut, name) != kLeftOut.end()) continue;
+    const std::vector<std::string> values = option->results();
+    const char delimiter = option->get_delimiter();
+    if (option->get_positional() || option->get_expected_max() == 0) {
+      if (option->get_positional())
+        words.insert(words.end(), values.begin(), values.end());
+      else
+        words.push_back(name);
+    } else if (delimiter != '\0') {
+      words.insert(words.end(), {name, CLI::detail::join(values, std::string(1, delimiter))});
+    } else {
+      for (const std::string& value : values) words.insert(words.end(), {name, value});
+    }
+  }
+  return words;
 }
 
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name) {

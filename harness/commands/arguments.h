@@ -19,9 +19,10 @@ struct RunArguments {
   int particles = 0;  ///< 0: as the scenario says
   std::vector<std::uint64_t> seeds;
   int jobs = 1;
-  std::filesystem::path out;  ///< empty: out/<name>
-  bool dry_run = false;       ///< check everything, say what would be done, and stop
-  std::vector<Gate> gates;    ///< beside those of the scenario
+  std::filesystem::path out;       ///< empty: out/<name>
+  bool dry_run = false;            ///< check everything, say what would be done, and stop
+  std::vector<Gate> gates;         ///< beside those of the scenario
+  std::vector<std::string> words;  ///< of the command line, as words_of() gives them; empty: not known
 };
 
 /// The filter that is always run, as the yardstick of the others.
@@ -51,6 +52,11 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 /// Adds --backend, what renders.
 void add_backend_option(CLI::App& command, renderer::Backend& backend);
+
+/// The words of a command line that decide what comes out, but for the seeds: "stereobench", the command, and
+/// what was said of its options.
+/// @param command parsed
+std::vector<std::string> words_of(const CLI::App& command);
 
 /// Where results go: --out, or out/<name>.
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name);

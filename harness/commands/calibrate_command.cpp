@@ -12,6 +12,8 @@
 #include "harness/experiment/seeds.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
+#include "harness/result_pages/calibration_page.h"
+#include "harness/result_pages/run_page.h"
 #include "vision/observe.h"
 #include "worlds/generate/calibration_scene.h"
 
@@ -58,6 +60,8 @@ int run_calibration(const CalibrateArguments& arguments) {
   result.detector = experiment.detector.command.empty() ? "stereobench" : experiment.detector.command;
   const NoiseKind kind = arguments.law == "stereo" ? NoiseKind::kStereo : NoiseKind::kScaled;
   write_file_atomically(out / "noise.yaml", noise_yaml(result, kind, scenario.believed_rig));
+  write_file_atomically(out / kReport,
+                        page_html(calibration_page(result, gates, arguments.scenario.run.words)));
   write_file_atomically(out / "calibration.json", calibration_json(result).dump(2) + "\n");
   const auto broken = broken_gates(calibration_json(result), gates);
   fmt::print(
@@ -95,7 +99,10 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
       "and calibration.json, whose numbers --gate can limit.\n\n"
       "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");
-  command->callback([arguments, &action] { action = [arguments] { return run_calibration(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->scenario.run.words = words_of(*command);
+    action = [arguments] { return run_calibration(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

@@ -16,6 +16,7 @@
 #include "harness/regression/junit.h"
 #include "harness/regression/result_folder.h"
 #include "harness/regression/verdict_report.h"
+#include "harness/result_pages/comparison_page.h"
 
 namespace stereobench::harness {
 namespace {
@@ -30,6 +31,8 @@ struct CompareArguments {
   std::filesystem::path json;
   std::filesystem::path markdown;
   std::filesystem::path junit;
+  std::filesystem::path html;
+  std::vector<std::string> words;  ///< of the command line
 };
 
 int exit_code_of(const ResultComparison& comparison, bool strict) {
@@ -70,6 +73,15 @@ int compare(CompareArguments arguments) {
       judge(first.seeds, second.seeds, settings, balls_of(first, second), arguments.second.string());
   const ResultComparison& comparison = judgement.comparison;
   write_files(arguments, judgement, second.scenario);
+  if (!arguments.html.empty())
+    write_file_atomically(arguments.html,
+                          page_html(comparison_page({{arguments.first.string(), arguments.second.string()},
+                                                     first,
+                                                     second,
+                                                     comparison,
+                                                     settings,
+                                                     judgement.changes,
+                                                     arguments.words})));
   fmt::print("A: {} ({}, {} seeds)\nB: {} ({}, {} seeds)\n\n", arguments.first.string(), first.scenario,
              first.seeds.seeds.size(), arguments.second.string(), second.scenario, second.seeds.seeds.size());
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
@@ -102,6 +114,8 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
   command.add_option("--json", arguments.json, "write the verdicts to this file");
   command.add_option("--junit", arguments.junit, "write the verdicts to this file as JUnit's XML, for CI");
   command.add_option("--markdown", arguments.markdown, "write the table to this file, for a pull request");
+  command.add_option("--html", arguments.html,
+                     "write a page to this file: verdicts, charts, and the frames that changed most");
   add_quiet_option(command);
 }
 
@@ -125,7 +139,10 @@ void add_compare_command(CLI::App& program, Action& action) {
       "many more seeds decide.\n"
       "Exits with 1 when a metric is REGRESSED or VANISHED.\n\n"
       "Example: stereobench compare out/before out/after --margin 'filters.*.ate_rms_m=2%'");
-  command->callback([arguments, &action] { action = [arguments] { return compare(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->words = words_of(*command);
+    action = [arguments] { return compare(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

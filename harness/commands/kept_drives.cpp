@@ -20,6 +20,9 @@ namespace {
 
 constexpr const char* kFile = "unfinished.drives";
 
+/// So that what is kept of a thousand seeds stays small.
+constexpr std::size_t kPairsOfLaterSeeds = 4;
+
 /// All that the command line says of a scenario, as lines of it.
 std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
                                        const std::vector<std::string>& more_overrides,
@@ -78,11 +81,12 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
     SeedParts wanted = parts;
     wanted.map = parts.map && is_first;
     wanted.snapshots = is_first ? parts.snapshots : 0;
+    wanted.pairs = is_first ? parts.pairs : std::min(parts.pairs, kPairsOfLaterSeeds);
     wanted.log = parts.log && tasks.size() < kCheckedLogs;
     tasks.push_back({&experiment, seed, wanted, arguments.backend});
-    tasks.back().key =
-        sha256_of(fmt::format("{} seed {} steps {} map {} snapshots {} log {} detections {}", basis, seed,
-                              wanted.steps, wanted.map, wanted.snapshots, wanted.log, wanted.detections));
+    tasks.back().key = sha256_of(
+        fmt::format("{} seed {} steps {} map {} snapshots {} log {} detections {} pairs {}", basis, seed,
+                    wanted.steps, wanted.map, wanted.snapshots, wanted.log, wanted.detections, wanted.pairs));
   }
   return tasks;
 }

@@ -24,7 +24,8 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
 
 /// One task a seed of an experiment, with its key. The outcome of a drive depends neither on the other seeds
 /// nor on gates, and so does the key.
-/// @param parts wanted of each seed; the map and the snapshots of the first alone, logs of kCheckedLogs
+/// @param parts wanted of each seed; the map and the snapshots of the first alone, logs of kCheckedLogs, and
+/// of later seeds four stereo pairs at most
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const Experiment& experiment, const std::string& pixels,

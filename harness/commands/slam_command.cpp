@@ -18,6 +18,7 @@
 #include "harness/process/progress.h"
 #include "harness/process/stopwatch.h"
 #include "harness/regression/gates.h"
+#include "harness/result_pages/run_page.h"
 #include "harness/run/detections_file.h"
 #include "harness/run/result_table.h"
 #include "harness/run/run_output.h"
@@ -135,7 +136,9 @@ int run_slam(SlamArguments arguments) {
   if (recorded.facts.lasting_errors.time_s.isZero())
     result.noise = check_noise({sensor_log(recorded.log)}, arguments.config, run.jobs);
   result.assumed = assumptions_of(recorded.facts, arguments.stated);
-  output.write(result, {});
+  output.write(result, {}, [&](const RunResult& done, const RunCurves& curves) {
+    write_run_report(out, done, curves, {.commands = {run.words, {}}, .gates = run.gates});
+  });
   print_summary(result, run.seeds.size(), recorded);
   const auto broken = broken_gates(run_json(result), run.gates);
   say("\n" + result_table(result) + "\n");
@@ -268,6 +271,7 @@ void add_slam_command(CLI::App& program, Action& action) {
       return;
     }
     if (!said("log")) throw CLI::RequiredError("log");
+    arguments->run.words = words_of(*command);
     arguments->stated.sensor = said("--noise-law") || (said("--range-sd-m") && said("--bearing-sd-rad"));
     arguments->stated.odometry = std::ranges::any_of(kOdometryOptions, said);
     action = [arguments] { return run_slam(*arguments); };

@@ -9,6 +9,8 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/text_table.h"
 #include "harness/regression/gates.h"
+#include "harness/result_pages/run_page.h"
+#include "harness/result_pages/sweep_page.h"
 #include "harness/run/run_output.h"
 #include "harness/sweep/grid.h"
 #include "harness/sweep/sweep_result.h"
@@ -153,10 +155,11 @@ int run_sweep(const SweepArguments& arguments) {
                 [&](std::size_t, const SeedResult& seed) { cells.add(seed); });
   for (std::size_t i = 0; i < plans.size(); ++i)
     warn_of_blur(plans[i].experiment.scenario.shutter, sweep.cells[i].result.blur.value_or(CoarseBlur{}));
+  const auto [gate_lines, broken] = gates_of_cells(sweep, plans);
+  write_file_atomically(out / kReport, page_html(sweep_page(sweep, base.run.words, gate_lines)));
   write_sweep(out, sweep, timing_json(cells.timing(), tasks.size()),
               provenance_of(base, {}, plans.front().experiment, pixels));
   kept.discard();
-  const auto [gate_lines, broken] = gates_of_cells(sweep, plans);
   fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, plans.size(), kIntervalNote, sweep_table(sweep));
   say_gates(gate_lines, broken > 0);
   fmt::print("results: {}\n", (out / "").string());
@@ -183,7 +186,10 @@ void add_sweep_command(CLI::App& program, Action& action) {
       "Writes sweep.png (detection error and ATE against the first --vary), sweep.csv and sweep.json.\n\n"
       "Example: stereobench sweep assets/scenarios/ball_circle.yaml --vary camera.noise_sd_levels=0,1,2,4,8 "
       "--seeds 0..9");
-  command->callback([arguments, &action] { action = [arguments] { return run_sweep(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->scenario.run.words = words_of(*command);
+    action = [arguments] { return run_sweep(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

@@ -84,9 +84,9 @@ class StereoOnlooker {
 
   Sightings see(const worlds::PathStep& step, std::size_t index, const TakenPair& taken,
                 renderer::Renderer& renderer) {
-    Stopwatch watch(look_.recording.timing);
+    Stopwatch watch(result_.recording.timing);
     const worlds::Scenario& scenario = onlooker_.experiment->scenario;
-    look_.recording.blur.add(taken.exposed.blur_step_px);
+    result_.recording.blur.add(taken.exposed.blur_step_px);
     const auto observations = watch.time("observe", [&] {
       return detector_({index, step.stamp_ns, taken.pair, scenario.believed_rig});
     });
@@ -103,11 +103,11 @@ class StereoOnlooker {
 
   void finish() {
     if (program_) program_->finish();
-    look_.recording.detector = name_;
-    look_.recording.vision = score_;
+    result_.recording.detector = name_;
+    result_.recording.vision = score_;
   }
 
-  Look& look() { return look_; }
+  OnlookerResult& result() { return result_; }
 
  private:
   const Onlooker& onlooker_;
@@ -116,7 +116,7 @@ class StereoOnlooker {
   std::optional<DetectorProcess> program_;
   Detector detector_;
   VisionScore score_;
-  Look look_;
+  OnlookerResult result_;
 };
 
 std::vector<LandmarkTruth> landmarks_of(const worlds::World& world) {
@@ -154,9 +154,9 @@ void put(Sightings seen, LogStep& step) {
 }
 
 /// What is sensed without pictures.
-Look sense_drive(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed) {
+OnlookerResult sense_drive(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed) {
   const worlds::Scenario& scenario = onlooker.experiment->scenario;
-  Look look;
+  OnlookerResult look;
   look.recording.log = log_without_sightings(scenario, world, seed);
   std::vector<LogStep>& steps = look.recording.log.steps;
   for (std::size_t index = 0; index < steps.size(); ++index) {
@@ -172,11 +172,11 @@ Look sense_drive(const Onlooker& onlooker, const worlds::World& world, std::uint
 
 /// Lets one that is not at fault do something; a fault of its program is kept.
 void attempt(StereoOnlooker& onlooker, const std::function<void()>& action) {
-  if (onlooker.look().fault) return;
+  if (onlooker.result().fault) return;
   try {
     action();
   } catch (const DetectorFault&) {
-    onlooker.look().fault = std::current_exception();
+    onlooker.result().fault = std::current_exception();
   }
 }
 
@@ -188,14 +188,14 @@ class SharedDrive {
       : scenario_(onlookers.front().experiment->scenario), camera_(scenario_, world, seed, backend, read) {
     for (const Onlooker& onlooker : onlookers) {
       onlookers_.push_back(std::make_unique<StereoOnlooker>(onlooker, world, seed));
-      onlookers_.back()->look().recording.log =
+      onlookers_.back()->result().recording.log =
           log_without_sightings(onlooker.experiment->scenario, world, seed);
     }
   }
 
   void show(std::size_t index) {
     const auto wants_it = [&](const auto& onlooker) {
-      return !onlooker->look().fault && onlooker->wants(index);
+      return !onlooker->result().fault && onlooker->wants(index);
     };
     const auto wanting = std::ranges::count_if(onlookers_, wants_it);
     if (wanting == 0) return;
@@ -203,7 +203,7 @@ class SharedDrive {
     const std::optional<TakenPair> taken = camera_.take(index, taking);
     for (const auto& onlooker : onlookers_) {
       if (!wants_it(onlooker)) continue;
-      Recording& recording = onlooker->look().recording;
+      Recording& recording = onlooker->result().recording;
       for (const auto& [stage, seconds] : taking)
         recording.timing[stage] += seconds / static_cast<double>(wanting);
       if (taken)
@@ -215,14 +215,14 @@ class SharedDrive {
   }
 
   bool is_over() const {
-    return std::ranges::all_of(onlookers_, [](const auto& one) { return one->look().fault != nullptr; });
+    return std::ranges::all_of(onlookers_, [](const auto& one) { return one->result().fault != nullptr; });
   }
 
-  std::vector<Look> finish() {
-    std::vector<Look> looks;
+  std::vector<OnlookerResult> finish() {
+    std::vector<OnlookerResult> looks;
     for (const auto& onlooker : onlookers_) {
       attempt(*onlooker, [&] { onlooker->finish(); });
-      looks.push_back(std::move(onlooker->look()));
+      looks.push_back(std::move(onlooker->result()));
     }
     return looks;
   }
@@ -235,11 +235,11 @@ class SharedDrive {
 
 }  // namespace
 
-std::vector<Look> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
-                                  renderer::Backend backend, const renderer::FormReader& read) {
+std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+                                            renderer::Backend backend, const renderer::FormReader& read) {
   const worlds::Scenario& scenario = onlookers.front().experiment->scenario;
   const worlds::World world = worlds::world_for_seed(scenario, seed);
-  std::vector<Look> looks;
+  std::vector<OnlookerResult> looks;
   if (scenario.sensor == worlds::SensorKind::kOracle) {
     for (const Onlooker& onlooker : onlookers) looks.push_back(sense_drive(onlooker, world, seed));
     return looks;
@@ -255,7 +255,8 @@ std::vector<Look> record_together(const std::vector<Onlooker>& onlookers, std::u
 
 Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector, const renderer::FormReader& read) {
-  Look look = std::move(record_together({{&experiment, listeners, detector}}, seed, backend, read).front());
+  OnlookerResult look =
+      std::move(record_together({{&experiment, listeners, detector}}, seed, backend, read).front());
   if (look.fault) std::rethrow_exception(look.fault);
   return std::move(look.recording);
 }

@@ -64,7 +64,7 @@ struct Onlooker {
 };
 
 /// What an onlooker has of a drive.
-struct Look {
+struct OnlookerResult {
   Recording recording;
   std::exception_ptr fault;  ///< of the onlooker's program, a DetectorFault: there is no recording
 };
@@ -76,11 +76,11 @@ struct Look {
 /// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
 /// @param backend what renders, for a sensor with pixels
 /// @param read meshes
-/// @return one look an onlooker: the log with truth, and how vision scored
+/// @return one result an onlooker: the log with truth, and how vision scored
 /// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
-std::vector<Look> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
-                                  renderer::Backend backend = renderer::Backend::kOsmesa,
-                                  const renderer::FormReader& read = renderer::read_form);
+std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+                                            renderer::Backend backend = renderer::Backend::kOsmesa,
+                                            const renderer::FormReader& read = renderer::read_form);
 
 /// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
 /// sensed by the oracle), and the odometry is measured with its noise.

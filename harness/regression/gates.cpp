@@ -111,6 +111,12 @@ void check_metrics(std::span<const Gate> gates, const Json& result) {
   }
 }
 
+std::optional<double> limited_value(const nlohmann::ordered_json& json, const Gate& gate) {
+  const Json* metric = find_metric(json, gate.metric);
+  if (metric == nullptr) throw std::invalid_argument("limited_value: no metric " + gate.metric);
+  return metric->is_null() ? std::nullopt : std::optional(metric->get<double>());
+}
+
 std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const Gate> gates) {
   std::vector<BrokenGate> broken;
   for (const Gate& gate : gates) {

@@ -35,6 +35,10 @@ nlohmann::ordered_json result_without_values(const Experiment& experiment);
 /// @throws std::runtime_error that names the gate which does not, and a number that may be meant
 void check_metrics(std::span<const Gate> gates, const nlohmann::ordered_json& result);
 
+/// The number that a gate limits. @return empty where it is null
+/// @throws std::invalid_argument when the result has no such number
+std::optional<double> limited_value(const nlohmann::ordered_json& json, const Gate& gate);
+
 /// Holds a result against limits.
 /// @param json as run_json gives it
 std::vector<BrokenGate> broken_gates(const nlohmann::ordered_json& json, std::span<const Gate> gates);

@@ -51,35 +51,9 @@ std::string signed_number(double value) {
   return (value < 0.0 ? "-" : "+") + format_number(std::abs(value));
 }
 
-/// "+12 [+8, +17] %"
-std::string change_cell(const MetricVerdict& metric) {
-  if (!std::isfinite(metric.change)) return "-";
-  const double unit = unit_of_change(metric);
-  const double rounding = 1e-12 * std::max(std::abs(metric.first_mean), std::abs(metric.second_mean));
-  const auto in_unit = [&](double value) {
-    return signed_number(std::abs(value) < rounding ? 0.0 : value / unit);
-  };
-  return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
-                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
-}
-
-std::string margin_cell(const MetricVerdict& metric) {
-  if (!std::isfinite(metric.margin)) return "-";
-  const double unit = unit_of_change(metric);
-  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
-}
-
 /// "1 seed", "2 seeds"
 std::string counted(long count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-std::string note_cell(const MetricVerdict& metric) {
-  if (metric.verdict == Verdict::kVanished)
-    return fmt::format("no value on {}", counted(metric.lost, "seed"));
-  if (metric.test == ChangeTest::kExact) return "no chance in it";
-  if (metric.verdict != Verdict::kInconclusive) return "";
-  return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
 }
 
 AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
@@ -91,10 +65,10 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
     if (metric.verdict == Verdict::kPass && !all) continue;
     if (metric.verdict == Verdict::kInconclusive && ++inconclusive > kMostInconclusive && !all) continue;
     table.rows.push_back({metric.metric, text_of(metric.verdict), format_number(metric.first_mean),
-                          format_number(metric.second_mean), metric.equal ? "equal" : change_cell(metric),
-                          margin_cell(metric),
+                          format_number(metric.second_mean), metric.equal ? "equal" : change_text(metric),
+                          margin_text(metric),
                           metric.test == ChangeTest::kNone ? "-" : fmt::format("{:.2g}", metric.p_holm),
-                          fmt::format("{}", metric.pairs), note_cell(metric)});
+                          fmt::format("{}", metric.pairs), note_text(metric)});
   }
   return table;
 }
@@ -115,13 +89,38 @@ std::string lines_below(const ResultComparison& comparison, bool all) {
 
 }  // namespace
 
+std::string change_text(const MetricVerdict& metric) {
+  if (!std::isfinite(metric.change)) return "-";
+  const double unit = unit_of_change(metric);
+  const double rounding = 1e-12 * std::max(std::abs(metric.first_mean), std::abs(metric.second_mean));
+  const auto in_unit = [&](double value) {
+    return signed_number(std::abs(value) < rounding ? 0.0 : value / unit);
+  };
+  return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
+                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
+}
+
+std::string margin_text(const MetricVerdict& metric) {
+  if (!std::isfinite(metric.margin)) return "-";
+  const double unit = unit_of_change(metric);
+  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
+}
+
+std::string note_text(const MetricVerdict& metric) {
+  if (metric.verdict == Verdict::kVanished)
+    return fmt::format("no value on {}", counted(metric.lost, "seed"));
+  if (metric.test == ChangeTest::kExact) return "no chance in it";
+  if (metric.verdict != Verdict::kInconclusive) return "";
+  return metric.more_seeds ? "about " + counted(*metric.more_seeds, "more seed") : "";
+}
+
 std::string change_line(const MetricVerdict& metric) {
   const std::string means =
       fmt::format("{} in A, {} in B", format_number(metric.first_mean), format_number(metric.second_mean));
   if (metric.equal) return means + ", equal on every seed";
-  const std::string note = note_cell(metric);
-  return fmt::format("{}; worse by {}, margin {}, p {:.2g} on {}{}", means, change_cell(metric),
-                     margin_cell(metric), metric.p_holm, counted(metric.pairs, "seed"),
+  const std::string note = note_text(metric);
+  return fmt::format("{}; worse by {}, margin {}, p {:.2g} on {}{}", means, change_text(metric),
+                     margin_text(metric), metric.p_holm, counted(metric.pairs, "seed"),
                      note.empty() ? "" : "; " + note);
 }
 

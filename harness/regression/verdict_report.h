@@ -18,6 +18,15 @@ struct ComparedNames {
 /// One line of a metric: both means, by how much it is worse, and what that is held against.
 std::string change_line(const MetricVerdict& metric);
 
+/// "+12 [+8, +17] %": by how much a metric is worse, with its interval; "-" where that is not known.
+std::string change_text(const MetricVerdict& metric);
+
+/// "5 %": what that is held against.
+std::string margin_text(const MetricVerdict& metric);
+
+/// How many more seeds decide, or why there are no statistics; empty where there is nothing to say.
+std::string note_text(const MetricVerdict& metric);
+
 /// One line: how many metrics have which verdict, among how many comparisons.
 std::string verdict_summary(const ResultComparison& comparison);
 

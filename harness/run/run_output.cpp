@@ -48,35 +48,49 @@ AneesPanel anees_of(const RunResult& result, std::size_t steps) {
 
 }  // namespace
 
-void RunPictures::add(const SeedResult& seed) {
-  if (seeds_++ == 0) {
-    first_ = seed;
-    first_.csv = {};
-    bound_m2_.assign(seed.bound_m2.size(), 0.0);
-    for (const ScoredRun& run : seed.runs) errors_.emplace_back(run.filter);
+void RunCurves::add(const SeedResult& seed) {
+  if (seeds++ == 0) {
+    first = seed;
+    first.csv = {};
+    first.detections_gz = {};
+    first.pairs = {};
+    bound_m2.assign(seed.bound_m2.size(), 0.0);
+    innovations.assign(seed.runs.size(), std::vector<SquaredSum>(seed.time_s.size()));
+    for (const ScoredRun& run : seed.runs) errors.emplace_back(run.filter);
   }
-  for (std::size_t i = 0; i < std::min(errors_.size(), seed.runs.size()); ++i)
-    errors_[i].add(seed.runs[i].errors_m);
-  for (std::size_t k = 0; k < std::min(bound_m2_.size(), seed.bound_m2.size()); ++k)
-    bound_m2_[k] += seed.bound_m2[k];
+  for (std::size_t i = 0; i < std::min(errors.size(), seed.runs.size()); ++i) {
+    errors[i].add(seed.runs[i].errors_m);
+    const std::vector<SquaredSum>& sums = seed.runs[i].innovations;
+    for (std::size_t k = 0; k < std::min(innovations[i].size(), sums.size()); ++k)
+      innovations[i][k] += sums[k];
+  }
+  for (std::size_t k = 0; k < std::min(bound_m2.size(), seed.bound_m2.size()); ++k)
+    bound_m2[k] += seed.bound_m2[k];
+  for (const KeptPair& pair : seed.pairs) worst_pairs.offer(pair);
+}
+
+std::vector<double> RunCurves::bound_m() const {
+  std::vector<double> bound;
+  for (const double sum_m2 : bound_m2) bound.push_back(std::sqrt(sum_m2 / static_cast<double>(seeds)));
+  return bound;
 }
 
 /// The first seed's map.
 std::string RunPictures::map_of(const RunResult& result, const std::vector<worlds::Wall>& walls) const {
-  MapPicture picture = first_.map.value_or(MapPicture{});
-  picture.title = fmt::format("{}, seed {}{}", result.name, first_.seed, alignment_note(result));
+  MapPicture picture = curves_.first.map.value_or(MapPicture{});
+  picture.title = fmt::format("{}, seed {}{}", result.name, curves_.first.seed, alignment_note(result));
   picture.walls = walls;
   return draw_map_picture(picture);
 }
 
 std::string RunPictures::errors_of(const RunResult& result) const {
-  ErrorPicture picture{.title = fmt::format("{}: position error{}, {} seed{}", result.name,
-                                            alignment_note(result), seeds_, seeds_ == 1 ? "" : "s"),
-                       .time_s = first_.time_s,
-                       .filters = errors_,
-                       .anees = anees_of(result, first_.time_s.size())};
-  for (const double sum_m2 : bound_m2_)
-    picture.bound_m.push_back(std::sqrt(sum_m2 / static_cast<double>(seeds_)));
+  const ErrorPicture picture{
+      .title = fmt::format("{}: position error{}, {} seed{}", result.name, alignment_note(result),
+                           curves_.seeds, curves_.seeds == 1 ? "" : "s"),
+      .time_s = curves_.first.time_s,
+      .filters = curves_.errors,
+      .bound_m = curves_.bound_m(),
+      .anees = anees_of(result, curves_.first.time_s.size())};
   return draw_error_picture(picture);
 }
 
@@ -84,10 +98,11 @@ void RunPictures::write(const std::filesystem::path& out, const RunResult& resul
                         const std::vector<worlds::Wall>& walls) const {
   write_file_atomically(out / "map.png", map_of(result, walls));
   write_file_atomically(out / "error.png", errors_of(result));
-  if (!first_.snapshots.empty()) prepare_output_folder(out / "frames");
-  for (const Snapshot& snapshot : first_.snapshots)
-    write_file_atomically(out / "frames" / fmt::format("seed{}_step{:04}.png", first_.seed, snapshot.step),
-                          snapshot.png);
+  if (!curves_.first.snapshots.empty()) prepare_output_folder(out / "frames");
+  for (const Snapshot& snapshot : curves_.first.snapshots)
+    write_file_atomically(
+        out / "frames" / fmt::format("seed{}_step{:04}.png", curves_.first.seed, snapshot.step),
+        snapshot.png);
 }
 
 RunOutput::RunOutput(std::filesystem::path out, RunTally tally)
@@ -111,7 +126,8 @@ RunResult RunOutput::result() const {
   return result;
 }
 
-void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& walls) {
+void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& walls,
+                      const BesideResult& write_more) {
   steps_.move_into_place();
   if (detections_)
     detections_->move_into_place();
@@ -123,6 +139,7 @@ void RunOutput::write(const RunResult& result, const std::vector<worlds::Wall>& 
   if (result.made_from) write_file_atomically(out_ / kResolvedScenario, result.made_from->scenario);
   if (result.made_from && result.made_from->invocation)
     write_file_atomically(out_ / kInvocation, invocation_text(*result.made_from->invocation));
+  if (write_more) write_more(result, pictures_.curves());
   write_file_atomically(out_ / "run.json", json_text(run_json(result)));
 }
 

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/io/atomic_file.h"
-#include "harness/report/error_picture.h"
+#include "harness/run/run_curves.h"
 #include "harness/run/run_tally.h"
 #include "harness/run/seed_metrics.h"
 #include "harness/run/seed_result.h"
@@ -21,7 +22,8 @@ inline constexpr const char* kResolvedScenario = "resolved_scenario.yaml";
 /// What map.png, error.png and frames/ show: the first seed's map and pictures, and sums over the seeds.
 class RunPictures {
  public:
-  void add(const SeedResult& seed);
+  void add(const SeedResult& seed) { curves_.add(seed); }
+  const RunCurves& curves() const { return curves_; }
 
   /// Writes them into a folder. @param walls drawn into the map
   void write(const std::filesystem::path& out, const RunResult& result,
@@ -31,11 +33,11 @@ class RunPictures {
   std::string map_of(const RunResult& result, const std::vector<worlds::Wall>& walls) const;
   std::string errors_of(const RunResult& result) const;
 
-  SeedResult first_;  ///< without its lines
-  std::vector<ErrorCurves> errors_;
-  std::vector<double> bound_m2_;  ///< summed over the seeds
-  std::size_t seeds_ = 0;
+  RunCurves curves_;
 };
+
+/// Writes what belongs beside a result; see RunOutput::write.
+using BesideResult = std::function<void(const RunResult& result, const RunCurves& curves)>;
 
 /// A run's files, from seeds that come one after the other: lines of steps.csv are written as they come, and
 /// of a seed there remain some numbers.
@@ -56,8 +58,10 @@ class RunOutput {
   /// run.json, the run is complete.
   /// @param result of result(), with what it lacks
   /// @param walls drawn into the map
+  /// @param write_more called when all but run.json is written
   /// @throws std::runtime_error when a file cannot be written
-  void write(const RunResult& result, const std::vector<worlds::Wall>& walls);
+  void write(const RunResult& result, const std::vector<worlds::Wall>& walls,
+             const BesideResult& write_more = {});
 
  private:
   std::filesystem::path out_;

@@ -32,12 +32,12 @@ slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, 
 }
 
 /// Looks for a task, and keeps what it asks for.
-/// @param drive must live as long as the onlooker
-Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive,
+/// @param drive must live as long as the onlooker, and so must `worst`
+Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive, WorstPairs& worst,
                      const std::function<void(double)>& on_progress) {
   Onlooker onlooker{.experiment = task.experiment, .detector = task.detector};
   onlooker.listeners.on_progress = on_progress;
-  onlooker.listeners.on_frame = [&task, &drive](const FrameEvent& event) {
+  onlooker.listeners.on_frame = [&task, &drive, &worst](const FrameEvent& event) {
     const worlds::Scenario& scenario = task.experiment->scenario;
     if (task.parts.detections)
       drive.detections += detection_rows({task.seed, event.step, event.world, event.rig}, event.match);
@@ -83,10 +83,12 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress) {
   SeedDrive drive{.seed = task.seed};
-  const Onlooker onlooker = onlooker_of(task, drive, on_progress);
-  Look look = std::move(record_together({onlooker}, task.seed, task.backend).front());
+  WorstPairs worst(task.parts.pairs);
+  const Onlooker onlooker = onlooker_of(task, drive, worst, on_progress);
+  OnlookerResult look = std::move(record_together({onlooker}, task.seed, task.backend).front());
   if (look.fault) std::rethrow_exception(look.fault);
   drive.recording = std::move(look.recording);
+  drive.pairs = worst.pairs();
   run_filters(task, drive);
   return drive;
 }
@@ -94,18 +96,21 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
 std::vector<SharedSeedDrive> drive_together(const std::vector<DriveTask>& tasks,
                                             const std::function<void(double)>& on_progress) {
   std::vector<SharedSeedDrive> drives(tasks.size());
+  std::vector<WorstPairs> worst;
+  for (const DriveTask& task : tasks) worst.emplace_back(task.parts.pairs);
   std::vector<Onlooker> onlookers;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     drives[i].drive.seed = tasks[i].seed;
-    onlookers.push_back(onlooker_of(tasks[i], drives[i].drive, on_progress));
+    onlookers.push_back(onlooker_of(tasks[i], drives[i].drive, worst[i], on_progress));
   }
-  std::vector<Look> looks = record_together(onlookers, tasks.front().seed, tasks.front().backend);
+  std::vector<OnlookerResult> looks = record_together(onlookers, tasks.front().seed, tasks.front().backend);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (looks[i].fault) {
       drives[i].fault = message_of(looks[i].fault);
       continue;
     }
     drives[i].drive.recording = std::move(looks[i].recording);
+    drives[i].drive.pairs = worst[i].pairs();
     run_filters(tasks[i], drives[i].drive);
   }
   return drives;

@@ -8,6 +8,7 @@
 
 #include "harness/drive/recording.h"
 #include "harness/experiment/types.h"
+#include "harness/frames/kept_pair.h"
 #include "harness/types.h"
 #include "slam/filter_config.h"
 
@@ -27,7 +28,8 @@ struct SeedDrive {
   std::vector<FilterRun> runs;
   References references;
   std::vector<Snapshot> snapshots;
-  std::string detections;  ///< its lines of detections.csv
+  std::string detections;       ///< its lines of detections.csv
+  std::vector<KeptPair> pairs;  ///< the worst first
 };
 
 /// What is wanted of a seed beside its scores.
@@ -37,6 +39,7 @@ struct SeedParts {
   std::size_t snapshots = 0;  ///< how many pictures, evenly spread over the path
   bool log = false;           ///< what was measured
   bool detections = false;    ///< its lines of detections.csv, of a sensor with pixels
+  std::size_t pairs = 0;      ///< how many of its stereo pairs, the worst, as they were taken
 };
 
 /// A seed to drive, what is wanted of it, and what renders it.

@@ -1,5 +1,6 @@
 #include "harness/run/seed_result.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include "harness/io/gzip.h"
 #include "harness/run/consistency_report.h"
 #include "harness/scoring/association_score.h"
+#include "slam/math/elementary.h"
 #include "slam/models/motion.h"
 
 namespace stereobench::harness {
@@ -39,6 +41,16 @@ std::vector<double> position_errors(const FilterRun& run, const FilterScore& sco
   return errors_m;
 }
 
+std::vector<SquaredSum> innovations_of(const FilterRun& run, std::size_t steps) {
+  std::vector<SquaredSum> sums(steps);
+  for (std::size_t k = 0; k < std::min(steps, run.updates.size()); ++k) {
+    InnovationSum sum;
+    for (const slam::NormalisedInnovation& innovation : run.updates[k].innovations) sum.add(innovation);
+    sums[k] = sum.all;
+  }
+  return sums;
+}
+
 /// Adds what is drawn and listed of each step.
 void add_steps(const SeedDrive& drive, SeedResult& result) {
   const MeasurementLog& log = drive.recording.log;
@@ -48,6 +60,7 @@ void add_steps(const SeedDrive& drive, SeedResult& result) {
     const FilterRun& run = drive.runs[i];
     ScoredRun& scored = result.runs[i];
     scored.errors_m = position_errors(run, scored.score, log);
+    scored.innovations = innovations_of(run, log.steps.size());
     for (std::size_t k = 0; k < run.poses.size(); ++k)
       append_step(result.csv, drive.seed, run, scored.score, log.steps[k], k);
   }
@@ -86,8 +99,38 @@ MapPicture map_of(const SeedDrive& drive, const SeedResult& result) {
   return picture;
 }
 
+/// The covariances of a filter's positions, turned as its path is.
+std::vector<Eigen::Matrix2d> covariances_of(const FilterRun& run, const FilterScore& score) {
+  const double turn_rad = score.truth_from_estimate.value_or(slam::Pose{}).heading_rad;
+  const auto [s, c] = slam::sine_cosine(turn_rad);
+  Eigen::Matrix2d turn;
+  turn << c, -s, s, c;
+  std::vector<Eigen::Matrix2d> covariances;
+  for (const Eigen::Matrix3d& covariance : run.covariances)
+    covariances.emplace_back(turn * covariance.topLeftCorner<2, 2>() * turn.transpose());
+  return covariances;
+}
+
+/// @param map of the same drive: where it shows no truth, nothing can be compared with it
+MapTrack track_of(const SeedDrive& drive, const SeedResult& result, const MapPicture& map) {
+  MapTrack track;
+  for (std::size_t i = 0; i < drive.runs.size(); ++i)
+    track.covariances.push_back(covariances_of(drive.runs[i], result.runs[i].score));
+  for (const LogStep& step : drive.recording.log.steps) {
+    track.truth.push_back(map.true_path.empty() ? std::nullopt : step.truth);
+    track.seen_m.emplace_back();
+    if (!track.truth.back()) continue;
+    for (const slam::RangeBearing& seen : step.measurements) {
+      const auto [s, c] = slam::sine_cosine(step.truth->heading_rad + seen.bearing_rad);
+      track.seen_m.back().emplace_back(step.truth->x_m + seen.range_m * c,
+                                       step.truth->y_m + seen.range_m * s);
+    }
+  }
+  return track;
+}
+
 ScoredRun score_run(const FilterRun& run, const MeasurementLog& log) {
-  return {run.filter, run.particles, score(run, log), run.association, run.last.counters, {}};
+  return {run.filter, run.particles, score(run, log), run.association, run.last.counters, {}, {}};
 }
 
 }  // namespace
@@ -103,11 +146,15 @@ SeedResult score_seed(const SeedDrive& drive, const SeedParts& parts) {
                     .start_is_true = recording.log.start_is_true,
                     .identities_known = knows_identities(recording.log),
                     .batch = score(drive.references.batch, recording.log),
-                    .snapshots = drive.snapshots};
+                    .snapshots = drive.snapshots,
+                    .pairs = drive.pairs};
   for (const FilterRun& run : drive.runs) result.runs.push_back(score_run(run, recording.log));
   if (drive.references.bound) result.bound = score(*drive.references.bound);
   if (parts.steps) add_steps(drive, result);
-  if (parts.map) result.map = map_of(drive, result);
+  if (parts.map) {
+    result.map = map_of(drive, result);
+    result.track = track_of(drive, result, *result.map);
+  }
   if (parts.detections && recording.vision) result.detections_gz = gzip(drive.detections);
   if (parts.log) result.log = sensor_log(recording.log);
   return result;

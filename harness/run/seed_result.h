@@ -29,6 +29,15 @@ struct ScoredRun {
   slam::FilterCounters counters;
   std::vector<double>
       errors_m;  ///< of position, one a step of the log; NaN where unknown. See SeedParts::steps
+  std::vector<SquaredSum> innovations;  ///< the same of its innovations; nothing summed where it saw nothing
+};
+
+/// What a map shows of each step, beside the paths.
+struct MapTrack {
+  std::vector<std::optional<slam::Pose>> truth;      ///< none where it is not known, or cannot be compared
+  std::vector<std::vector<Eigen::Vector2d>> seen_m;  ///< where the sightings are, from the true pose
+  /// One a filter, then one a step: of its position, m^2, in the truth's frame.
+  std::vector<std::vector<Eigen::Matrix2d>> covariances;
 };
 
 /// One seed, scored. Of its steps it has what run.json sums up over seeds, and what SeedParts asks for.
@@ -49,7 +58,9 @@ struct SeedResult {
   std::string detections_gz;      ///< its lines of detections.csv, packed; empty where nobody asked for them
   std::vector<double> time_s;     ///< of each step
   std::optional<MapPicture> map;  ///< without title and walls
+  std::optional<MapTrack> track;  ///< where there is a map
   std::vector<Snapshot> snapshots;
+  std::vector<KeptPair> pairs;  ///< the worst first
   std::optional<SensorLog> log;
 };
 

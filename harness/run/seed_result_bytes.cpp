@@ -41,7 +41,7 @@ STEREOBENCH_ALL_FIELDS(FilterScore, failed, truth_from_estimate, trajectory, ate
 STEREOBENCH_ALL_FIELDS(BoundScore, pose_rms_m, heading_rms_rad, landmark_rms_m)
 STEREOBENCH_ALL_FIELDS(BoundScores, filtering, smoothing)
 STEREOBENCH_ALL_FIELDS(MapEstimate, filter, path, landmarks)
-STEREOBENCH_ALL_FIELDS(ScoredRun, filter, particles, score, association, counters, errors_m)
+STEREOBENCH_ALL_FIELDS(ScoredRun, filter, particles, score, association, counters, errors_m, innovations)
 
 inline void to_json(nlohmann::json& json, const MapPicture& map) {
   json = {{"true_path", map.true_path}, {"landmarks", map.landmarks}, {"estimates", map.estimates}};
@@ -62,10 +62,33 @@ inline void from_json(const nlohmann::json& json, Snapshot& snapshot) {
   snapshot.png.assign(png.begin(), png.end());
 }
 
+inline void to_json(nlohmann::json& json, const KeptPair& pair) {
+  const auto binary = [](const std::string& bytes) {
+    return nlohmann::json::binary({bytes.begin(), bytes.end()});
+  };
+  json = {pair.seed,
+          pair.frame,
+          pair.badness.faults,
+          pair.badness.worst_nis,
+          binary(pair.left_jpeg),
+          binary(pair.right_jpeg)};
+}
+inline void from_json(const nlohmann::json& json, KeptPair& pair) {
+  const auto text = [](const nlohmann::json& bytes) {
+    return std::string(bytes.get_binary().begin(), bytes.get_binary().end());
+  };
+  pair = {json.at(0).get<std::uint64_t>(),
+          json.at(1).get<std::size_t>(),
+          {json.at(2).get<long>(), json.at(3).get<double>()},
+          text(json.at(4)),
+          text(json.at(5))};
+}
+
+STEREOBENCH_ALL_FIELDS(MapTrack, truth, seen_m, covariances)
 STEREOBENCH_ALL_FIELDS(SensorLog, start, steps)
 STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
-                       identities_known, runs, batch, bound, bound_m2, csv, detections_gz, time_s, map,
-                       snapshots, log)
+                       identities_known, runs, batch, bound, bound_m2, csv, detections_gz, time_s, map, track,
+                       snapshots, pairs, log)
 
 std::string to_bytes(const SeedResult& result) {
   return bytes_of(result);

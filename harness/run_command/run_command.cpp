@@ -57,11 +57,15 @@ void add_run_command(CLI::App& program, Action& action) {
       "Each seed is rendered once and replayed for each filter. Writes run.json (metrics), steps.csv (every\n"
       "step), detections.csv.gz (every ball and detection), map.png, error.png, frames/ (detections drawn on "
       "the\n"
-      "pictures), timing.json and, where a world is left to chance, draws.jsonl.\n"
+      "pictures), report.html (all on one page), timing.json and, where a world is left to chance, "
+      "draws.jsonl.\n"
       "Exits with 1 when a gate of the scenario is broken.\n\n"
       "Example: stereobench run assets/scenarios/ball_circle.yaml --seeds 0..9 --set "
       "camera.noise_sd_levels=4");
-  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->run.words = words_of(*command);
+    action = [arguments] { return run(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

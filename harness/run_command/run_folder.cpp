@@ -6,8 +6,19 @@
 #include "harness/dataset/draws_file.h"
 #include "harness/experiment/filter_config.h"
 #include "harness/io/atomic_file.h"
+#include "harness/regression/gates.h"
+#include "harness/result_pages/run_page.h"
 
 namespace stereobench::harness {
+namespace {
+
+ReportCommands report_commands(const ScenarioArguments& arguments) {
+  std::vector<std::string> render = {"stereobench", "render", arguments.scenario.string()};
+  for (const std::string& change : arguments.overrides) render.insert(render.end(), {"--set", change});
+  return {arguments.run.words, render};
+}
+
+}  // namespace
 
 RunFolder::RunFolder(std::filesystem::path out, const ScenarioArguments& arguments,
                      const Experiment& experiment, std::string pixels)
@@ -29,7 +40,11 @@ RunResult RunFolder::finish() {
   result.noise = check_noise(logs_, filter_config(experiment_), arguments_.run.jobs);
   warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
   result.made_from = provenance_of(arguments_, {}, experiment_, pixels_);
-  output_.write(result, scenario.world.walls);
+  const RunStory story = {report_commands(arguments_), gates_of(experiment_), scenario.world.walls,
+                          scenario.rig};
+  output_.write(result, scenario.world.walls, [&](const RunResult& run, const RunCurves& curves) {
+    write_run_report(out_, run, curves, story);
+  });
   const std::string draws = draws_jsonl(scenario, experiment_.seeds);
   if (!draws.empty()) write_file_atomically(out_ / "draws.jsonl", draws);
   return result;

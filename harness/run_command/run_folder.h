@@ -12,7 +12,7 @@ namespace stereobench::harness {
 
 /// What a run keeps of each of its seeds.
 inline constexpr SeedParts kRunParts = {
-    .steps = true, .map = true, .snapshots = 4, .log = true, .detections = true};
+    .steps = true, .map = true, .snapshots = 4, .log = true, .detections = true, .pairs = 12};
 
 /// Takes the results of an experiment's seeds, and writes the files of its run.
 class RunFolder {

@@ -70,5 +70,38 @@ TEST(RunOptions, AreRead) {
   EXPECT_THAT(arguments.filters, ElementsAre(kBaselineFilter, "fastslam2"));
 }
 
+// Law: the words of a command line, parsed again, say the same. Mutations: a flag's value among the words; a
+// list that is split at its commas; options that were not said.
+TEST(WordsOf, SayAgainWhatWasSaidOfTheResult) {
+  struct Said {
+    std::string scenario;
+    std::vector<std::string> set;
+    std::vector<double> law;
+    bool plain = false;
+    RunArguments run;
+  };
+  const auto parse = [](std::vector<std::string> words, Said& said) {
+    auto command = std::make_unique<CLI::App>("", "run");
+    command->add_option("scenario", said.scenario);
+    add_set_option(*command, said.set);
+    command->add_option("--law", said.law)->expected(3)->delimiter(',');
+    command->add_flag("--plain", said.plain);
+    add_run_options(*command, said.run);
+    std::reverse(words.begin(), words.end());
+    command->parse(words);
+    return words_of(*command);
+  };
+  Said first, second;
+  auto words = parse({"a b.yaml", "--seeds", "0..3", "--set", "x=1,2", "--filters", "ekf,ufastslam", "--law",
+                      "1,2,3", "--set", "y=[]", "--plain", "--out", "there", "--jobs", "3"},
+                     first);
+  EXPECT_THAT(words, ElementsAre("stereobench", "run", "a b.yaml", "--set", "x=1,2", "--set", "y=[]", "--law",
+                                 "1,2,3", "--plain", "--filters", "ekf,ufastslam"));
+  words.erase(words.begin(), words.begin() + 2);
+  parse(words, second);
+  EXPECT_EQ(std::tie(first.scenario, first.set, first.law, first.plain, first.run.filters),
+            std::tie(second.scenario, second.set, second.law, second.plain, second.run.filters));
+}
+
 }  // namespace
 }  // namespace stereobench::harness

@@ -30,7 +30,8 @@ TEST(RunCommand, SameBytesForAnyNumberOfJobsAndRunAfterRun) {
                                    {"--jobs", std::string(run, 1), "--out", (scratch.path() / run).string()}))
                   .exit_code,
               1);
-  for (const char* file : {"run.json", "steps.csv", "map.png", "error.png", "frames/seed0_step0000.png"}) {
+  for (const char* file :
+       {"run.json", "steps.csv", "map.png", "error.png", "report.html", "frames/seed0_step0000.png"}) {
     const std::string one = bytes_of(scratch.path() / "1" / file);
     EXPECT_EQ(one, bytes_of(scratch.path() / "2" / file)) << file;
     EXPECT_EQ(one, bytes_of(scratch.path() / "2again" / file)) << file;

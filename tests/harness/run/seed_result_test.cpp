@@ -74,6 +74,7 @@ TEST(SeedResultBytes, CarryWhatASeedIs) {
   result.bound = BoundScores{.smoothing = {.pose_rms_m = 0.25}};
   result.vision.emplace().repeated = 3;
   result.snapshots = {{12, std::string("\x89PNG\0\xff", 6)}};
+  result.pairs = {{8, 41, {3, 0.1}, std::string("\xff\xd8\0", 3), "right"}};
   result.start_is_true = false;
   const SeedResult back = seed_result_from_bytes(to_bytes(result));
   EXPECT_EQ(back.seed, ~std::uint64_t{0});
@@ -85,6 +86,11 @@ TEST(SeedResultBytes, CarryWhatASeedIs) {
   EXPECT_EQ(back.bound.value().smoothing.pose_rms_m, 0.25);
   EXPECT_EQ(back.vision.value().repeated, 3);
   EXPECT_EQ(back.snapshots.at(0).png, result.snapshots[0].png);
+  const KeptPair& pair = back.pairs.at(0);
+  EXPECT_EQ(std::tuple(pair.seed, pair.frame, pair.badness.faults, pair.badness.worst_nis),
+            std::tuple(8, 41, 3, 0.1));
+  EXPECT_EQ(pair.left_jpeg, result.pairs[0].left_jpeg);
+  EXPECT_EQ(pair.right_jpeg, "right");
   EXPECT_FALSE(back.start_is_true);
   EXPECT_TRUE(back.identities_known);
   EXPECT_EQ(back.csv, "1,2\n");
@@ -188,6 +194,45 @@ TEST(RunOutput, KeepsSomeNumbersOfASeedAndNoneOfItsSteps) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) output.add(seed_of(seed, 2000));
   const auto kept = static_cast<double>(bytes_in_use()) - static_cast<double>(before);
   EXPECT_LT(kept / static_cast<double>(kSeeds), 4096.0);
+}
+
+// Law: what the map shows of each step does not depend on the frame that the filters made, either: positions
+// and their covariances are turned into the truth's. Mutations: covariances not turned, or turned back; the
+// sightings seen from the estimate.
+TEST(SeedResult, TheMapOfEachStepIsInTheFrameOfTheTruth) {
+  SeedDrive drive;
+  MeasurementLog& log = drive.recording.log;
+  FilterRun run{.filter = "ekf"};
+  for (int i = 0; i < 20; ++i) {
+    const slam::Pose truth{0.2 * i, 0.05 * i * i, 0.1 * i};
+    log.steps.push_back({.truth = truth});
+    log.steps.back().measurements.push_back({.range_m = 2.0, .bearing_rad = 0.25});
+    run.poses.push_back({truth.x_m + 0.01 * (i % 3), truth.y_m, truth.heading_rad});
+    run.covariances.push_back(Eigen::Vector3d(0.01 * (1 + i), 0.04, 0.001).asDiagonal());
+  }
+  drive.runs = {run};
+  drive.references.batch.failed = true;
+  const SeedResult stays = score_seed(drive, {.map = true});
+  log.start_is_true = false;
+  const slam::Pose elsewhere{4.0, -7.0, 2.0};
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2.0).toRotationMatrix();
+  for (std::size_t i = 0; i < 20; ++i) {
+    drive.runs[0].poses[i] = slam::compose(elsewhere, run.poses[i]);
+    const Eigen::Matrix2d position = run.covariances[i].topLeftCorner<2, 2>();
+    drive.runs[0].covariances[i].topLeftCorner<2, 2>() = turn * position * turn.transpose();
+  }
+  const SeedResult moved = score_seed(drive, {.map = true});
+  // The best alignment also takes out the mean error of a filter that starts at the truth.
+  for (std::size_t k = 0; k < 20; ++k) {
+    const auto at = [&](const SeedResult& seed) { return seed.track.value().covariances.at(0).at(k); };
+    EXPECT_LT((at(moved) - at(stays)).norm(), 0.02 * at(stays).norm()) << k;
+    const LogStep& step = log.steps[k];
+    const Eigen::Vector2d seen =
+        moved.track->seen_m.at(k).at(0) - Eigen::Vector2d(step.truth->x_m, step.truth->y_m);
+    EXPECT_NEAR(seen.norm(), 2.0, 1e-12);
+    EXPECT_NEAR(std::remainder(std::atan2(seen.y(), seen.x()) - step.truth->heading_rad - 0.25, 2.0 * M_PI),
+                0.0, 1e-12);
+  }
 }
 
 }  // namespace
