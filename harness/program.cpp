@@ -71,6 +71,7 @@ int run_command_line(int argc, char** argv) {
   add_render_command(program, action);
   add_slam_command(program, action);
   add_compare_command(program, action);
+  add_history_command(program, action);
   add_sweep_command(program, action);
   add_world_command(program, action);
   add_detect_command(program, action);

@@ -26,6 +26,7 @@ void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
+void add_history_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_world_command(CLI::App& program, Action& action);
 void add_detect_command(CLI::App& program, Action& action);
