@@ -17,7 +17,7 @@ constexpr double kLeft_px = 84.0;
 constexpr double kTop_px = 46.0;
 constexpr double kPlotWidth_px = 790.0;
 constexpr double kRight_px = 26.0;
-constexpr double kPlotHeight_px = 120.0;
+constexpr double kPlotHeight_px = 150.0;
 constexpr double kPanel_px = kPlotHeight_px + 56.0;  ///< with its title and the numbers of the results
 constexpr double kBottom_px = 26.0;
 
@@ -30,58 +30,74 @@ Colour colour_of(const HistoryStep& step) {
   return step.is_better() ? kBetter : kGrey;
 }
 
-/// Whole numbers of results that leave room for their labels.
-AxisRange range_of_results(std::size_t results) {
-  return {0.5, static_cast<double>(results) + 0.5};
+/// A panel's axes, and where the first result is on the horizontal one.
+struct Panel {
+  Axes axes;
+  double first = 1.0;
+
+  Point at(double result, double value) const { return axes.to_pixel(first + result, value); }
+};
+
+/// Few results have a number each, so that there is none between them.
+Panel panel_of(const MetricHistory& metric, const Box& plot, bool is_last) {
+  constexpr std::size_t kFew = 12;
+  const std::size_t results = metric.means.size();
+  Axis across{.label = is_last ? "result" : ""};
+  for (std::size_t i = 0; i < results && results <= kFew; ++i)
+    across.categories.push_back(fmt::format("{}", i + 1));
+  const double first = across.categories.empty() ? 1.0 : 0.0;
+  across.range = {first - 0.5, first + static_cast<double>(results) - 0.5};
+  return {Axes(across, {"", range_of(metric.means, Scale::kLinear, 0.12)}, plot), first};
 }
 
-Axes axes_of(const MetricHistory& metric, const Box& plot, bool is_last) {
-  const Axis across{is_last ? "result" : "", range_of_results(metric.means.size())};
-  return {across, {"", range_of(metric.means, Scale::kLinear, 0.12)}, plot};
-}
-
-/// The level between two steps, as a line from the one to the other.
-void draw_level(Canvas& canvas, const Axes& axes, double level, std::size_t begin, std::size_t end) {
-  const std::array<Point, 2> line = {axes.to_pixel(static_cast<double>(begin) + 0.6, level),
-                                     axes.to_pixel(static_cast<double>(end) + 0.4, level)};
+/// The level from a step to the next one, as a line.
+void draw_level(Canvas& canvas, const Panel& panel, double level, std::size_t begin, std::size_t end) {
+  const std::array<Point, 2> line = {panel.at(static_cast<double>(begin) - 0.4, level),
+                                     panel.at(static_cast<double>(end) - 0.6, level)};
   canvas.draw_line(line, {kBlack, 1.2});
 }
 
-void draw_steps(Canvas& canvas, const Axes& axes, const MetricHistory& metric) {
+void draw_steps(Canvas& canvas, const Panel& panel, const MetricHistory& metric) {
   const std::vector<HistoryStep>& steps = metric.steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double x_px = axes.to_pixel(static_cast<double>(steps[i].result) + 0.5, 0.0).x_px;
-    const Box& plot = axes.plot();
+    const double x_px = panel.at(static_cast<double>(steps[i].result) - 0.5, 0.0).x_px;
+    const Box& plot = panel.axes.plot();
     const std::array<Point, 2> line = {{{x_px, plot.top_px}, {x_px, plot.top_px + plot.height_px}}};
     canvas.draw_line(line, {colour_of(steps[i]), 2.0, Dash::kDashed});
-    draw_level(canvas, axes, steps[i].before, i > 0 ? steps[i - 1].result : 0, steps[i].result);
+    draw_level(canvas, panel, steps[i].before, i > 0 ? steps[i - 1].result : 0, steps[i].result);
   }
-  if (!steps.empty()) draw_level(canvas, axes, steps.back().after, steps.back().result, metric.means.size());
+  if (!steps.empty()) draw_level(canvas, panel, steps.back().after, steps.back().result, metric.means.size());
 }
 
-/// "worse from 3 to 4, better from 6 to 7"
-std::string steps_in_words(const MetricHistory& metric) {
-  std::string words;
-  for (const HistoryStep& step : metric.steps)
-    words += fmt::format("{}{} from {} to {}", words.empty() ? "" : ", ",
-                         step.is_worse()    ? "worse"
-                         : step.is_better() ? "better"
-                                            : "within the margin",
-                         step.result, step.result + 1);
-  return words.empty() ? "no step" : words;
+/// "worse from 3 to 4"
+std::string step_in_words(const HistoryStep& step) {
+  return fmt::format("{} from {} to {}",
+                     step.is_worse()    ? "worse"
+                     : step.is_better() ? "better"
+                                        : "within the margin",
+                     step.result, step.result + 1);
+}
+
+/// Each step, or where there is no room for them how many there are, and the last one.
+std::string steps_in_words(const std::vector<HistoryStep>& steps) {
+  constexpr std::size_t kRoomFor = 2;
+  if (steps.empty()) return "no step";
+  if (steps.size() > kRoomFor)
+    return fmt::format("{} steps, the last one {}", steps.size(), step_in_words(steps.back()));
+  return step_in_words(steps.front()) + (steps.size() > 1 ? ", " + step_in_words(steps.back()) : "");
 }
 
 void draw_metric(Canvas& canvas, const MetricHistory& metric, double top_px, bool is_last) {
   constexpr TextStyle kName = {.size_px = 13.0, .bold = true};
-  const Axes axes = axes_of(metric, {kLeft_px, top_px + 22.0, kPlotWidth_px, kPlotHeight_px}, is_last);
+  const Panel panel = panel_of(metric, {kLeft_px, top_px + 22.0, kPlotWidth_px, kPlotHeight_px}, is_last);
   canvas.write({kLeft_px, top_px + 10.0}, metric.metric, kName);
-  canvas.write({kLeft_px + kPlotWidth_px, top_px + 10.0}, steps_in_words(metric),
+  canvas.write({kLeft_px + kPlotWidth_px, top_px + 10.0}, steps_in_words(metric.steps),
                {.size_px = 12.0, .colour = {0.35, 0.35, 0.35, 1.0}, .align_x = 1.0});
-  axes.draw(canvas);
-  canvas.clip_to(axes.plot());
-  draw_steps(canvas, axes, metric);
+  panel.axes.draw(canvas);
+  canvas.clip_to(panel.axes.plot());
+  draw_steps(canvas, panel, metric);
   for (std::size_t i = 0; i < metric.means.size(); ++i) {
-    const Point at = axes.to_pixel(static_cast<double>(i) + 1.0, metric.means[i]);
+    const Point at = panel.at(static_cast<double>(i), metric.means[i]);
     if (std::isfinite(at.y_px)) draw_disc(canvas, at, 3.4, kMeans);
   }
   canvas.clip_to({});
