@@ -38,6 +38,18 @@ struct Panel {
   Point at(double result, double value) const { return axes.to_pixel(first + result, value); }
 };
 
+/// As narrow as two numbers beside it allow: one alone says nothing of how large a step is.
+AxisRange range_with_two_ticks(const std::vector<double>& means) {
+  constexpr std::array kMargins = {0.12, 0.3, 0.5, 0.8};
+  constexpr int kTicks = static_cast<int>(kPlotHeight_px / 38.0);  // as Axes has them
+  AxisRange range;
+  for (const double margin : kMargins) {
+    range = range_of(means, Scale::kLinear, margin);
+    if (ticks(range, Scale::kLinear, kTicks).size() > 1) break;
+  }
+  return range;
+}
+
 /// Few results have a number each, so that there is none between them.
 Panel panel_of(const MetricHistory& metric, const Box& plot, bool is_last) {
   constexpr std::size_t kFew = 12;
@@ -47,7 +59,7 @@ Panel panel_of(const MetricHistory& metric, const Box& plot, bool is_last) {
     across.categories.push_back(fmt::format("{}", i + 1));
   const double first = across.categories.empty() ? 1.0 : 0.0;
   across.range = {first - 0.5, first + static_cast<double>(results) - 0.5};
-  return {Axes(across, {"", range_of(metric.means, Scale::kLinear, 0.12)}, plot), first};
+  return {Axes(across, {"", range_with_two_ticks(metric.means)}, plot), first};
 }
 
 /// The level from a step to the next one, as a line.
