@@ -76,6 +76,7 @@ int run_command_line(int argc, char** argv) {
   add_test_command(program, action);
   add_bless_command(program, action);
   add_replay_command(program, action);
+  add_history_command(program, action);
   add_sweep_command(program, action);
   add_world_command(program, action);
   add_detect_command(program, action);

@@ -30,6 +30,7 @@ void add_compare_command(CLI::App& program, Action& action);
 void add_test_command(CLI::App& program, Action& action);
 void add_bless_command(CLI::App& program, Action& action);
 void add_replay_command(CLI::App& program, Action& action);
+void add_history_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_world_command(CLI::App& program, Action& action);
 void add_detect_command(CLI::App& program, Action& action);

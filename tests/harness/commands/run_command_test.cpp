@@ -173,21 +173,6 @@ TEST(SweepCommand, CellsSeeTheSameWorldsAndOdometry) {
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "sweep.csv"));
 }
 
-class ShippedScenario : public testing::TestWithParam<const char*> {};
-
-// The figures that the scenarios promise; see their gates. Mutation: edges mixed into balls before them (the
-// corridor's normalised error is 1.5).
-TEST_P(ShippedScenario, KeepsItsGates) {
-  const TestFolder scratch;
-  const Outcome outcome =
-      run_stereobench({"run", scenario_path(GetParam()), "--jobs", "2", "--out", scratch.path().string()});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("gates hold"));
-}
-
-INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
-                         testing::Values("ball_circle", "corridor", "office", "open_field", "room"));
-
 // Their stands hide slivers of them. Mutation: shades are looked at once, from where such an edge pulled the
 // outline (0.26 mm for 0.20).
 TEST(BallCircle, IsSeenToAFifthOfAMillimetre) {
