@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,9 +12,11 @@
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
+#include "harness/io/text_file.h"
 #include "harness/io/text_table.h"
 #include "harness/regression/metric_rule.h"
 #include "harness/regression/result_folder.h"
+#include "harness/regression_commands/suite_pictures.h"
 #include "harness/regression_commands/test_result.h"
 #include "harness/suite/baseline.h"
 #include "harness/suite/case_report.h"
@@ -36,8 +39,9 @@ struct BlessArguments {
 struct Blessed {
   TestedCase tested;
   Baseline baseline;
-  std::string findings;  ///< empty where there were no pictures
-  bool is_new = false;   ///< its baseline differs from what is there
+  std::string findings;                         ///< empty where there were no pictures
+  std::map<std::string, std::string> pictures;  ///< files of golden frames, by their name
+  bool is_new = false;                          ///< its baseline differs from what is there
 };
 
 /// @throws std::runtime_error for a case that cannot be a baseline
@@ -65,6 +69,16 @@ bool is_same(const Baseline& a, const Baseline& b) {
   return baseline_text(as_b) == baseline_text(b);
 }
 
+/// The files of golden frames in a folder, by their name.
+std::map<std::string, std::string> pictures_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string(); !name.ends_with(kDifferencePicture))
+      files[name] = read_text(entry.path());
+  return files;
+}
+
 Blessed blessed_of(const BlessArguments& arguments, const TestedCase& tested, const fs::path& folder) {
   const StoredResult result = read_result(arguments.result / tested.name);
   const fs::path file = baseline_file(folder, tested.name);
@@ -74,9 +88,11 @@ Blessed blessed_of(const BlessArguments& arguments, const TestedCase& tested, co
                                .blessing = {arguments.reason, STEREOBENCH_VERSION, hash_of(file)},
                                .seeds = result.seeds}};
   if (!result.detections.empty()) blessed.findings = findings_csv(read_detected_balls(result.detections));
+  blessed.pictures = pictures_in(golden_folder(arguments.result / tested.name));
   const std::optional<Baseline> before = read_baseline(file);
   const fs::path findings = findings_file(folder, tested.name);
   blessed.is_new = !before || !is_same(*before, blessed.baseline) ||
+                   pictures_in(golden_baseline(folder, tested.name)) != blessed.pictures ||
                    hash_of(findings) != (blessed.findings.empty() ? "" : sha256_of(blessed.findings));
   return blessed;
 }
@@ -88,6 +104,10 @@ void write(const Blessed& blessed, const fs::path& folder) {
     fs::remove(findings);
   else
     write_file_atomically(findings, blessed.findings);
+  const fs::path pictures = golden_baseline(folder, name);
+  fs::remove_all(pictures);
+  if (!blessed.pictures.empty()) prepare_output_folder(pictures);
+  for (const auto& [file, bytes] : blessed.pictures) write_file_atomically(pictures / file, bytes);
   write_file_atomically(baseline_file(folder, name), baseline_text(blessed.baseline));
 }
 

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/kept_drives.h"
 #include "harness/experiment/write_experiment.h"
+#include "harness/golden/golden_limits.h"
 #include "harness/io/sha256.h"
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
@@ -48,6 +50,18 @@ ScenarioArguments arguments_of(const SuiteCase& what) {
   return arguments;
 }
 
+/// The words of a `run` of the case alone, but for its seeds.
+std::vector<std::string> words_of_run(const ScenarioArguments& arguments) {
+  const RunArguments& run = arguments.run;
+  std::vector<std::string> words = {"stereobench", "run", arguments.scenario.string()};
+  for (const std::string& change : arguments.overrides) words.insert(words.end(), {"--set", change});
+  if (!run.filters.empty())
+    words.insert(words.end(), {"--filters", fmt::format("{}", fmt::join(run.filters, ","))});
+  if (run.particles > 0) words.insert(words.end(), {"--particles", std::to_string(run.particles)});
+  if (!arguments.detector.empty()) words.insert(words.end(), {"--detector", arguments.detector});
+  return words;
+}
+
 bool has_pictures(const Experiment& experiment) {
   return experiment.scenario.sensor == worlds::SensorKind::kStereo;
 }
@@ -64,6 +78,7 @@ std::string text_of(const ScenarioArguments& arguments, const Experiment& experi
 void check_frames(const PlannedCase& planned) {
   const auto& frames = planned.what.golden.frames;
   if (frames.empty()) return;
+  golden_limits(planned.what.golden.limits);
   if (!has_pictures(planned.experiment))
     throw std::runtime_error("golden: the sensor of the scenario is the oracle, which has no pictures");
   const std::size_t steps = planned.experiment.scenario.path.size();
@@ -81,6 +96,7 @@ PlannedCase plan_case(const SuiteCase& what, const SuiteArguments& suite) {
   if (!suite.run.seeds.empty()) planned.arguments.run.seeds = suite.run.seeds;
   if (!suite.detector.empty() && has_pictures(planned.experiment))
     planned.arguments.detector = suite.detector;
+  planned.arguments.run.words = words_of_run(planned.arguments);
   planned.experiment = read_experiment(planned.arguments);
   planned.gates = gates_of(planned.experiment);
   check_metrics(planned.gates, result_without_values(planned.experiment));

@@ -11,6 +11,8 @@
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
+#include "harness/regression_commands/suite_page.h"
+#include "harness/regression_commands/suite_pictures.h"
 #include "harness/regression_commands/suite_run.h"
 #include "harness/regression_commands/test_result.h"
 #include "harness/suite/suite_report.h"
@@ -68,7 +70,9 @@ int test(const TestArguments& arguments) {
   fs::remove(out / kTestResult);  // of an earlier test: it is not the result of this one
   KeptDrives kept(out);
   write_side_file(out, {arguments.suite.suite, plan.baseline});
-  const std::vector<CaseReport> cases = run_suite(plan, arguments.suite, out, kept);
+  std::vector<CaseReport> cases = run_suite(plan, arguments.suite, out, kept);
+  check_pictures(plan, arguments.suite, out, cases);
+  write_suite_page(plan, out, cases, arguments.suite.run.words);
   write_files(arguments, plan, out, cases);
   kept.discard();
   const int outcome = exit_code_of(cases, arguments.strict);
@@ -121,7 +125,10 @@ void add_test_command(CLI::App& program, Action& action) {
       "4\n"
       "when a case broke down, with 5 when a baseline is missing or of other inputs.\n\n"
       "Example: stereobench test assets/suites/quick.yaml --junit out/junit.xml");
-  command->callback([arguments, &action] { action = [arguments] { return test(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->suite.run.words = words_of(*command);
+    action = [arguments] { return test(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

@@ -26,7 +26,7 @@ std::string text_or_empty(const JsonValue& value) {
 
 Baseline baseline_of(const nlohmann::json& json) {
   const JsonValue top(json, "");
-  top.allow({"schema", "scenario", "blessed", "inputs", "pictures", "seeds", "per_seed"});
+  top.allow({"schema", "scenario", "blessed", "inputs", "seeds", "per_seed"});
   top.at("schema").integer(1, 1);
   const JsonValue blessed = top.at("blessed"), inputs = top.at("inputs");
   Baseline baseline{.scenario = top.at("scenario").text(),
@@ -35,7 +35,6 @@ Baseline baseline_of(const nlohmann::json& json) {
                     .blessing = {blessed.at("reason").text(), blessed.at("stereobench").text(),
                                  text_or_empty(blessed.at("instead_of"))},
                     .seeds = seed_table_of(top)};
-  for (const auto& [name, hash] : top.at("pictures").entries()) baseline.pictures[name] = hash.text();
   return baseline;
 }
 
@@ -60,7 +59,6 @@ std::string baseline_text(const Baseline& baseline) {
                      {{"sha256", baseline.inputs.sha256},
                       {"pixels", text_or_null(baseline.inputs.pixels)},
                       {"detector", baseline.inputs.detector}}},
-                    {"pictures", Json(baseline.pictures)},
                     {"seeds", baseline.seeds.seeds},
                     {"per_seed", seed_metrics_json(baseline.seeds.metrics)}});
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -29,7 +28,6 @@ struct Baseline {
   std::string scenario;  ///< its name
   BaselineInputs inputs;
   Blessing blessing;
-  std::map<std::string, std::string> pictures;  ///< SHA-256 of the pixels of golden pictures, by name
   SeedTable seeds;
 };
 

@@ -21,7 +21,6 @@ Baseline some_baseline() {
   return {.scenario = "office",
           .inputs = {"abc", "fingerprint", "stereobench"},
           .blessing = {"a reason", "1.2.3", ""},
-          .pictures = {{"left", "123"}},
           .seeds = {.seeds = {4, 2},
                     .metrics = {{"vision.recall", {1.0, std::numeric_limits<double>::quiet_NaN()}},
                                 {"filters.ekf.ate_rms_m", {0.1 + 0.2, 1e-300}}}}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -16,6 +17,7 @@
 #include "harness/regression/junit.h"
 #include "harness/regression/result_folder.h"
 #include "harness/regression/verdict_report.h"
+#include "harness/regression_commands/self_comparison.h"
 #include "harness/result_pages/comparison_page.h"
 
 namespace stereobench::harness {
@@ -26,6 +28,7 @@ struct CompareArguments {
   std::filesystem::path second;
   std::vector<std::string> margins;
   VerdictSettings settings;
+  int runs = 0;  ///< of --self; 0: compare two results
   bool all = false;
   bool strict = false;
   std::filesystem::path json;
@@ -64,7 +67,26 @@ void write_files(const CompareArguments& arguments, const Judgement& judgement, 
                                                            judgement.detections, arguments.all));
 }
 
+/// @return exit code: 1 where a repetition differs
+int compare_with_itself(const CompareArguments& arguments) {
+  for (int run = 2; run <= arguments.runs; ++run) {
+    const int jobs = run % 2 == 0 ? 1 : 2;  // results may not depend on it
+    const auto different = differences_to_another_run(arguments.first, jobs);
+    if (!different.empty()) {
+      say_gates(fmt::format("{}: run {} of {} has other bytes in {}\n", arguments.first.string(), run,
+                            arguments.runs, fmt::join(different, ", ")),
+                true);
+      return kGateBroken;
+    }
+  }
+  fmt::print("{}: {} runs gave equal bytes\n", arguments.first.string(), arguments.runs);
+  return kPassed;
+}
+
 int compare(CompareArguments arguments) {
+  if (arguments.second.empty() == (arguments.runs == 0))
+    throw std::runtime_error("compare: expected either two results, or one and --self N");
+  if (arguments.runs > 0) return compare_with_itself(arguments);
   VerdictSettings& settings = arguments.settings;
   for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
   const StoredResult first = read_result(arguments.first);
@@ -96,7 +118,13 @@ int compare(CompareArguments arguments) {
 void add_options(CLI::App& command, CompareArguments& arguments) {
   command.add_option("a", arguments.first, "the result to compare with: a folder that run or slam wrote")
       ->required();
-  command.add_option("b", arguments.second, "the result that may be worse")->required();
+  command.add_option("b", arguments.second, "the result that may be worse");
+  command
+      .add_option("--self", arguments.runs,
+                  "run A again until there are N runs of it, and ask for equal bytes: the proof that a "
+                  "scenario with its detector repeats")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100));
   command.add_option("--only", arguments.settings.only,
                      "judge only metrics whose names fit, e.g. 'vision.*'; may be repeated (default: all)");
   command
@@ -129,9 +157,10 @@ void add_compare_command(CLI::App& program, Action& action) {
   command->footer(
       "Both results are compared on the seeds that they share. Metrics that are equal on each pass. Of the "
       "others\n"
-      "one is REGRESSED (or IMPROVED) when its change is significant (Wilcoxon's signed ranks, corrected for "
-      "all\n"
-      "metrics that changed by Holm) and the whole interval of the change (bootstrap) is beyond the margin; "
+      "one is REGRESSED (or IMPROVED) when its change is significant (Wilcoxon's signed ranks, or McNemar's "
+      "test\n"
+      "of single balls; corrected for all metrics that changed) and the whole interval of the change "
+      "(bootstrap) is beyond the margin; "
       "it\n"
       "passes when the whole interval is within the margin. Others are INCONCLUSIVE, and the table says "
       "about "
