@@ -1,7 +1,6 @@
 #include "harness/frames/kept_pair.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include <opencv2/imgproc.hpp>
@@ -30,7 +29,7 @@ PairBadness badness_of(const VisionScore& score) {
   PairBadness badness{.faults = score.visible - score.found + score.misidentified + score.spurious +
                                 score.repeated};
   for (const double nis : score.normalised_errors)
-    if (std::isfinite(nis)) badness.worst_nis = std::max(badness.worst_nis, nis);
+    if (nis > badness.worst_nis) badness.worst_nis = nis;  // which NaN is not
   return badness;
 }
 

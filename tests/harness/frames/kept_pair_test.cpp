@@ -77,10 +77,10 @@ TEST(WorstPairs, AreCutWhereTheirPicturesGetTooLarge) {
   EXPECT_EQ(within_bytes(pairs, 1000).size(), 5U);
 }
 
-// Mutations: one of the faults left out; errors that are no numbers.
+// Mutations: one of the faults left out; errors that are no numbers; the last one for the largest.
 TEST(PairBadness, CountsEveryFaultAndTheLargestError) {
   VisionScore score{.visible = 9, .found = 7, .misidentified = 3, .spurious = 10, .repeated = 20};
-  score.normalised_errors = {0.5, std::nan(""), 2.5, 1.0};
+  score.normalised_errors = {0.5, 2.5, 1.0, std::nan("")};
   EXPECT_EQ(badness_of(score).faults, 35);
   EXPECT_EQ(badness_of(score).worst_nis, 2.5);
   EXPECT_EQ(badness_of({}).worst_nis, 0.0);
