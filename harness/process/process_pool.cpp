@@ -200,7 +200,7 @@ class Pool {
   void finish(std::size_t place) {
     const std::optional<std::size_t> unfinished = workers_[place].current;
     const int status = retire(workers_[place]);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
+    if (!unfinished && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
     const std::string cause = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                                   : fmt::format("exit status {}", WEXITSTATUS(status));
     if (!on_fault_ || !unfinished)

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/page/command_words.h"
 #include "slam/math/angles.h"
 
 namespace stereobench::harness {
@@ -217,7 +218,7 @@ PairedCounts counts_of(const DetectionChanges& changes) {
   return {{"vision.recall", {changes.found, true}}, {"vision.misidentified", {changes.misidentified, false}}};
 }
 
-std::string changes_text(const DetectionChanges& changes, bool range_errors_grew, const std::string& second) {
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew) {
   std::string text;
   if (changes.unpaired > 0)
     text += fmt::format(
@@ -243,10 +244,15 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
         "  nine tenths of the growth of squared range errors: " + slice_text(*changes.misplaced_slice) + "\n";
   if (changes.frames.empty()) return text;
   text += "frames that changed most: " + frames_text(changes.frames) + "\n";
-  const ChangedFrame& worst = changes.frames.front();
-  text +=
-      fmt::format("  look at it: stereobench replay '{}' --frame {}:{}\n", second, worst.seed, worst.frame);
   return text;
+}
+
+std::string replay_line(const DetectionChanges& changes, const std::string& result) {
+  if (changes.frames.empty()) return {};
+  const ChangedFrame& worst = changes.frames.front();
+  const std::vector<std::string> words = {"stereobench", "replay", result, "--frame",
+                                          fmt::format("{}:{}", worst.seed, worst.frame)};
+  return "  look at it: " + shell_line(words) + "\n";
 }
 
 nlohmann::ordered_json changes_json(const DetectionChanges& changes) {

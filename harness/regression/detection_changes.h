@@ -64,9 +64,11 @@ PairedCounts counts_of(const DetectionChanges& changes);
 
 /// Some lines for people; empty where nothing changed.
 /// @param range_errors_grew significantly: then it is said where
-/// @param second where B lies, for the command that renders the worst frame again
-std::string changes_text(const DetectionChanges& changes, bool range_errors_grew,
-                         const std::string& second = "B");
+std::string changes_text(const DetectionChanges& changes, bool range_errors_grew);
+
+/// The command that renders the frame that changed most again; empty where none did.
+/// @param result the folder of B
+std::string replay_line(const DetectionChanges& changes, const std::string& result);
 
 /// The same for programs.
 nlohmann::ordered_json changes_json(const DetectionChanges& changes);

@@ -15,11 +15,14 @@ struct Judgement {
   std::string detections;                   ///< lines for people, as of changes_text
 };
 
+/// The lines on detections, and the command that shows the frame that changed most.
+/// @param result the folder of the second result
+std::string detection_lines(const Judgement& judgement, const std::string& result);
+
 /// Judges each metric, and says which detections changed.
 /// @param balls of both results; empty where one of them has no detections
-/// @param result the folder of the second one, for the command that shows a frame of it
 /// @throws std::runtime_error as compare_results
 Judgement judge(const SeedTable& first, const SeedTable& second, const VerdictSettings& settings,
-                const std::optional<PairedBalls>& balls, const std::string& result);
+                const std::optional<PairedBalls>& balls);
 
 }  // namespace stereobench::harness

@@ -222,17 +222,9 @@ void take_count(const MetricCount& counted, std::size_t seeds, double alpha, Met
   const double all = static_cast<double>(counted.count.total);
   const double unit = counted.is_rate ? 1.0 : all / static_cast<double>(seeds);
   const Interval share = paired_share_interval(counted.count, 1.0 - alpha);
-  metric.interval = {unit * share.low, unit * share.high};
-}
-
-/// @throws std::runtime_error for a margin that is of no metric
-void check_margins(const ResultComparison& comparison, const std::vector<Margin>& margins) {
-  for (const Margin& margin : margins) {
-    const auto is_its = [&](const MetricVerdict& metric) { return fits(metric.metric, margin.pattern); };
-    if (std::ranges::none_of(comparison.metrics, is_its))
-      throw std::runtime_error(
-          fmt::format("--margin: no metric that is judged fits '{}'; --all lists them", margin.pattern));
-  }
+  const Interval pooled = {unit * share.low, unit * share.high};
+  // Seeds of very different numbers of balls: the mean of their rates is not the rate of all.
+  if (pooled.low <= metric.change && metric.change <= pooled.high) metric.interval = pooled;
 }
 
 [[noreturn]] void refuse_nothing(const ResultComparison& comparison, const std::vector<std::string>& only) {
@@ -294,9 +286,17 @@ ResultComparison compare_results(const SeedTable& first, const SeedTable& second
     comparison.metrics.push_back(std::move(metric));
   }
   if (comparison.metrics.empty()) refuse_nothing(comparison, settings.only);
-  check_margins(comparison, settings.margins);
   decide(comparison, settings.alpha);
   return comparison;
+}
+
+void check_margins(const ResultComparison& comparison, const std::vector<Margin>& margins) {
+  for (const Margin& margin : margins) {
+    const auto is_its = [&](const MetricVerdict& metric) { return fits(metric.metric, margin.pattern); };
+    if (std::ranges::none_of(comparison.metrics, is_its))
+      throw std::runtime_error(
+          fmt::format("--margin: no metric that is judged fits '{}'; --all lists them", margin.pattern));
+  }
 }
 
 }  // namespace stereobench::harness

@@ -97,9 +97,11 @@ struct ResultComparison {
 /// others are INCONCLUSIVE.
 /// @param counts of metrics that count single things, such as balls. Their p-value is McNemar's and their
 /// interval Tango's, which take each of them for independent
-/// @throws std::runtime_error, one line, when there is no seed or no metric to compare, or a margin is of no
-/// metric that is judged
+/// @throws std::runtime_error, one line, when there is no seed or no metric to compare,
 ResultComparison compare_results(const SeedTable& first, const SeedTable& second,
                                  const VerdictSettings& settings, const PairedCounts& counts = {});
+
+/// @throws std::runtime_error for a margin that is of no metric that was judged
+void check_margins(const ResultComparison& comparison, const std::vector<Margin>& margins);
 
 }  // namespace stereobench::harness

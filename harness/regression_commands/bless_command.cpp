@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -51,8 +52,8 @@ void check(const TestedCase& tested, bool takes_undecided) {
   };
   if (tested.verdict == text_of(CaseState::kError)) refuse("it broke down: " + tested.error);
   if (!tested.partial.empty()) refuse(tested.partial);
-  if (tested.verdict == text_of(CaseState::kGateBroken))
-    refuse("a gate is broken: mend what it measures, or the gate, and test again");
+  if (tested.broken_gates > 0) refuse("a gate is broken: mend what it measures, or the gate, and test again");
+  // Beside a change that is decided, others may stay open: somebody has looked at it.
   if (tested.verdict == text_of(CaseState::kInconclusive) && !takes_undecided)
     refuse(
         "metrics are inconclusive: test with more seeds (--until-decided), or take them as they are with "
@@ -69,12 +70,18 @@ bool is_same(const Baseline& a, const Baseline& b) {
   return baseline_text(as_b) == baseline_text(b);
 }
 
+bool is_golden_file(const std::string& name) {
+  constexpr std::array kEnds = {".json", "_left.png", "_left_shown.png", "_right.png", "_right_shown.png"};
+  return name.starts_with("seed") &&
+         std::ranges::any_of(kEnds, [&](const char* end) { return name.ends_with(end); });
+}
+
 /// The files of golden frames in a folder, by their name.
 std::map<std::string, std::string> pictures_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); !name.ends_with(kDifferencePicture))
+    if (const std::string name = entry.path().filename().string(); is_golden_file(name))
       files[name] = read_text(entry.path());
   return files;
 }
@@ -105,8 +112,11 @@ void write(const Blessed& blessed, const fs::path& folder) {
   else
     write_file_atomically(findings, blessed.findings);
   const fs::path pictures = golden_baseline(folder, name);
-  fs::remove_all(pictures);
-  if (!blessed.pictures.empty()) prepare_output_folder(pictures);
+  for (const auto& [file, bytes] : pictures_in(pictures)) fs::remove(pictures / file);
+  if (blessed.pictures.empty())
+    fs::remove(pictures);  // unless something else is in it
+  else
+    prepare_output_folder(pictures);
   for (const auto& [file, bytes] : blessed.pictures) write_file_atomically(pictures / file, bytes);
   write_file_atomically(baseline_file(folder, name), baseline_text(blessed.baseline));
 }

@@ -52,6 +52,7 @@ std::optional<PairedBalls> balls_of(const StoredResult& first, const StoredResul
 
 void write_files(const CompareArguments& arguments, const Judgement& judgement, const std::string& scenario) {
   const ComparedNames names{arguments.first.string(), arguments.second.string()};
+  const std::string detections = detection_lines(judgement, arguments.second.string());
   const ResultComparison& comparison = judgement.comparison;
   if (!arguments.json.empty()) {
     nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
@@ -60,11 +61,11 @@ void write_files(const CompareArguments& arguments, const Judgement& judgement, 
     write_file_atomically(arguments.json, json_text(json));
   }
   if (!arguments.junit.empty())
-    write_file_atomically(
-        arguments.junit, junit_xml({{"compare." + scenario, junit_cases(comparison), judgement.detections}}));
+    write_file_atomically(arguments.junit,
+                          junit_xml({{"compare." + scenario, junit_cases(comparison), detections}}));
   if (!arguments.markdown.empty())
-    write_file_atomically(arguments.markdown, verdict_page(comparison, arguments.settings, names,
-                                                           judgement.detections, arguments.all));
+    write_file_atomically(arguments.markdown,
+                          verdict_page(comparison, arguments.settings, names, detections, arguments.all));
 }
 
 /// @return exit code: 1 where a repetition differs
@@ -91,9 +92,9 @@ int compare(CompareArguments arguments) {
   for (const std::string& margin : arguments.margins) settings.margins.push_back(parse_margin(margin));
   const StoredResult first = read_result(arguments.first);
   const StoredResult second = read_result(arguments.second);
-  const Judgement judgement =
-      judge(first.seeds, second.seeds, settings, balls_of(first, second), arguments.second.string());
+  const Judgement judgement = judge(first.seeds, second.seeds, settings, balls_of(first, second));
   const ResultComparison& comparison = judgement.comparison;
+  check_margins(comparison, settings.margins);
   write_files(arguments, judgement, second.scenario);
   if (!arguments.html.empty())
     write_file_atomically(arguments.html,
@@ -109,9 +110,9 @@ int compare(CompareArguments arguments) {
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
   say(few_seeds_warning(comparison, settings));
   const int outcome = exit_code_of(comparison, arguments.strict);
-  say_gates(
-      verdict_table(comparison, settings, arguments.all) + judgement.detections + verdict_summary(comparison),
-      outcome != kPassed);
+  say_gates(verdict_table(comparison, settings, arguments.all) +
+                detection_lines(judgement, arguments.second.string()) + verdict_summary(comparison),
+            outcome != kPassed);
   return outcome;
 }
 

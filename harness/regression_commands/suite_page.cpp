@@ -51,11 +51,13 @@ Block remarks_block(const CaseReport& report, const std::vector<std::string>& wo
                                      look.alpha, look.inconclusive));
   if (report.judgement) append_lines(report.judgement->detections, text.lines);
   if (text.lines.empty()) text.lines.push_back("nothing to be said");
-  return {
-      .title = "Case",
-      .note = fmt::format("{}/report.html shows its maps, errors over time and worst frames.", report.name),
-      .commands = words.empty() ? std::vector<std::string>() : std::vector{shell_line(words)},
-      .content = std::move(text)};
+  return {.title = "Case",
+          .note = report.error.empty()
+                      ? fmt::format("{}/report.html shows its maps, errors over time and worst frames.",
+                                    report.name)
+                      : "It has no result.",
+          .commands = words.empty() ? std::vector<std::string>() : std::vector{shell_line(words)},
+          .content = std::move(text)};
 }
 
 ComparedCase compared_case(const PlannedCase& planned, const std::filesystem::path& out,

@@ -1,6 +1,6 @@
 #include "harness/regression_commands/suite_pictures.h"
 
-#include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -34,8 +34,10 @@ std::vector<WantedFrame> frames_of(const SuitePlan& plan, const std::vector<Case
 }
 
 /// Renders in processes of their own: this one shall have no GL context when it forks.
-void render(const std::vector<WantedFrame>& frames, const SuiteArguments& arguments, const fs::path& out,
-            const std::string& what) {
+/// @return why a frame has no pictures, by its index
+std::map<std::size_t, std::string> render(const std::vector<WantedFrame>& frames,
+                                          const SuiteArguments& arguments, const fs::path& out,
+                                          const std::string& what) {
   Progress progress(what, static_cast<double>(frames.size()));
   const Task render_one = [&](std::size_t index, const auto&) {
     const WantedFrame& frame = frames[index];
@@ -44,7 +46,12 @@ void render(const std::vector<WantedFrame>& frames, const SuiteArguments& argume
                  render_golden(planned.experiment, frame.name, arguments.backend, *planned.arguments.meshes));
     return std::string();
   };
-  run_in_processes(frames.size(), arguments.run.jobs, render_one, [&](double done) { progress.show(done); });
+  std::map<std::size_t, std::string> faults;
+  run_all_in_processes(
+      frames.size(), arguments.run.jobs, render_one, [](std::size_t, const std::string&) {},
+      [&](std::size_t index, const std::string& message) { faults[index] = message; },
+      [&](double done) { progress.show(done); });
+  return faults;
 }
 
 /// One line. @param text of a line or two
@@ -57,6 +64,11 @@ std::string on_one_line(std::string text) {
 
 PictureRecord compare(const WantedFrame& frame, const fs::path& before, const fs::path& now) {
   PictureRecord record{.name = file_stem(frame.name)};
+  if (!fs::exists(before / (record.name + ".json"))) {
+    record.is_as_before = false;
+    record.text = "the baseline has no " + record.name + ".json: bless one";
+    return record;
+  }
   try {
     const GoldenFrame rendered = read_golden(now, frame.name);
     const GoldenCheck check =
@@ -81,7 +93,7 @@ fs::path golden_folder(const fs::path& result) {
 }
 
 fs::path golden_baseline(const fs::path& baseline, const std::string& name) {
-  return baseline / name;
+  return baseline / (name + ".golden");  // no case can have such a name
 }
 
 void check_pictures(const SuitePlan& plan, const SuiteArguments& arguments, const fs::path& out,
@@ -89,9 +101,14 @@ void check_pictures(const SuitePlan& plan, const SuiteArguments& arguments, cons
   const std::vector<WantedFrame> frames = frames_of(plan, reports);
   for (const PlannedCase& planned : plan.cases) fs::remove_all(golden_folder(out / planned.what.name));
   if (frames.empty()) return;
-  render(frames, arguments, out, "pictures of " + plan.suite.name);
-  for (const WantedFrame& frame : frames) {
+  const auto faults = render(frames, arguments, out, "pictures of " + plan.suite.name);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const WantedFrame& frame = frames[i];
     CaseReport& report = reports[frame.report];
+    if (const auto fault = faults.find(i); fault != faults.end()) {
+      report.pictures.push_back({file_stem(frame.name), false, fault->second});
+      continue;
+    }
     if (!report.not_compared.empty()) continue;
     const std::string& name = frame.planned->what.name;
     report.pictures.push_back(

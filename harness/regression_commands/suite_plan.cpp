@@ -13,6 +13,7 @@
 #include "harness/experiment/write_experiment.h"
 #include "harness/golden/golden_limits.h"
 #include "harness/io/sha256.h"
+#include "harness/page/command_words.h"
 #include "harness/regression/gates.h"
 #include "renderer/backend.h"
 #include "worlds/yaml/excerpt.h"
@@ -58,6 +59,7 @@ std::vector<std::string> words_of_run(const ScenarioArguments& arguments) {
   if (!run.filters.empty())
     words.insert(words.end(), {"--filters", fmt::format("{}", fmt::join(run.filters, ","))});
   if (run.particles > 0) words.insert(words.end(), {"--particles", std::to_string(run.particles)});
+  if (!run.seeds.empty()) words.insert(words.end(), {"--seeds", seeds_word(run.seeds)});
   if (!arguments.detector.empty()) words.insert(words.end(), {"--detector", arguments.detector});
   return words;
 }
@@ -73,6 +75,24 @@ std::string text_of(const ScenarioArguments& arguments, const Experiment& experi
   overrides.push_back(fmt::format("particles={}", experiment.particles));
   const std::string lines = without_keys(with_overrides(arguments.scenario, overrides), without);
   return lines + nlohmann::json(hashes_of_named_files(arguments.scenario, overrides)).dump();
+}
+
+/// Names of numbers as compare_results has them: without ".mean".
+void append_names(const nlohmann::ordered_json& json, const std::string& name,
+                  std::vector<std::string>& names) {
+  if (!json.is_object()) return names.push_back(name);
+  if (json.contains("mean")) names.push_back(name);
+  for (const auto& [key, child] : json.items())
+    append_names(child, name.empty() ? key : name + "." + key, names);
+}
+
+/// @throws std::runtime_error for a pattern of metrics that no metric of the case fits
+void check_patterns(const SuiteCase& what, const nlohmann::ordered_json& result) {
+  std::vector<std::string> names;
+  append_names(result, "", names);
+  for (const std::string& pattern : what.metrics)
+    if (std::ranges::none_of(names, [&](const std::string& name) { return fits(name, pattern); }))
+      throw std::runtime_error(fmt::format("metrics: no metric of the case fits '{}'", pattern));
 }
 
 void check_frames(const PlannedCase& planned) {
@@ -98,6 +118,7 @@ PlannedCase plan_case(const SuiteCase& what, const SuiteArguments& suite) {
     planned.arguments.detector = suite.detector;
   planned.arguments.run.words = words_of_run(planned.arguments);
   planned.experiment = read_experiment(planned.arguments);
+  check_patterns(what, result_without_values(planned.experiment));
   planned.gates = gates_of(planned.experiment);
   check_metrics(planned.gates, result_without_values(planned.experiment));
   check_frames(planned);
@@ -134,19 +155,25 @@ SuitePlan plan_suite(const SuiteArguments& arguments) {
 }
 
 std::string obstacle_to_comparison(const PlannedCase& planned, const SuitePlan& plan) {
-  const std::string file = baseline_file(plan.baseline, planned.what.name).string();
   const char* const bless = "look at the result; where it is good: stereobench bless OUT --reason WHY";
-  if (!planned.baseline) return fmt::format("there is no {}: {}", file, bless);
+  if (!planned.baseline) return fmt::format("the baseline has no {}.json: {}", planned.what.name, bless);
   const BaselineInputs& before = planned.baseline->inputs;
+  const std::string name = planned.what.name + ".json";
+  if (before.sha256 != planned.inputs.sha256)
+    return fmt::format("{} is of another scenario: its file, `set:`, `particles:` or a mesh has changed; {}",
+                       name, bless);
   if (before.pixels != planned.inputs.pixels)
     return fmt::format(
         "{} was made with pixels {}, this renderer has {}: take the same packages (`stereobench doctor`), or "
         "a "
         "baseline of this machine: stereobench test {} --baseline OTHER, then stereobench bless",
-        file, worlds::excerpt(before.pixels), planned.inputs.pixels, plan.suite.file.string());
-  if (before.sha256 != planned.inputs.sha256)
-    return fmt::format("{} is of another scenario: its file, `set:`, `particles:` or a mesh has changed; {}",
-                       file, bless);
+        name, worlds::excerpt(before.pixels), planned.inputs.pixels, plan.suite.file.filename().string());
+  const auto is_new = [&](std::uint64_t seed) {
+    return std::ranges::count(planned.baseline->seeds.seeds, seed) == 0;
+  };
+  const auto missing = std::ranges::count_if(planned.experiment.seeds, is_new);
+  if (missing > 0)
+    return fmt::format("{} lacks {} of {} seeds; {}", name, missing, planned.experiment.seeds.size(), bless);
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -46,14 +47,6 @@ VerdictSettings settings_of(const CaseRun& run, const Suite& suite) {
           .only = run.planned->what.metrics};
 }
 
-/// Margins of metrics that a case has not are let be: a preset has those of several.
-void drop_margins_of_nothing(const SeedTable& first, const SeedTable& second, std::vector<Margin>& margins) {
-  std::erase_if(margins, [&](const Margin& margin) {
-    const auto is_its = [&](const auto& entry) { return fits(entry.first, margin.pattern); };
-    return std::ranges::none_of(first.metrics, is_its) && std::ranges::none_of(second.metrics, is_its);
-  });
-}
-
 std::optional<PairedBalls> balls_of(const fs::path& before, const StoredResult& now) {
   if (!fs::exists(before) || now.detections.empty()) return {};
   return pair_findings(read_findings(before), read_detected_balls(now.detections));
@@ -85,11 +78,13 @@ void judge_case(const SuitePlan& plan, const fs::path& out, KeptDrives& kept, Ca
     run.report.broken_gates.push_back(gate.message);
   if (!run.report.not_compared.empty()) return;
   const StoredResult now = read_result(folder);
-  VerdictSettings& settings = run.report.settings = settings_of(run, plan.suite);
-  drop_margins_of_nothing(planned.baseline->seeds, now.seeds, settings.margins);
-  run.report.judgement =
-      judge(planned.baseline->seeds, now.seeds, settings,
-            balls_of(findings_file(plan.baseline, planned.what.name), now), folder.string());
+  run.report.settings = settings_of(run, plan.suite);
+  try {
+    run.report.judgement = judge(planned.baseline->seeds, now.seeds, run.report.settings,
+                                 balls_of(findings_file(plan.baseline, planned.what.name), now));
+  } catch (const std::runtime_error& error) {
+    run.report.not_compared = error.what();
+  }
 }
 
 void note_look(std::size_t seeds, CaseRun& run) {
@@ -105,7 +100,7 @@ void note_error(const std::string& message, const fs::path& out, CaseRun& run) {
                 .inputs = run.planned->inputs,
                 .error = message,
                 .gates = run.planned->gates.size()};
-  fs::remove(out / run.planned->what.name / "run.json");  // of an earlier test
+  fs::remove_all(out / run.planned->what.name);  // of an earlier test: it is not the result of this one
 }
 
 /// Cases that differ only in how they are judged have the same tasks.
@@ -139,7 +134,7 @@ void judge_look(const SuitePlan& plan, const fs::path& out, std::size_t look,
   judge_case(plan, out, kept, run);
   const bool is_last = look + 1 == run.looks.size();
   if (run.report.judgement) note_look(run.looks[look], run);
-  run.is_done = is_last || is_decided(run.report.judgement->comparison);
+  run.is_done = is_last || !run.report.judgement || is_decided(run.report.judgement->comparison);
 }
 
 }  // namespace

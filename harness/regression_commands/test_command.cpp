@@ -55,7 +55,7 @@ void write_files(const TestArguments& arguments, const SuitePlan& plan, const fs
                  const std::vector<CaseReport>& cases) {
   const std::string& name = plan.suite.name;
   if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(suite_junit(name, cases)));
-  if (!arguments.markdown.empty()) write_file_atomically(arguments.markdown, suite_page(name, cases));
+  if (!arguments.markdown.empty()) write_file_atomically(arguments.markdown, suite_page(name, cases, out));
   write_file_atomically(out / kTestResult, json_text(suite_json(name, cases)));
 }
 
@@ -76,7 +76,7 @@ int test(const TestArguments& arguments) {
   write_files(arguments, plan, out, cases);
   kept.discard();
   const int outcome = exit_code_of(cases, arguments.strict);
-  say_gates(suite_text(cases), outcome != kPassed);
+  say_gates(suite_text(cases, out), outcome != kPassed);
   fmt::print("results: {}\n", (out / "").string());
   return outcome;
 }
@@ -94,9 +94,10 @@ void add_options(CLI::App& command, TestArguments& arguments) {
       ->type_name("NAME|COMMAND");
   add_backend_option(command, suite.backend);
   add_seed_options(command, suite.run);
-  command.add_flag(
-      "--until-decided", suite.until_decided,
-      "run 10, 20, 40, ... seeds of the baseline until no metric is inconclusive or one got worse");
+  command
+      .add_flag("--until-decided", suite.until_decided,
+                "run 10, 20, 40, ... seeds of the baseline until no metric is inconclusive or one got worse")
+      ->excludes("--seeds");
   command
       .add_option("--max-seeds", suite.max_seeds,
                   "with --until-decided: seeds of a case at most (default: 80)")

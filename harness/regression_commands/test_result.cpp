@@ -54,6 +54,7 @@ TestedCase case_of(const JsonValue& entry) {
           .inputs = {inputs.at("sha256").text(), inputs.at("pixels").text(), inputs.at("detector").text()},
           .error = entry.at("error").text(),
           .partial = entry.at("partial").text(),
+          .broken_gates = entry.at("broken_gates").list(0, kMostMetrics).size(),
           .changes = changes_of(entry.at("comparison"))};
 }
 

@@ -39,6 +39,7 @@ struct TestedCase {
   BaselineInputs inputs;
   std::string error;
   std::string partial;  ///< see CaseReport
+  std::size_t broken_gates = 0;
   std::vector<TestedMetric> changes;
 };
 

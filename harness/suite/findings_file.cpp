@@ -14,6 +14,9 @@ constexpr const char* kHeader =
     "seed,frame,ball,required,found,taken_for,range_error_m,left_x_error_px,left_y_error_px,right_x_error_px,"
     "right_y_error_px";
 
+constexpr int kRangeDecimals = 7;
+constexpr int kPixelDecimals = 4;
+
 enum Column : std::size_t {
   kSeed,
   kFrame,
@@ -35,8 +38,7 @@ std::string rounded(double value, int decimals) {
 }
 
 std::string pixels(const Eigen::Vector2d& error_px) {
-  constexpr int kDecimals = 4;
-  return rounded(error_px.x(), kDecimals) + "," + rounded(error_px.y(), kDecimals);
+  return rounded(error_px.x(), kPixelDecimals) + "," + rounded(error_px.y(), kPixelDecimals);
 }
 
 Eigen::Vector2d pixels_in(const NumberTable& table, const TableRow& row, std::size_t x, std::size_t y) {
@@ -55,10 +57,21 @@ BallFinding finding_in(const NumberTable& table, const TableRow& row) {
   return finding;
 }
 
+/// A finding as it is after it was written and read.
+BallFinding as_written(BallFinding finding) {
+  const auto through_text = [](double value, int decimals) {
+    const std::string text = rounded(value, decimals);
+    return text.empty() ? std::numeric_limits<double>::quiet_NaN() : std::stod(text);
+  };
+  finding.range_error_m = through_text(finding.range_error_m, kRangeDecimals);
+  for (Eigen::Vector2d* error_px : {&finding.left_error_px, &finding.right_error_px})
+    for (double& coordinate : *error_px) coordinate = through_text(coordinate, kPixelDecimals);
+  return finding;
+}
+
 }  // namespace
 
 std::string findings_csv(const DetectedBalls& balls) {
-  constexpr int kRangeDecimals = 7;
   std::string csv = std::string(kHeader) + "\n";
   for (const auto& [key, ball] : balls) {
     const BallFinding& finding = ball.finding;
@@ -91,7 +104,9 @@ PairedBalls pair_findings(const DetectedBalls& first, const DetectedBalls& secon
     with_truth.truth = same->second.truth;
     with_truth.truth.is_required = ball.truth.is_required;
   }
-  return pair_balls(balls, second);
+  DetectedBalls rounded_alike = second;
+  for (auto& [key, ball] : rounded_alike) ball.finding = as_written(ball.finding);
+  return pair_balls(balls, rounded_alike);
 }
 
 }  // namespace stereobench::harness

@@ -21,7 +21,8 @@ DetectedBalls read_findings(const std::filesystem::path& file);
 /// Findings beside others of the same inputs.
 /// @param first as of read_findings
 /// @param second whose balls say what was there
-/// @return as of pair_balls; a ball that `second` has not is unpaired if it had to be found, else left out
+/// @return as of pair_balls, with both rounded alike; a ball that `second` has not is unpaired if it had to
+/// be found, else left out
 PairedBalls pair_findings(const DetectedBalls& first, const DetectedBalls& second);
 
 }  // namespace stereobench::harness

@@ -51,6 +51,7 @@ std::string remarks(const CaseReport& report) {
   for (const std::string& gate : report.broken_gates) text += "gate broken: " + gate + "\n";
   for (const PictureRecord& picture : report.pictures)
     if (!picture.is_as_before) text += picture.name + ": " + picture.text + "\n";
+  if (report.judgement) text += few_seeds_warning(report.judgement->comparison, report.settings);
   for (const LookRecord& look : report.looks)
     text += fmt::format("look at {} seeds, alpha {:.2g}: {} inconclusive\n", look.seeds, look.alpha,
                         look.inconclusive);
@@ -106,28 +107,29 @@ std::vector<JunitCase> tests_of(const CaseReport& report) {
 
 }  // namespace
 
-std::string suite_text(const std::vector<CaseReport>& cases) {
+std::string suite_text(const std::vector<CaseReport>& cases, const std::filesystem::path& out) {
   std::string text = plain_text(table_of(cases));
   for (const CaseReport& report : cases) {
-    if (state_of(report) == CaseState::kPassed) continue;
+    if (state_of(report) == CaseState::kPassed && report.partial.empty()) continue;
     text += fmt::format("\n{}: {}\n{}", report.name, text_of(state_of(report)), remarks(report));
     if (report.judgement)
-      text +=
-          verdict_table(report.judgement->comparison, report.settings, false) + report.judgement->detections;
+      text += verdict_table(report.judgement->comparison, report.settings, false) +
+              detection_lines(*report.judgement, (out / report.name).string());
   }
   return text;
 }
 
-std::string suite_page(const std::string& suite, const std::vector<CaseReport>& cases) {
+std::string suite_page(const std::string& suite, const std::vector<CaseReport>& cases,
+                       const std::filesystem::path& out) {
   std::string page = fmt::format("## {}\n\n{}", suite, markdown(table_of(cases)));
   for (const CaseReport& report : cases) {
-    if (state_of(report) == CaseState::kPassed) continue;
+    if (state_of(report) == CaseState::kPassed && report.partial.empty()) continue;
     const std::string lines = remarks(report);
     page += fmt::format("\n## {}: {}\n\n", report.name, text_of(state_of(report)));
     if (!lines.empty()) page += "```text\n" + lines + "```\n\n";
     if (report.judgement)
       page += verdict_page(report.judgement->comparison, report.settings, {kBaselineName, kNowName},
-                           report.judgement->detections, false);
+                           detection_lines(*report.judgement, (out / report.name).string()), false);
   }
   return page;
 }

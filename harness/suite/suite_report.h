@@ -1,6 +1,7 @@
 /// A suite's cases for people and for programs.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,12 @@
 namespace stereobench::harness {
 
 /// A table with one row a case, and below it what is to be said of those that did not pass.
-std::string suite_text(const std::vector<CaseReport>& cases);
+/// @param out the folder of the results, for commands, and so below
+std::string suite_text(const std::vector<CaseReport>& cases, const std::filesystem::path& out);
 
 /// The same as a page for pull requests, in Markdown.
-std::string suite_page(const std::string& suite, const std::vector<CaseReport>& cases);
+std::string suite_page(const std::string& suite, const std::vector<CaseReport>& cases,
+                       const std::filesystem::path& out);
 
 /// The content of test.json: no time, path or host in it.
 nlohmann::ordered_json suite_json(const std::string& suite, const std::vector<CaseReport>& cases);

@@ -74,6 +74,15 @@ TEST(ProcessPool, OthersGoOnWhereFaultsAreAskedFor) {
   }
 }
 
+// Mutation: a status of 0 that is always an end in good order.
+TEST(ProcessPool, ATaskThatEndsItsProcessIsACrash) {
+  const Task task = [](std::size_t index, const auto& report) {
+    if (index == 2) ::_exit(0);
+    return square(index, report);
+  };
+  EXPECT_THROW(run_in_processes(4, 1, task, kSilent), WorkerCrash);
+}
+
 TEST(ProcessPool, CrashOfATaskIsAnErrorThatNamesIt) {
   const Task task = [](std::size_t index, const auto& report) {
     if (index == 5) ::raise(SIGKILL);

@@ -185,10 +185,21 @@ TEST(Verdict, OfDetectionsIsNotDrownedByManyMetricsOfFilters) {
   EXPECT_NEAR(comparison.metrics.front().p_holm, 2.0 * std::ldexp(1.0, -11), 1e-12);
 }
 
+// The mean of the seeds' rates is not the rate of all balls. Mutation: the interval of counts in any case.
+TEST(Verdict, OfSeedsWithFewBallsIsNotThatOfAllBalls) {
+  std::vector<double> first(20, 1.0), second(20, 1.0);
+  second[0] = 0.0;  // its only ball; the others have 200 each
+  const ResultComparison comparison =
+      compare_results(table_of({{"vision.recall", first}}), table_of({{"vision.recall", second}}), {},
+                      {{"vision.recall", {{.worse = 1, .total = 3801}, true}}});
+  EXPECT_NE(comparison.metrics.front().verdict, Verdict::kPass);
+}
+
 TEST(Verdict, RefusesAMarginOfNoMetric) {
   const SeedTable table = table_of({{kAte, {1.0, 2.0}}, {"vision.visible", {3.0, 4.0}}});
-  const VerdictSettings settings{.margins = {parse_margin("filter.*=5%")}};
-  EXPECT_THAT([&] { compare_results(table, table, settings); },
+  const ResultComparison comparison = compare_results(table, table, {});
+  EXPECT_NO_THROW(check_margins(comparison, {parse_margin("filters.*=5%")}));
+  EXPECT_THAT([&] { check_margins(comparison, {parse_margin("filter.*=5%")}); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no metric that is judged fits 'filter.*'")));
 }
 

@@ -20,10 +20,10 @@ TEST(GoldenSuite, SaysWhatPictureChanged) {
   EXPECT_EQ(suite.test().exit_code, 5);
   EXPECT_TRUE(suite.has("out/room/golden/seed0_step0000_left.png"));
   EXPECT_EQ(suite.bless().exit_code, 0);
-  EXPECT_TRUE(suite.has("tiny.baseline/room/seed0_step0002.json"));
+  EXPECT_TRUE(suite.has("tiny.baseline/room.golden/seed0_step0002.json"));
   const Outcome same = suite.test();
   EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
-  const fs::path kept = suite.path("tiny.baseline/room");
+  const fs::path kept = suite.path("tiny.baseline/room.golden");
   for (const char* end : {".json", "_left.png", "_left_shown.png", "_right.png", "_right_shown.png"})
     fs::copy_file(kept / ("seed0_step0002" + std::string(end)), kept / ("seed0_step0000" + std::string(end)),
                   fs::copy_options::overwrite_existing);

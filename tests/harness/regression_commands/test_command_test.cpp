@@ -108,6 +108,59 @@ TEST(BlessCommand, RefusesAResultThatIsNotDecided) {
   EXPECT_EQ(suite.test({"--strict"}).exit_code, 0);
 }
 
+// Nothing of the user's is deleted, whatever cases are called. Mutation: folders of golden pictures that have
+// the names of cases, and are removed whole.
+TEST(BlessCommand, LeavesOtherFilesAlone) {
+  TinySuite suite("  - {name: docs, scenario: field.yaml}\n");
+  suite.folder().write("docs/thesis.txt", "years");
+  suite.folder().write("docs.golden/notes.txt", "days");
+  suite.test();
+  EXPECT_EQ(suite.bless({"--baseline", suite.path("")}).exit_code, 2)
+      << "the folder has something else in it";
+  EXPECT_EQ(bytes_of(suite.path("docs/thesis.txt")), "years");
+  EXPECT_EQ(bytes_of(suite.path("docs.golden/notes.txt")), "days");
+}
+
+// Mutation: the worst verdict alone decides.
+TEST(BlessCommand, RefusesABrokenGateBesideARegression) {
+  TinySuite suite("  - {name: field, scenario: field.yaml}\n");
+  suite.test();
+  suite.bless();
+  flatter(suite, 0.5);
+  suite.folder().write("tiny.yaml",
+                       "suite: tiny\ncases:\n  - {name: field, scenario: field.yaml, gates: [{metric: "
+                       "filters.iekf.failures, at_least: 1}]}\n");
+  EXPECT_THAT(suite.test().out, HasSubstr("field: REGRESSED"));
+  EXPECT_THAT(suite.bless().err, HasSubstr("a gate is broken"));
+}
+
+// Mutations: seeds without a baseline that are left out silently; patterns that fit nothing.
+TEST(TestCommand, DoesNotPassWhatItDidNotCompare) {
+  TinySuite suite("  - {name: field, scenario: field.yaml, seeds: 0..4}\n");
+  suite.test();
+  suite.bless();
+  suite.folder().write("tiny.yaml",
+                       "suite: tiny\ncases:\n  - {name: field, scenario: field.yaml, seeds: 4..13}\n");
+  const Outcome other = suite.test();
+  EXPECT_EQ(other.exit_code, 5);
+  EXPECT_THAT(other.out, HasSubstr("field.json lacks 9 of 10 seeds"));
+  suite.folder().write(
+      "tiny.yaml",
+      "suite: tiny\ncases:\n  - {name: field, scenario: field.yaml, metrics: [filters.*.ate_rsm_m]}\n");
+  EXPECT_THAT(suite.test().err, HasSubstr("no metric of the case fits 'filters.*.ate_rsm_m'"));
+}
+
+// Mutation: few seeds without a word.
+TEST(TestCommand, SaysThatFewSeedsCannotTell) {
+  TinySuite suite("  - {name: field, scenario: field.yaml, seeds: 0..4}\n");
+  suite.test();
+  suite.bless();
+  flatter(suite, 0.01);
+  const Outcome outcome = suite.test();
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("warning: 5 seeds cannot tell"));
+}
+
 TEST(BlessCommand, RefusesABrokenGate) {
   TinySuite suite(
       "  - {name: field, scenario: field.yaml, gates: [{metric: filters.iekf.failures, at_least: 1}]}\n");
