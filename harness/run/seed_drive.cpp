@@ -44,6 +44,8 @@ Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive, WorstPairs& worst,
     if (is_snapshot_step(event.step, task.parts.snapshots, scenario.path.size()))
       drive.snapshots.push_back(
           {event.step, draw_detection_picture(for_display(event.pair, scenario.camera), event.observations)});
+    worst.offer({task.seed, event.step, badness_of(score_match(event.match)), {}, {}},
+                [&](KeptPair& kept) { keep_pictures(kept, for_display(event.pair, scenario.camera)); });
   };
   return onlooker;
 }
