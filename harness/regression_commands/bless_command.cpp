@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -70,19 +70,10 @@ bool is_same(const Baseline& a, const Baseline& b) {
   return baseline_text(as_b) == baseline_text(b);
 }
 
-bool is_golden_file(const std::string& name) {
-  constexpr std::array kEnds = {".json", "_left.png", "_left_shown.png", "_right.png", "_right_shown.png"};
-  return name.starts_with("seed") &&
-         std::ranges::any_of(kEnds, [&](const char* end) { return name.ends_with(end); });
-}
-
 /// The files of golden frames in a folder, by their name.
 std::map<std::string, std::string> pictures_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); is_golden_file(name))
-      files[name] = read_text(entry.path());
+  for (const fs::path& file : golden_files_in(folder)) files[file.filename().string()] = read_text(file);
   return files;
 }
 
@@ -112,11 +103,10 @@ void write(const Blessed& blessed, const fs::path& folder) {
   else
     write_file_atomically(findings, blessed.findings);
   const fs::path pictures = golden_baseline(folder, name);
-  for (const auto& [file, bytes] : pictures_in(pictures)) fs::remove(pictures / file);
-  if (blessed.pictures.empty())
-    fs::remove(pictures);  // unless something else is in it
-  else
-    prepare_output_folder(pictures);
+  for (const fs::path& file : golden_files_in(pictures)) fs::remove(file);
+  std::error_code is_not_empty;
+  fs::remove(pictures, is_not_empty);
+  if (!blessed.pictures.empty()) prepare_output_folder(pictures);
   for (const auto& [file, bytes] : blessed.pictures) write_file_atomically(pictures / file, bytes);
   write_file_atomically(baseline_file(folder, name), baseline_text(blessed.baseline));
 }

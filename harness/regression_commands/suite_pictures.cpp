@@ -1,5 +1,6 @@
 #include "harness/regression_commands/suite_pictures.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,22 @@ namespace stereobench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What is drawn beside a golden frame that has changed: before, after, difference.
+constexpr const char* kDifferencePicture = "_difference.png";
+
+bool has_end(const std::string& name, const std::vector<const char*>& ends) {
+  return name.starts_with("seed") &&
+         std::ranges::any_of(ends, [&](const char* end) { return name.ends_with(end); });
+}
+
+std::vector<fs::path> files_with_ends(const fs::path& folder, const std::vector<const char*>& ends) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (has_end(entry.path().filename().string(), ends)) files.push_back(entry.path());
+  return files;
+}
 
 /// A frame of a case that is to be rendered.
 struct WantedFrame {
@@ -96,10 +113,18 @@ fs::path golden_baseline(const fs::path& baseline, const std::string& name) {
   return baseline / (name + ".golden");  // no case can have such a name
 }
 
+std::vector<fs::path> golden_files_in(const fs::path& folder) {
+  return files_with_ends(folder, {".json", "_left.png", "_left_shown.png", "_right.png", "_right_shown.png"});
+}
+
 void check_pictures(const SuitePlan& plan, const SuiteArguments& arguments, const fs::path& out,
                     std::vector<CaseReport>& reports) {
   const std::vector<WantedFrame> frames = frames_of(plan, reports);
-  for (const PlannedCase& planned : plan.cases) fs::remove_all(golden_folder(out / planned.what.name));
+  for (const PlannedCase& planned : plan.cases) {  // of an earlier test
+    const fs::path folder = golden_folder(out / planned.what.name);
+    for (const fs::path& file : golden_files_in(folder)) fs::remove(file);
+    for (const fs::path& file : files_with_ends(folder, {kDifferencePicture})) fs::remove(file);
+  }
   if (frames.empty()) return;
   const auto faults = render(frames, arguments, out, "pictures of " + plan.suite.name);
   for (std::size_t i = 0; i < frames.size(); ++i) {

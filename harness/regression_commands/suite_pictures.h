@@ -13,8 +13,8 @@ namespace stereobench::harness {
 std::filesystem::path golden_folder(const std::filesystem::path& result);
 std::filesystem::path golden_baseline(const std::filesystem::path& baseline, const std::string& name);
 
-/// What is kept beside golden frames where one has changed: before, after, difference.
-inline constexpr const char* kDifferencePicture = "_difference.png";
+/// The files of golden frames in a folder. Whatever else lies there is not among them.
+std::vector<std::filesystem::path> golden_files_in(const std::filesystem::path& folder);
 
 /// Renders the golden frames of the cases that did not break down into OUT/<case>/golden/, and holds them
 /// against those of the baseline. Differences are drawn beside them.

@@ -100,7 +100,8 @@ void note_error(const std::string& message, const fs::path& out, CaseRun& run) {
                 .inputs = run.planned->inputs,
                 .error = message,
                 .gates = run.planned->gates.size()};
-  fs::remove_all(out / run.planned->what.name);  // of an earlier test: it is not the result of this one
+  for (const char* file : {"run.json", "report.html", "steps.csv", "detections.csv.gz", "invocation.json"})
+    fs::remove(out / run.planned->what.name / file);  // of an earlier test: it is not the result of this one
 }
 
 /// Cases that differ only in how they are judged have the same tasks.

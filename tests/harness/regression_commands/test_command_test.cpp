@@ -115,10 +115,21 @@ TEST(BlessCommand, LeavesOtherFilesAlone) {
   suite.folder().write("docs/thesis.txt", "years");
   suite.folder().write("docs.golden/notes.txt", "days");
   suite.test();
-  EXPECT_EQ(suite.bless({"--baseline", suite.path("")}).exit_code, 2)
-      << "the folder has something else in it";
+  EXPECT_EQ(suite.bless({"--baseline", suite.path("")}).exit_code, 0);
   EXPECT_EQ(bytes_of(suite.path("docs/thesis.txt")), "years");
   EXPECT_EQ(bytes_of(suite.path("docs.golden/notes.txt")), "days");
+}
+
+// Mutation: the whole folder of a case that broke down is removed.
+TEST(TestCommand, DeletesResultsAloneWhereACaseBreaksDown) {
+  TinySuite suite("  - {name: docs, scenario: room.yaml, detector: 'false'}\n");
+  suite.folder().write("out/docs/thesis.txt", "years");
+  suite.folder().write("out/docs/golden/notes.txt", "days");
+  suite.folder().write("out/docs/report.html", "of an earlier test");
+  EXPECT_EQ(suite.test().exit_code, 4);
+  EXPECT_EQ(bytes_of(suite.path("out/docs/thesis.txt")), "years");
+  EXPECT_EQ(bytes_of(suite.path("out/docs/golden/notes.txt")), "days");
+  EXPECT_FALSE(suite.has("out/docs/report.html"));
 }
 
 // Mutation: the worst verdict alone decides.
