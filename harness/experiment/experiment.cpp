@@ -27,7 +27,6 @@ using worlds::YamlMap;
 using worlds::YamlValue;
 
 constexpr std::size_t kMostFilters = 16;
-constexpr std::string_view kSeedsPattern = R"(^[0-9]+(\.\.[0-9]+|(,[0-9]+)*)$)";
 
 const std::vector<std::string>& filter_names() {
   static const std::vector<std::string> names = slam::filter_names();

@@ -7,6 +7,9 @@
 
 namespace stereobench::harness {
 
+/// What parse_seeds reads, as a regular expression for schemas.
+inline constexpr std::string_view kSeedsPattern = R"(^[0-9]+(\.\.[0-9]+|(,[0-9]+)*)$)";
+
 /// Reads "0..9" (both ends included), "3" or "0,4,7".
 ///
 /// @return the seeds in the order written, at least one, each once

@@ -9,6 +9,7 @@
 #include "harness/regression/result_folder.h"
 #include "harness/result_pages/comparison_page.h"
 #include "harness/result_pages/run_page.h"
+#include "harness/suite/suite_report.h"
 
 namespace stereobench::harness {
 namespace {
@@ -39,16 +40,7 @@ void append_lines(const std::string& text, std::vector<std::string>& lines) {
 /// What is to be said of a case beside its metrics.
 Block remarks_block(const CaseReport& report, const std::vector<std::string>& words) {
   PageText text;
-  append_lines(report.error, text.lines);
-  append_lines(report.not_compared, text.lines);
-  for (const std::string& gate : report.broken_gates) text.lines.push_back("gate broken: " + gate);
-  for (const PictureRecord& picture : report.pictures)
-    text.lines.push_back(fmt::format("picture {}: {}{}", picture.name,
-                                     picture.is_as_before ? "as before" : "changed",
-                                     picture.text.empty() ? "" : "; " + picture.text));
-  for (const LookRecord& look : report.looks)
-    text.lines.push_back(fmt::format("look at {} seeds, alpha {:.2g}: {} inconclusive", look.seeds,
-                                     look.alpha, look.inconclusive));
+  append_lines(remarks(report), text.lines);
   if (report.judgement) append_lines(report.judgement->detections, text.lines);
   if (text.lines.empty()) text.lines.push_back("nothing to be said");
   return {.title = "Case",

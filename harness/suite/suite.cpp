@@ -24,7 +24,6 @@ using worlds::whole;
 using worlds::YamlMap;
 using worlds::YamlValue;
 
-constexpr std::string_view kSeedsPattern = R"(^[0-9]+(\.\.[0-9]+|(,[0-9]+)*)$)";
 constexpr std::string_view kNamePattern = "^[A-Za-z0-9_-]+$";
 constexpr std::size_t kMostEntries = 1000;
 constexpr double kMostPercent = 1e6;

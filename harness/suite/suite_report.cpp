@@ -42,22 +42,6 @@ AlignedTable table_of(const std::vector<CaseReport>& cases) {
   return table;
 }
 
-/// Lines that are neither of metrics nor of detections.
-std::string remarks(const CaseReport& report) {
-  std::string text;
-  if (!report.error.empty()) text += report.error + "\n";
-  if (!report.not_compared.empty()) text += report.not_compared + "\n";
-  if (!report.partial.empty()) text += "partial: " + report.partial + "\n";
-  for (const std::string& gate : report.broken_gates) text += "gate broken: " + gate + "\n";
-  for (const PictureRecord& picture : report.pictures)
-    if (!picture.is_as_before) text += picture.name + ": " + picture.text + "\n";
-  if (report.judgement) text += few_seeds_warning(report.judgement->comparison, report.settings);
-  for (const LookRecord& look : report.looks)
-    text += fmt::format("look at {} seeds, alpha {:.2g}: {} inconclusive\n", look.seeds, look.alpha,
-                        look.inconclusive);
-  return text;
-}
-
 Json looks_json(const CaseReport& report) {
   Json looks = Json::array();
   for (const LookRecord& look : report.looks)
@@ -106,6 +90,21 @@ std::vector<JunitCase> tests_of(const CaseReport& report) {
 }
 
 }  // namespace
+
+std::string remarks(const CaseReport& report) {
+  std::string text;
+  if (!report.error.empty()) text += report.error + "\n";
+  if (!report.not_compared.empty()) text += report.not_compared + "\n";
+  if (!report.partial.empty()) text += "partial: " + report.partial + "\n";
+  for (const std::string& gate : report.broken_gates) text += "gate broken: " + gate + "\n";
+  for (const PictureRecord& picture : report.pictures)
+    if (!picture.is_as_before) text += picture.name + ": " + picture.text + "\n";
+  if (report.judgement) text += few_seeds_warning(report.judgement->comparison, report.settings);
+  for (const LookRecord& look : report.looks)
+    text += fmt::format("look at {} seeds, alpha {:.2g}: {} inconclusive\n", look.seeds, look.alpha,
+                        look.inconclusive);
+  return text;
+}
 
 std::string suite_text(const std::vector<CaseReport>& cases, const std::filesystem::path& out) {
   std::string text = plain_text(table_of(cases));

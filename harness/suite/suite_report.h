@@ -12,6 +12,9 @@
 
 namespace stereobench::harness {
 
+/// What is to be said of a case beside its metrics and detections, a line each; may be empty.
+std::string remarks(const CaseReport& report);
+
 /// A table with one row a case, and below it what is to be said of those that did not pass.
 /// @param out the folder of the results, for commands, and so below
 std::string suite_text(const std::vector<CaseReport>& cases, const std::filesystem::path& out);

@@ -56,13 +56,13 @@ TEST(TestCommand, DoesNotCompareWhatIsOfOtherInputs) {
   TinySuite suite(kField);
   suite.test();
   suite.bless();
-  std::string other = kTinyField;
+  std::string other = TinySuite::field();
   other.replace(other.find("range_sd_m: 0.05"), 16, "range_sd_m: 0.06");
   suite.folder().write("field.yaml", other);
   const Outcome outcome = suite.test();
   EXPECT_EQ(outcome.exit_code, 5);
   EXPECT_THAT(outcome.out, HasSubstr("is of another scenario"));
-  suite.folder().write("field.yaml", std::string("# a comment\n") + kTinyField);
+  suite.folder().write("field.yaml", "# a comment\n" + TinySuite::field());
   EXPECT_EQ(suite.test().exit_code, 0);
   suite.folder().write("tiny.yaml",
                        "suite: tiny\ncases:\n  - {name: field, scenario: field.yaml, seeds: 3..7}\n");
