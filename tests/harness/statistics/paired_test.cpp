@@ -105,7 +105,7 @@ TEST(PairedShareInterval, EndsAtZeroWhereMcnemarsStatisticIsAtItsLevel) {
   }
 }
 
-// Without a difference it is Wilson's: z^2 / (n + z^2).
+// Without a difference it is Wilson's: z^2 / (n + z^2). Mutation: a normal's quantile of one side.
 TEST(PairedShareInterval, IsNotEmptyWhereNothingDiffers) {
   const double z2 = 1.959963984540054 * 1.959963984540054;
   const Interval interval = paired_share_interval({0, 0, 100}, 0.95);
@@ -114,7 +114,7 @@ TEST(PairedShareInterval, IsNotEmptyWhereNothingDiffers) {
 }
 
 // Shares of 3 % and 1 % of 600: of 4,000 intervals of 99 % between 19 and 64 miss (0.4 % to 1.6 %).
-// Mutation: a normal's quantile of 0.99 in place of 0.995.
+// Mutation: the variance without the share of those that got better.
 TEST(PairedShareInterval, CoversTheDifferenceAsOftenAsItSays) {
   slam::RandomStream random(4, slam::Stream::kResample);
   int missed = 0;

@@ -19,6 +19,16 @@ TEST(Looks, DoubleUpToTheMost) {
   EXPECT_THAT(look_sizes(50), ElementsAre(10, 20, 40, 50));
 }
 
+// Mutation: looks that have the whole alpha each.
+TEST(Looks, TogetherRiskWhatOneMay) {
+  for (const std::size_t most : {10U, 40U, 80U}) {
+    double risk = 0.0;
+    for (std::size_t i = 0; i < look_sizes(most).size(); ++i)
+      risk += alpha_of_look(0.01, look_sizes(most).size());
+    EXPECT_NEAR(risk, 0.01, 1e-15);
+  }
+}
+
 constexpr std::size_t kMost = 80;
 constexpr double kMargin = 0.05;
 const char* const kMetric = "filters.ekf.ate_rms_m";
