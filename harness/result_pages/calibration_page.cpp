@@ -33,7 +33,7 @@ Block bins_block(const std::vector<CalibrationBin>& bins) {
   return {.title = "Errors by depth",
           .note =
               "Of the half of the scenes that is held out. The bound is that of Cramer and Rao. NIS/2 is 1 "
-              "where covariances are honest.",
+              "where covariances are consistent.",
           .content = std::move(table)};
 }
 
@@ -66,15 +66,15 @@ std::vector<Chart> charts_over_depth(const std::vector<CalibrationBin>& bins) {
           return kThousand * bin.sd[coordinate] / bin.over_bound[coordinate];
         })};
   };
-  std::vector<Series> honesty;
+  std::vector<Series> consistency;
   const char* kinds[] = {"as stated", "per observation", "stereo law"};
   for (int kind = 0; kind < 3; ++kind)
-    honesty.push_back(
+    consistency.push_back(
         over_depth(kinds[kind], bins, [=](const CalibrationBin& bin) { return bin.half_nis[kind]; }));
-  honesty.push_back(over_depth("honest", bins, [](const CalibrationBin&) { return 1.0; }));
+  consistency.push_back(over_depth("consistent", bins, [](const CalibrationBin&) { return 1.0; }));
   return {depth_chart("range", "standard deviation of the range [mm]", sd_and_bound(0)),
           depth_chart("bearing", "standard deviation of the bearing [mrad]", sd_and_bound(1)),
-          depth_chart("honesty", "NIS / 2", std::move(honesty))};
+          depth_chart("consistency", "NIS / 2", std::move(consistency))};
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ Page calibration_page(const CalibrationResult& result, std::span<const Gate> gat
                       fmt::format("stereobench {}", STEREOBENCH_VERSION)}};
   page.blocks = {gates_block(gates, calibration_json(result)),
                  bins_block(result.bins),
-                 {.title = "Errors and honesty over depth",
+                 {.title = "Errors and consistency over depth",
                   .note = "Of balls that are seen whole.",
                   .content = PageCharts{charts_over_depth(result.bins)}}};
   if (words.empty()) return page;

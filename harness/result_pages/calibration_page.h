@@ -11,7 +11,7 @@
 
 namespace stereobench::harness {
 
-/// Gates, the table by depth, and errors and honesty over depth.
+/// Gates, the table by depth, and errors and consistency over depth.
 /// @param words of the command line, but for the seeds; empty: none is shown
 Page calibration_page(const CalibrationResult& result, std::span<const Gate> gates,
                       std::span<const std::string> words);

@@ -91,11 +91,11 @@ Chart noise_chart(std::span<const NamedDetections> sets, const std::vector<Right
     all_sds.insert(all_sds.end(), bins.at.begin(), bins.at.end());
   }
   std::ranges::sort(all_sds);
-  chart.series.push_back({.name = "honest", .look = Look::kDashes, .x = all_sds, .y = all_sds});
+  chart.series.push_back({.name = "consistent", .look = Look::kDashes, .x = all_sds, .y = all_sds});
   return chart;
 }
 
-Chart honesty_chart(std::span<const NamedDetections> sets, const std::vector<RightDetections>& right) {
+Chart consistency_chart(std::span<const NamedDetections> sets, const std::vector<RightDetections>& right) {
   Chart chart{.name = "normalised error over range",
               .x_label = "true range [m]",
               .y_label = "rms error / stated noise",
@@ -103,7 +103,7 @@ Chart honesty_chart(std::span<const NamedDetections> sets, const std::vector<Rig
   for (std::size_t i = 0; i < sets.size(); ++i)
     chart.series.push_back(
         rms_series(named(sets[i], "rms"), binned_rms(right[i].range_m, right[i].normalised, 2)));
-  chart.series.push_back(level("honest", right.front().range_m, 1.0));
+  chart.series.push_back(level("consistent", right.front().range_m, 1.0));
   return chart;
 }
 
@@ -164,7 +164,8 @@ std::vector<Chart> detection_charts(std::span<const NamedDetections> sets) {
     any = any || !right.back().range_m.empty();
   }
   if (!any) return {};
-  return {range_chart(sets, right), noise_chart(sets, right), honesty_chart(sets, right), recall_chart(sets)};
+  return {range_chart(sets, right), noise_chart(sets, right), consistency_chart(sets, right),
+          recall_chart(sets)};
 }
 
 }  // namespace stereobench::harness

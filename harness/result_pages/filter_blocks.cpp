@@ -65,7 +65,7 @@ PageCell percent_cell(double fraction) {
   return {.text = fmt::format("{:.0f} %", 100.0 * fraction), .number = fraction};
 }
 
-Block honesty_block(const RunResult& result) {
+Block consistency_block(const RunResult& result) {
   PageTable table{.header = {"filter", "NIS", "NIS if used", "runs off", "landmarks off", "refused",
                              "steps off", "path in 50 %", "path in 95 %", "path in 99 %", "map in 95 %",
                              "effective particles"}};
@@ -79,7 +79,7 @@ Block honesty_block(const RunResult& result) {
           percent_cell(c.path[1].mean), percent_cell(c.path[2].mean), percent_cell(c.map[1].mean),
           number_cell(c.effective_mean.mean)}});
   }
-  return {.title = "Whether filters know their own errors",
+  return {.title = "Consistency of filters",
           .note =
               "NIS is 1 where what a filter sees is as far from what it expects as it says. Off are runs "
               "and landmarks outside of their 99 % band, and steps whose NEES is outside of the 95 % "
@@ -159,8 +159,8 @@ Chart error_chart(const RunCurves& curves) {
   return chart;
 }
 
-/// Ratios over time, and the band that 95 % of honest ones lie in: of the filter with the fewest degrees of
-/// freedom at each step.
+/// Ratios over time, and the band that 95 % of consistent ones lie in: of the filter with the fewest degrees
+/// of freedom at each step.
 Chart ratio_chart(const std::string& label, const std::vector<double>& time_s,
                   const std::vector<std::string>& filters, const std::vector<std::vector<SquaredSum>>& sums) {
   Chart chart{.name = label, .x_label = "time [s]", .y_label = label, .y_is_logarithmic = true};
@@ -202,7 +202,7 @@ PageCell summary_cell(const Summary& summary) {
 }
 
 std::vector<Block> filter_tables(const RunResult& result) {
-  return {error_block(result), honesty_block(result)};
+  return {error_block(result), consistency_block(result)};
 }
 
 std::vector<Block> seed_blocks(const RunResult& result) {
@@ -231,13 +231,14 @@ std::vector<Block> time_blocks(const RunResult& result, const RunCurves& curves)
                                         "for filters (Cramer-Rao).",
                                         seeds),
                     .content = PageCharts{{error_chart(curves)}}});
-  blocks.push_back({.title = "Honesty over time",
-                    .note = fmt::format("ANEES holds errors against the stated covariance, NIS innovations, "
-                                        "both over {}: 1 is honest, above is overconfident. 95 % of honest "
-                                        "steps lie in the band.",
-                                        seeds),
-                    .content = PageCharts{{ratio_chart("ANEES", time_s, filters, nees),
-                                           ratio_chart("NIS", time_s, filters, curves.innovations)}}});
+  blocks.push_back(
+      {.title = "Consistency over time",
+       .note = fmt::format("ANEES holds errors against the stated covariance, NIS innovations, "
+                           "both over {}: 1 is consistent, above is overconfident. 95 % of consistent "
+                           "steps lie in the band.",
+                           seeds),
+       .content = PageCharts{{ratio_chart("ANEES", time_s, filters, nees),
+                              ratio_chart("NIS", time_s, filters, curves.innovations)}}});
   return blocks;
 }
 

@@ -51,7 +51,7 @@ Block vision_block(const VisionScore& vision) {
   add("bearing error, mean", number_cell(1e3 * vision.bearing_bias_rad()), "mrad");
   add("disparity error, rms", number_cell(vision.disparity_rms_px()), "px");
   add("disparity error, mean", number_cell(vision.disparity_bias_px()), "px");
-  add("normalised error: 1 where the stated noise is honest", number_cell(vision.mean_normalised_error()),
+  add("normalised error: 1 where the stated noise is consistent", number_cell(vision.mean_normalised_error()),
       "");
   Block block{.title = "Vision", .note = "", .content = std::move(table)};
   for (const std::string& warning : rig_warnings(vision.rig)) block.note += "Warning: " + warning + ". ";

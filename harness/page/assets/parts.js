@@ -80,7 +80,7 @@ function paint(name) {
 const lookColours = [
   ['#0072b2', '#56b4e9'], ['#d55e00', '#ff8a3d'], ['#009e73', '#3ddbb0'], ['#cc79a7', '#e8a3c8'],
   ['#8a6d00', '#f0e442'], ['#56b4e9', '#9bd4f5']];
-const greyNames = ['dead_reckoning', 'bound', 'honest', '95 % band', 'no change'];
+const greyNames = ['dead_reckoning', 'bound', 'consistent', '95 % band', 'no change'];
 const usualPlaces = {  // of what is no filter
   A: 0, B: 1, 'B minus A': 0, 'single detections': 0, found: 0, sd: 1, rms: 1, mean: 1, 'mean, 95 % interval': 1};
 const pointStyles = ['circle', 'triangle', 'rect', 'rectRot', 'crossRot', 'star'];

@@ -207,7 +207,7 @@ TEST(BinnedRms, IntervalsHoldTheTruthAsOftenAsTheySay) {
 
 // Detections whose errors are twice what is stated, of which every fourth ball is missed.
 // Mutations: a wrong detection among the right ones; NIS in place of its half; misses left out.
-TEST(DetectionCharts, ShowHowHonestAndHowCompleteDetectionsAre) {
+TEST(DetectionCharts, ShowHowConsistentAndHowCompleteDetectionsAre) {
   slam::RandomStream random(7, slam::Stream::kWorld);
   std::vector<DetectionRow> rows;
   for (int i = 0; i < 4000; ++i) {

@@ -103,17 +103,17 @@ Page page_of_two(const RunStory& story = {}) {
 }
 
 // Mutations: the first seed's errors for those of all; the mean for the rms; NIS over twice its degrees.
-TEST(RunPage, DrawsErrorsAndHonestyOfAllSeedsOverTime) {
+TEST(RunPage, DrawsErrorsAndConsistencyOfAllSeedsOverTime) {
   const Page page = page_of_two();
   const Chart& error = content_of<PageCharts>(page.blocks, "Error over time").charts.at(0);
   EXPECT_THAT(error.series.at(0).x, ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0, 5.0));
   EXPECT_THAT(error.series.at(0).y, Each(testing::DoubleEq(std::sqrt(0.5 * (0.09 + 0.16)))));
-  const auto& honesty = content_of<PageCharts>(page.blocks, "Honesty over time").charts;
+  const auto& consistency = content_of<PageCharts>(page.blocks, "Consistency over time").charts;
   for (std::size_t k = 2; k < 6; ++k)  // errors of the first steps are not normalised
-    EXPECT_NEAR(honesty.at(0).series.at(1).y.at(k), (0.09 + 0.16) / 6.0, 1e-12);
-  EXPECT_THAT(honesty.at(1).series.at(1).y, Each(testing::DoubleNear((0.6 + 0.8) / 4.0, 1e-12)));
+    EXPECT_NEAR(consistency.at(0).series.at(1).y.at(k), (0.09 + 0.16) / 6.0, 1e-12);
+  EXPECT_THAT(consistency.at(1).series.at(1).y, Each(testing::DoubleNear((0.6 + 0.8) / 4.0, 1e-12)));
   const Band band = chi_square_band(0.95, 4);
-  EXPECT_THAT(honesty.at(1).series.at(0).low, Each(band.low));
+  EXPECT_THAT(consistency.at(1).series.at(0).low, Each(band.low));
 }
 
 // Mutations: the second seed's map; landmarks without their true ones; the covariance of another step.
@@ -267,7 +267,7 @@ TEST(CalibrationPage, DrawsErrorsBesideTheirBound) {
                   .half_nis = {1.5, 1.25, 1.125}},
                  {.nearest_m = 1.0, .farthest_m = 4.0, .whole = false, .samples = 9}};
   const Page page = calibration_page(result, {}, {});
-  const auto& charts = content_of<PageCharts>(page.blocks, "Errors and honesty over depth").charts;
+  const auto& charts = content_of<PageCharts>(page.blocks, "Errors and consistency over depth").charts;
   EXPECT_THAT(charts[0].series.at(0).x, ElementsAre(2.0));
   EXPECT_THAT(charts[0].series.at(0).y, ElementsAre(testing::DoubleEq(6.0)));
   EXPECT_THAT(charts[0].series.at(1).y, ElementsAre(testing::DoubleEq(3.0)));
