@@ -95,7 +95,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       "Takes the cameras of a scenario (rig, camera, detector, size of balls) through calibration scenes:\n"
       "balls of all colours at all depths, under any light, before any wall. The noise is fitted to the\n"
       "scenes of every other seed and held against the rest, by depth: errors beside the Cramer-Rao bound,\n"
-      "and NIS/2, which is 1 where covariances are honest. Writes noise.yaml, for a scenario's\n"
+      "and NIS/2, which is 1 where covariances are consistent. Writes noise.yaml, for a scenario's\n"
       "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
       "and calibration.json, whose numbers --gate can limit.\n\n"
       "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");

@@ -62,7 +62,9 @@ std::string name_of(const std::filesystem::path& log) {
 }
 
 /// Replays the log with each filter, once a seed, in several processes, which score what they replayed.
-void replay_seeds(const MeasurementLog& log, const SlamArguments& arguments, RunOutput& output) {
+/// @param detections that took the place of the log's sightings; they are the first seed's
+void replay_seeds(const MeasurementLog& log, const std::optional<ScoredDetections>& detections,
+                  const SlamArguments& arguments, RunOutput& output) {
   const RunArguments& run = arguments.run;
   Timing timing;
   References references;  // the batch draws nothing, so that one serves all seeds
@@ -71,9 +73,13 @@ void replay_seeds(const MeasurementLog& log, const SlamArguments& arguments, Run
   const auto replay_seed = [&](std::size_t index, const std::function<void(double)>& report) {
     SeedDrive drive{.seed = run.seeds[index], .recording = {.log = log}, .references = references};
     if (index == 0) drive.recording.timing = timing;
+    if (index == 0 && detections) {
+      drive.recording.vision = detections->score;
+      drive.detections = detections->rows;
+    }
     drive.runs = replay_filters(log, run.filters, arguments.config, run.seeds[index], drive.recording.timing);
     report(1.0);
-    return to_bytes(score_seed(drive, {.steps = true, .map = index == 0}));
+    return to_bytes(score_seed(drive, {.steps = true, .map = index == 0, .detections = true}));
   };
   Progress progress("slam", static_cast<double>(run.seeds.size()));
   const auto keep = [&](std::size_t, const std::string& answer) {
@@ -109,9 +115,10 @@ int run_slam(SlamArguments arguments) {
   check_metrics(run.gates, run_json(result_without_runs(arguments)));
   require_as_rendered(arguments.log);
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
-  std::optional<VisionScore> vision;
+  std::optional<ScoredDetections> detections;
   if (!arguments.detections.empty())
-    vision = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity);
+    detections = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity,
+                                   run.seeds.front());
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   if (run.dry_run) {
@@ -127,10 +134,9 @@ int run_slam(SlamArguments arguments) {
   prepare_output_folder(out);
   remove_leftovers_in(out);
   RunOutput output(out, RunTally(name, kNoBackend, Seeds::kFilters));
-  replay_seeds(recorded.log, arguments, output);
+  replay_seeds(recorded.log, detections, arguments, output);
   RunResult result = output.result();
-  if (vision) result.detector = "file";
-  result.vision = std::move(vision);
+  if (detections) result.detector = "file";
   result.recorded = recorded.facts;
   // Factors on the noise would be those of errors that are each their own.
   if (recorded.facts.lasting_errors.time_s.isZero())

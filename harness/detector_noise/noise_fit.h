@@ -40,7 +40,7 @@ struct CalibrationBin {
       Eigen::Vector2d::Zero();  ///< the same in units of the bound, rms; NaN where there is none
   Eigen::Vector2d over_unknown_size = Eigen::Vector2d::Zero();  ///< of the bound for unknown size
   Eigen::Vector2d correlation = Eigen::Vector2d::Zero();  ///< of range and bearing: of the errors, as stated
-  Eigen::Vector3d half_nis = Eigen::Vector3d::Zero();     ///< by NoiseKind; 1 when honest
+  Eigen::Vector3d half_nis = Eigen::Vector3d::Zero();     ///< by NoiseKind; 1 when consistent
   Summary disparity_error_px;                             ///< of those that tell of pixels
   double radius_rms_px = 0.0;                             ///< error of the outlines' radii, over both cameras
 };

@@ -8,19 +8,13 @@
 
 #include "harness/detector/detector_registry.h"
 #include "harness/experiment/experiment.h"
+#include "harness/page/command_words.h"
 #include "harness/vision_scoring/detection_table.h"
 
 namespace stereobench::harness {
 namespace {
 
 using Steps = std::set<std::size_t>;
-
-/// A word of the shell that stands for a text.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return word + "'";
-}
 
 ReplayedFrame replayed(std::uint64_t seed, const FrameEvent& event, const worlds::CameraSensor& camera) {
   return {.name = {seed, event.step},

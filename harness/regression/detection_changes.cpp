@@ -38,11 +38,12 @@ bool is_misidentified(const PairedBall& ball) {
 }
 
 std::vector<Property> properties_of(const Balls& balls) {
-  const auto property = [&](const char* name, const char* unit, auto of) {
-    Property made{.name = name, .unit = unit};
+  const auto property = [&](const char* name, const char* unit, auto of, bool is_category = false) {
+    Property made{.name = name, .unit = unit, .values = {}, .is_category = is_category};
     for (const PairedBall* ball : balls) made.values.push_back(of(*ball));
     return made;
   };
+  const auto category = [&](const char* name, auto of) { return property(name, "", of, true); };
   return {property("range", "m", [](const PairedBall& b) { return b.truth.range_m; }),
           property("bearing", "deg",
                    [](const PairedBall& b) { return slam::kDegreesPerRad * b.truth.bearing_rad; }),
@@ -52,9 +53,9 @@ std::vector<Property> properties_of(const Balls& balls) {
           property("x", "px", [](const PairedBall& b) { return b.truth.left_px.x(); }),
           property("y", "px", [](const PairedBall& b) { return b.truth.left_px.y(); }),
           property("frame", "", [](const PairedBall& b) { return static_cast<double>(b.key.frame); }),
-          property("colour", "", [](const PairedBall& b) { return static_cast<double>(b.truth.colour); }),
-          property("ball", "", [](const PairedBall& b) { return static_cast<double>(b.key.ball); }),
-          property("seed", "", [](const PairedBall& b) { return static_cast<double>(b.key.seed); })};
+          category("colour", [](const PairedBall& b) { return static_cast<double>(b.truth.colour); }),
+          category("ball", [](const PairedBall& b) { return static_cast<double>(b.key.ball); }),
+          category("seed", [](const PairedBall& b) { return static_cast<double>(b.key.seed); })};
 }
 
 /// What those balls have in common of which something holds; empty where it holds of none.
@@ -88,20 +89,39 @@ std::vector<bool> carriers_of_growth(const Balls& balls) {
   return carries;
 }
 
+/// A mean with its standard error; zero for fewer than two numbers.
+struct MeanWithError {
+  double mean = 0.0;
+  double standard_error = 0.0;
+};
+
+MeanWithError mean_with_error(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  if (values.size() < 2) return {};
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += value;
+  for (const double value : values) squares += (value - sum / count) * (value - sum / count);
+  return {sum / count, std::sqrt(squares / (count - 1.0) / count)};
+}
+
 CentreShift shift_of(const Balls& balls, Eigen::Vector2d BallFinding::*error) {
-  std::vector<Eigen::Vector2d> shifts;
+  std::vector<double> shifts_px[2];
   for (const PairedBall* ball : balls) {
     const Eigen::Vector2d shift = ball->second.*error - ball->first.*error;
-    if (shift.allFinite()) shifts.push_back(shift);
+    if (!shift.allFinite()) continue;
+    for (int axis = 0; axis < 2; ++axis) shifts_px[axis].push_back(shift[axis]);
   }
-  CentreShift found;
-  const auto count = static_cast<double>(shifts.size());
-  if (shifts.size() < 2) return found;
-  for (const Eigen::Vector2d& shift : shifts) found.mean_px += shift / count;
-  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& shift : shifts) squares += (shift - found.mean_px).cwiseAbs2();
-  found.standard_error_px = (squares / (count - 1.0) / count).cwiseSqrt();
-  return found;
+  const MeanWithError x = mean_with_error(shifts_px[0]);
+  const MeanWithError y = mean_with_error(shifts_px[1]);
+  return {{x.mean, y.mean}, {x.standard_error, y.standard_error}};
+}
+
+RangeGrowth growth_of(const Balls& balls) {
+  std::vector<double> shares;
+  for (const PairedBall* ball : balls)
+    shares.push_back((ball->second.range_error_m - ball->first.range_error_m) / ball->truth.range_m);
+  const MeanWithError growth = mean_with_error(shares);
+  return {growth.mean, growth.standard_error};
 }
 
 std::vector<Confusion> confusions_of(const Balls& misidentified) {
@@ -209,6 +229,7 @@ DetectionChanges detection_changes(const PairedBalls& pairs) {
   changes.confusions = confusions_of(those(balls, is_misidentified));
   changes.left = shift_of(found, &BallFinding::left_error_px);
   changes.right = shift_of(found, &BallFinding::right_error_px);
+  changes.ranges = growth_of(found);
   changes.frames = changed_frames(balls);
   return changes;
 }
@@ -239,6 +260,9 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   if (has_moved(changes.left) || has_moved(changes.right))
     text += fmt::format("centres of the {} balls that both found, B minus A: left {}, right {}\n",
                         changes.found_by_both, shift_text(changes.left), shift_text(changes.right));
+  if (changes.ranges.mean != 0.0 || changes.ranges.standard_error != 0.0)
+    text += fmt::format("ranges of these {} balls, B over A: {:+.3f} +- {:.3f} %\n", changes.found_by_both,
+                        100.0 * changes.ranges.mean, 100.0 * changes.ranges.standard_error);
   if (range_errors_grew && changes.misplaced_slice && !changes.misplaced_slice->conditions.empty())
     text +=
         "  nine tenths of the growth of squared range errors: " + slice_text(*changes.misplaced_slice) + "\n";
@@ -247,12 +271,15 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   return text;
 }
 
-std::string replay_line(const DetectionChanges& changes, const std::string& result) {
-  if (changes.frames.empty()) return {};
-  const ChangedFrame& worst = changes.frames.front();
+std::string replay_command(const ChangedFrame& frame, const std::string& result) {
   const std::vector<std::string> words = {"stereobench", "replay", result, "--frame",
-                                          fmt::format("{}:{}", worst.seed, worst.frame)};
-  return "  look at it: " + shell_line(words) + "\n";
+                                          fmt::format("{}:{}", frame.seed, frame.frame)};
+  return shell_line(words);
+}
+
+std::string replay_line(const DetectionChanges& changes, const std::string& result) {
+  if (changes.frames.empty() || result.empty()) return {};
+  return "  look at it: " + replay_command(changes.frames.front(), result) + "\n";
 }
 
 nlohmann::ordered_json changes_json(const DetectionChanges& changes) {
@@ -277,6 +304,7 @@ nlohmann::ordered_json changes_json(const DetectionChanges& changes) {
           {"confusions", confusions},
           {"left_shift_px", pixel_json(changes.left.mean_px)},
           {"right_shift_px", pixel_json(changes.right.mean_px)},
+          {"range_growth", changes.ranges.mean},
           {"frames", frames}};
 }
 

@@ -23,6 +23,13 @@ struct CentreShift {
   Eigen::Vector2d standard_error_px = Eigen::Vector2d::Zero();
 };
 
+/// By how much the ranges of balls that both found grew, as a share of the true range: mean and its standard
+/// error.
+struct RangeGrowth {
+  double mean = 0.0;
+  double standard_error = 0.0;
+};
+
 /// Balls of one colour that were taken for another.
 struct Confusion {
   int colour = 0;
@@ -54,6 +61,7 @@ struct DetectionChanges {
   std::vector<Confusion> confusions;  ///< the most frequent first
   CentreShift left;                   ///< of the balls that both found
   CentreShift right;
+  RangeGrowth ranges;
   std::vector<ChangedFrame> frames;  ///< the ten that changed most, if as many did
 };
 
@@ -66,8 +74,12 @@ PairedCounts counts_of(const DetectionChanges& changes);
 /// @param range_errors_grew significantly: then it is said where
 std::string changes_text(const DetectionChanges& changes, bool range_errors_grew);
 
-/// The command that renders the frame that changed most again; empty where none did.
+/// The command that renders a frame again.
 /// @param result the folder of B
+std::string replay_command(const ChangedFrame& frame, const std::string& result);
+
+/// A line with the command of the frame that changed most; empty where none did.
+/// @param result the folder of B; empty: it cannot be replayed, and there is no line
 std::string replay_line(const DetectionChanges& changes, const std::string& result);
 
 /// The same for programs.

@@ -16,7 +16,7 @@ struct Judgement {
 };
 
 /// The lines on detections, and the command that shows the frame that changed most.
-/// @param result the folder of the second result
+/// @param result the folder of the second result; empty: it cannot be replayed
 std::string detection_lines(const Judgement& judgement, const std::string& result);
 
 /// Judges each metric, and says which detections changed.

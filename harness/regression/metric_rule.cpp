@@ -16,6 +16,9 @@ namespace {
 
 using Better = MetricRule::Better;
 
+/// How much underconfidence counts beside overconfidence: it wastes information, but loses no filter.
+constexpr double kUnderconfidence = 0.5;
+
 struct NamedRule {
   const char* pattern;
   MetricRule rule;
@@ -125,8 +128,10 @@ double badness(const MetricRule& rule, double mean) {
       return -mean;
     case Better::kNearZero:
       return std::abs(mean);
-    case Better::kNearOne:
-      return std::abs(slam::logarithm(mean));
+    case Better::kNearOne: {
+      const double over = slam::logarithm(mean);
+      return over >= 0.0 ? over : -kUnderconfidence * over;
+    }
     case Better::kNearLevel:
       return std::abs(mean - rule.level);
   }

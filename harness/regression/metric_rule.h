@@ -13,7 +13,7 @@ struct MetricRule {
     kLower,      ///< errors and counts of faults
     kHigher,     ///< rates and counts of what is right
     kNearZero,   ///< biases: the absolute value of the mean is judged
-    kNearOne,    ///< NIS, NEES: the absolute value of the mean's logarithm is judged
+    kNearOne,    ///< NIS, NEES: the mean's logarithm is judged; below 0 (underconfident) half its size
     kNearLevel,  ///< coverage: the distance of the mean from `level` is judged
   };
   Better better = Better::kLower;

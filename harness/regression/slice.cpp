@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 
 #include <boost/math/distributions/hypergeometric.hpp>
+#include <boost/math/special_functions/binomial.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 namespace {
@@ -19,20 +25,30 @@ constexpr double kChance = 0.01;
 constexpr std::size_t kMostConditions = 3;
 constexpr std::size_t kBins = 8;
 
+constexpr std::size_t kMostCategories = 4;
+
 using Indices = std::vector<std::size_t>;
 
-/// A condition that was tried: values from low to high, both included.
+/// A condition that could be taken: values from low to high, both included, or some categories.
 struct Candidate {
   const Property* property = nullptr;
   double low = 0.0;
   double high = 0.0;
+  std::vector<double> categories;  ///< in ascending order; empty for an interval
+  double choices = 1.0;            ///< how many others of its kind there are
   std::size_t things = 0;
   std::size_t marked = 0;
 };
 
+bool holds(const Candidate& candidate, std::size_t thing) {
+  const double value = candidate.property->values[thing];
+  if (!candidate.categories.empty()) return std::ranges::binary_search(candidate.categories, value);
+  return value >= candidate.low && value <= candidate.high;
+}
+
 /// The intervals of a property that are looked at: of its octiles some that lie side by side, each from its
 /// lowest to its highest value.
-std::vector<Candidate> candidates_of(const Property& property, const Indices& things) {
+std::vector<Candidate> intervals_of(const Property& property, const Indices& things) {
   std::vector<double> values;
   for (const std::size_t thing : things) values.push_back(property.values[thing]);
   std::ranges::sort(values);
@@ -46,13 +62,43 @@ std::vector<Candidate> candidates_of(const Property& property, const Indices& th
   std::vector<Candidate> candidates;
   for (std::size_t begin = 0; begin < lowest.size(); ++begin)
     for (std::size_t end = begin; end < lowest.size(); ++end)
-      if (end - begin + 1 < lowest.size()) candidates.push_back({&property, lowest[begin], highest[end]});
+      if (end - begin + 1 < lowest.size())
+        candidates.push_back({.property = &property, .low = lowest[begin], .high = highest[end]});
+  for (Candidate& candidate : candidates) candidate.choices = static_cast<double>(candidates.size());
   return candidates;
 }
 
-bool holds(const Candidate& candidate, std::size_t thing) {
-  const double value = candidate.property->values[thing];
-  return value >= candidate.low && value <= candidate.high;
+/// The sets of a property's categories that are looked at: those of which the largest shares are marked.
+std::vector<Candidate> sets_of(const Property& property, const Indices& things,
+                               const std::vector<bool>& marked) {
+  struct Category {
+    double value = 0.0;
+    double things = 0.0;
+    double marked = 0.0;
+  };
+  std::map<double, Category> counted;
+  for (const std::size_t thing : things) {
+    Category& category = counted[property.values[thing]];
+    category.value = property.values[thing];
+    category.things += 1.0;
+    category.marked += marked[thing] ? 1.0 : 0.0;
+  }
+  std::vector<Category> categories;
+  for (const auto& [value, category] : counted) categories.push_back(category);
+  std::ranges::stable_sort(categories, std::greater{},
+                           [](const Category& category) { return category.marked / category.things; });
+  std::vector<Candidate> candidates;
+  const std::size_t most = std::min(kMostCategories, categories.size() - 1);
+  Candidate set{.property = &property};
+  for (std::size_t size = 1; size <= most; ++size) {
+    set.categories.push_back(categories[size - 1].value);
+    std::ranges::sort(set.categories);
+    const auto all = static_cast<unsigned>(categories.size());
+    set.choices = static_cast<double>(most) *
+                  boost::math::binomial_coefficient<double>(all, static_cast<unsigned>(size));
+    candidates.push_back(set);
+  }
+  return candidates;
 }
 
 /// The probability that a part of so many things has at least so many marked ones by chance.
@@ -67,26 +113,48 @@ std::size_t count_marked(const Indices& things, const std::vector<bool>& marked)
       std::ranges::count_if(things, [&](std::size_t thing) { return marked[thing]; }));
 }
 
-/// The smallest part that holds enough of the marked things; empty where none is small and unlikely enough.
+/// How far a part is from one that marked things do not prefer: the likelihood ratio statistic of the four
+/// counts inside and outside, marked and not, 2 sum O log(O / E).
+double preference_for(const Candidate& part, std::size_t things, std::size_t marked) {
+  const auto term = [](std::size_t count) {
+    const auto number = static_cast<double>(count);
+    return count == 0 ? 0.0 : number * slam::logarithm(number);
+  };
+  const std::size_t unmarked = things - marked;
+  const std::size_t inside_unmarked = part.things - part.marked;
+  const double cells = term(part.marked) + term(inside_unmarked) + term(marked - part.marked) +
+                       term(unmarked - inside_unmarked);
+  const double sums =
+      term(part.things) + term(things - part.things) + term(marked) + term(unmarked) - term(things);
+  return 2.0 * (cells - sums);
+}
+
+/// The part that marked things prefer most of those that hold enough of them; empty where none is small and
+/// unlikely enough.
 std::optional<Candidate> best_part(std::span<const Property> properties, const Indices& things,
                                    const std::vector<bool>& marked, double least_marked) {
+  const std::size_t all_marked = count_marked(things, marked);
+  const double largest = kLargestPart * static_cast<double>(things.size());
   std::optional<Candidate> best;
-  std::size_t tried = 0;
+  double most = 0.0;
   for (const Property& property : properties)
-    for (Candidate candidate : candidates_of(property, things)) {
-      ++tried;
+    for (Candidate& candidate :
+         property.is_category ? sets_of(property, things, marked) : intervals_of(property, things)) {
       for (const std::size_t thing : things) {
         if (!holds(candidate, thing)) continue;
         ++candidate.things;
         candidate.marked += marked[thing] ? 1U : 0U;
       }
       if (static_cast<double>(candidate.marked) < least_marked) continue;
-      if (!best || candidate.things < best->things) best = candidate;
+      if (static_cast<double>(candidate.things) > largest) continue;
+      const double preference = preference_for(candidate, things.size(), all_marked);
+      const double choices = candidate.choices * static_cast<double>(properties.size());
+      if (preference <= most) continue;
+      if (chance_of(candidate, things.size(), all_marked) * choices >= kChance) continue;
+      best = candidate;
+      most = preference;
     }
-  if (!best || static_cast<double>(best->things) > kLargestPart * static_cast<double>(things.size()))
-    return {};
-  const double chance = chance_of(*best, things.size(), count_marked(things, marked));
-  return chance * static_cast<double>(tried) < kChance ? best : std::nullopt;
+  return best;
 }
 
 /// Whole numbers, which may count things, to the last digit.
@@ -95,7 +163,13 @@ std::string number_text(double value) {
 }
 
 std::string text_of(const Candidate& candidate) {
-  const auto& [name, unit, values] = *candidate.property;
+  const std::string& name = candidate.property->name;
+  const std::string& unit = candidate.property->unit;
+  if (!candidate.categories.empty()) {
+    std::vector<std::string> names;
+    for (const double category : candidate.categories) names.push_back(number_text(category));
+    return fmt::format("{} {}", name, fmt::join(names, " or "));
+  }
   const std::string behind = unit.empty() ? "" : " " + unit;
   const std::string low = number_text(candidate.low);
   if (candidate.low == candidate.high) return fmt::format("{} {}{}", name, low, behind);

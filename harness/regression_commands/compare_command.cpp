@@ -11,6 +11,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/talk.h"
+#include "harness/frame_replay/invocation.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
 #include "harness/regression/judgement.h"
@@ -22,6 +23,12 @@
 
 namespace stereobench::harness {
 namespace {
+
+/// The folder of a result that `replay` can read; empty for others, such as those of `slam`.
+std::string replayable(const std::filesystem::path& result) {
+  const std::filesystem::path folder = std::filesystem::is_directory(result) ? result : result.parent_path();
+  return std::filesystem::exists(folder / kInvocation) ? folder.string() : "";
+}
 
 struct CompareArguments {
   std::filesystem::path first;
@@ -52,7 +59,7 @@ std::optional<PairedBalls> balls_of(const StoredResult& first, const StoredResul
 
 void write_files(const CompareArguments& arguments, const Judgement& judgement, const std::string& scenario) {
   const ComparedNames names{arguments.first.string(), arguments.second.string()};
-  const std::string detections = detection_lines(judgement, arguments.second.string());
+  const std::string detections = detection_lines(judgement, replayable(arguments.second));
   const ResultComparison& comparison = judgement.comparison;
   if (!arguments.json.empty()) {
     nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
@@ -111,7 +118,7 @@ int compare(CompareArguments arguments) {
   say(few_seeds_warning(comparison, settings));
   const int outcome = exit_code_of(comparison, arguments.strict);
   say_gates(verdict_table(comparison, settings, arguments.all) +
-                detection_lines(judgement, arguments.second.string()) + verdict_summary(comparison),
+                detection_lines(judgement, replayable(arguments.second)) + verdict_summary(comparison),
             outcome != kPassed);
   return outcome;
 }

@@ -9,6 +9,7 @@
 #include "harness/regression/result_folder.h"
 #include "harness/result_pages/comparison_page.h"
 #include "harness/result_pages/run_page.h"
+#include "harness/suite/findings_file.h"
 #include "harness/suite/suite_report.h"
 
 namespace stereobench::harness {
@@ -41,7 +42,6 @@ void append_lines(const std::string& text, std::vector<std::string>& lines) {
 Block remarks_block(const CaseReport& report, const std::vector<std::string>& words) {
   PageText text;
   append_lines(remarks(report), text.lines);
-  if (report.judgement) append_lines(report.judgement->detections, text.lines);
   if (text.lines.empty()) text.lines.push_back("nothing to be said");
   return {.title = "Case",
           .note = report.error.empty()
@@ -52,8 +52,13 @@ Block remarks_block(const CaseReport& report, const std::vector<std::string>& wo
           .content = std::move(text)};
 }
 
-ComparedCase compared_case(const PlannedCase& planned, const std::filesystem::path& out,
-                           const CaseReport& report) {
+std::optional<DetectedBalls> findings_of(const std::filesystem::path& file, const CaseReport& report) {
+  if (!report.judgement->changes) return {};
+  return read_findings(file);
+}
+
+ComparedCase compared_case(const SuitePlan& plan, const PlannedCase& planned,
+                           const std::filesystem::path& out, const CaseReport& report) {
   const CaseState state = state_of(report);
   ComparedCase compared{.name = report.name, .verdict = text_of(state), .mark = mark_of_case(state)};
   compared.says = !report.error.empty()          ? report.error
@@ -69,7 +74,8 @@ ComparedCase compared_case(const PlannedCase& planned, const std::filesystem::pa
                       .second = now,
                       .comparison = report.judgement->comparison,
                       .settings = report.settings,
-                      .changes = {}}))
+                      .changes = report.judgement->changes,
+                      .findings = findings_of(findings_file(plan.baseline, report.name), report)}))
     compared.blocks.push_back(std::move(block));
   return compared;
 }
@@ -80,7 +86,7 @@ void write_suite_page(const SuitePlan& plan, const std::filesystem::path& out,
                       const std::vector<CaseReport>& reports, const std::vector<std::string>& words) {
   std::vector<ComparedCase> cases;
   for (std::size_t i = 0; i < reports.size(); ++i)
-    cases.push_back(compared_case(plan.cases[i], out, reports[i]));
+    cases.push_back(compared_case(plan, plan.cases[i], out, reports[i]));
   const std::vector<std::string> facts = {fmt::format("{} cases", cases.size()), shell_line(words)};
   write_file_atomically(out / kReport, page_html(cases_page(plan.suite.name, facts, std::move(cases))));
 }

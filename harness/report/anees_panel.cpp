@@ -10,13 +10,13 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr Stroke kHonestStroke = {kGrey, 1.0, Dash::kDotted};
+constexpr Stroke kConsistentStroke = {kGrey, 1.0, Dash::kDotted};
 
 bool is_drawn(double anees) {
   return std::isfinite(anees) && anees > 0.0;
 }
 
-/// From the band, or less, to the greatest; what is far below it is as good as honest.
+/// From the band, or less, to the greatest; what is far below it is as good as consistent.
 AxisRange range_for(const AneesPanel& panel) {
   constexpr double kLeast = 0.02;
   std::vector<double> all = {1.0};
@@ -40,9 +40,9 @@ void draw_anees_panel(Canvas& canvas, const AneesPanel& panel, const Axis& time,
   axes.draw(canvas);
   canvas.clip_to(plot);
   draw_band(canvas, axes, time_s, panel.low, panel.high, kBlack);
-  const std::array<Point, 2> honest = {axes.to_pixel(time.range.low, 1.0),
-                                       axes.to_pixel(time.range.high, 1.0)};
-  canvas.draw_line(honest, kHonestStroke);
+  const std::array<Point, 2> consistent = {axes.to_pixel(time.range.low, 1.0),
+                                           axes.to_pixel(time.range.high, 1.0)};
+  canvas.draw_line(consistent, kConsistentStroke);
   for (const AneesCurve& curve : panel.filters)
     draw_curve(canvas, axes, time_s, curve.anees, filter_stroke(curve.filter));
   canvas.clip_to({});

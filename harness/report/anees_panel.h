@@ -1,4 +1,4 @@
-/// How honest each filter's covariance was, over time.
+/// How consistent each filter's covariance was, over time.
 #pragma once
 
 #include <string>
@@ -16,14 +16,15 @@ struct AneesCurve {
 
 struct AneesPanel {
   std::vector<AneesCurve> filters;
-  std::vector<double> low;  ///< between these two 95 % of honest ones lie, at each instant; NaN where unknown
+  std::vector<double>
+      low;  ///< between these two 95 % of consistent ones lie, at each instant; NaN where unknown
   std::vector<double> high;
 
   /// @return whether there is anything to draw
   bool any() const;
 };
 
-/// Draws the curves on a logarithmic axis, the band of honest ones behind them.
+/// Draws the curves on a logarithmic axis, the band of consistent ones behind them.
 /// @param time its axis and the instants that the curves are aligned with
 void draw_anees_panel(Canvas& canvas, const AneesPanel& panel, const Axis& time,
                       const std::vector<double>& time_s, const Box& plot);

@@ -108,9 +108,9 @@ std::vector<LegendEntry> legend_of(const ErrorPicture& picture, const std::vecto
 void draw_anees(Canvas& canvas, const ErrorPicture& picture, const Axis& time) {
   draw_anees_panel(canvas, picture.anees, time, picture.time_s, kPanelPlot);
   canvas.write({kPanelPlot.left_px, kPanelPlot.top_px - 14.0},
-               "error over its claimed size, squared (ANEES): 1 is honest, above is overconfident", {});
+               "error over its claimed size, squared (ANEES): 1 is consistent, above is overconfident", {});
   const std::vector<LegendEntry> legend = {
-      {"95 % band", "of each step, if honest", Mark::kLine, {{0.84, 0.84, 0.84, 1.0}, 9.0}}};
+      {"95 % band", "of each step, if consistent", Mark::kLine, {{0.84, 0.84, 0.84, 1.0}, 9.0}}};
   draw_legend(canvas, {kErrorLegend_px, kPanelPlot.top_px}, legend);
 }
 

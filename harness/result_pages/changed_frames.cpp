@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/frame_replay/invocation.h"
 #include "harness/frames/pair_files.h"
 #include "harness/io/text_table.h"
 #include "harness/result_pages/frame_panels.h"
@@ -61,6 +62,7 @@ PageFrames changed_frames(const ResultFrames& first, const ResultFrames& second,
   if (!rig) rig = rig_of_pairs(first.folder);
   if (!rig) return {};
   PageFrames shown{.width_px = rig->intrinsics.width_px, .height_px = rig->intrinsics.height_px};
+  const bool can_replay = std::filesystem::exists(second.folder / kInvocation);
   for (const ChangedFrame& frame : frames) {
     SideOfFrame before = side_of("A", first, frame);
     SideOfFrame after = side_of("B", second, frame);
@@ -70,7 +72,8 @@ PageFrames changed_frames(const ResultFrames& first, const ResultFrames& second,
     if (after.is_borrowed) after.kept = before.kept;
     PageFrame made{
         .title = fmt::format("seed {}, frame {}", frame.seed, frame.frame),
-        .note = fmt::format("{}; {}{}", faults_text(before), faults_text(after), growth_text(frame))};
+        .note = fmt::format("{}; {}{}", faults_text(before), faults_text(after), growth_text(frame)),
+        .command = can_replay ? replay_command(frame, second.folder.string()) : ""};
     for (const vision::Side camera : {vision::Side::kLeft, vision::Side::kRight})
       for (const SideOfFrame* side : {&before, &after})
         made.panels.push_back(panel_of_side(*side, *rig, camera, shown.jpegs));

@@ -182,8 +182,9 @@ void append_blocks(std::vector<Block>& blocks, std::vector<Block> more) {
 
 std::vector<Block> table_blocks(const ComparisonStory& story) {
   if (!story.changes) return {};
-  const std::vector<DetectionRow> first = read_detection_rows(story.first.detections);
   const std::vector<DetectionRow> second = read_detection_rows(story.second.detections);
+  const std::vector<DetectionRow> first = story.findings ? rows_of_findings(*story.findings, second)
+                                                         : read_detection_rows(story.first.detections);
   std::vector<Block> blocks;
   const NamedDetections sets[] = {{"A", first}, {"B", second}};
   if (std::vector<Chart> charts = detection_charts(sets); !charts.empty())

@@ -19,8 +19,9 @@ struct ComparisonStory {
   const StoredResult& second;
   const ResultComparison& comparison;
   const VerdictSettings& settings;
-  std::optional<DetectionChanges> changes;  ///< none where one of them has no table of detections
-  std::vector<std::string> words = {};      ///< of the command line; empty: none is shown
+  std::optional<DetectionChanges> changes;     ///< none where one of them has no table of detections
+  std::vector<std::string> words = {};         ///< of the command line; empty: none is shown
+  std::optional<DetectedBalls> findings = {};  ///< of the first, where it has them in place of a table
 };
 
 /// Verdicts, changes seed by seed, what changed detections have in common, errors against range and noise,

@@ -19,26 +19,37 @@ constexpr std::size_t kMostDots = 1500;
 constexpr std::size_t kMostBins = 8;
 constexpr std::size_t kLeastInBin = 20;
 
+/// Right detections that state their noise: one value each.
+struct StatedNoise {
+  std::vector<double> range_m;
+  std::vector<double> range_error_mm;
+  std::vector<double> range_sd_mm;
+  std::vector<double> normalised;  ///< root of e' R^-1 e / 2
+};
+
 /// What charts are drawn from: one value a right detection.
 struct RightDetections {
   std::vector<double> range_m;
   std::vector<double> range_error_mm;
-  std::vector<double> range_sd_mm;  ///< as stated
-  std::vector<double> normalised;   ///< root of e' R^-1 e / 2
+  StatedNoise stated;
 };
 
 RightDetections right_ones(std::span<const DetectionRow> rows) {
   RightDetections right;
   for (const DetectionRow& row : rows) {
     if (row.outcome != text_of(DetectionOutcome::kTruePositive)) continue;
+    const double range_error_mm = kMillimetres * row.range_error_m();
+    if (!std::isfinite(range_error_mm)) continue;
+    right.range_m.push_back(row.true_range_m);
+    right.range_error_mm.push_back(range_error_mm);
     const Eigen::Vector2d error(row.range_error_m(),
                                 slam::wrap_angle(row.bearing_rad - row.true_bearing_rad));
     const double half_nis = 0.5 * error.dot(row.covariance.inverse() * error);
-    if (!error.allFinite() || !std::isfinite(half_nis) || half_nis < 0.0) continue;
-    right.range_m.push_back(row.true_range_m);
-    right.range_error_mm.push_back(kMillimetres * error.x());
-    right.range_sd_mm.push_back(kMillimetres * std::sqrt(row.covariance(0, 0)));
-    right.normalised.push_back(std::sqrt(half_nis));
+    if (!std::isfinite(half_nis) || half_nis < 0.0) continue;
+    right.stated.range_m.push_back(row.true_range_m);
+    right.stated.range_error_mm.push_back(range_error_mm);
+    right.stated.range_sd_mm.push_back(kMillimetres * std::sqrt(row.covariance(0, 0)));
+    right.stated.normalised.push_back(std::sqrt(half_nis));
   }
   return right;
 }
@@ -86,7 +97,7 @@ Chart noise_chart(std::span<const NamedDetections> sets, const std::vector<Right
               .y_is_logarithmic = true};
   std::vector<double> all_sds;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const BinnedRms bins = binned_rms(right[i].range_sd_mm, right[i].range_error_mm);
+    const BinnedRms bins = binned_rms(right[i].stated.range_sd_mm, right[i].stated.range_error_mm);
     chart.series.push_back(rms_series(named(sets[i], "rms"), bins));
     all_sds.insert(all_sds.end(), bins.at.begin(), bins.at.end());
   }
@@ -101,9 +112,9 @@ Chart consistency_chart(std::span<const NamedDetections> sets, const std::vector
               .y_label = "rms error / stated noise",
               .y_is_logarithmic = true};
   for (std::size_t i = 0; i < sets.size(); ++i)
-    chart.series.push_back(
-        rms_series(named(sets[i], "rms"), binned_rms(right[i].range_m, right[i].normalised, 2)));
-  chart.series.push_back(level("consistent", right.front().range_m, 1.0));
+    chart.series.push_back(rms_series(named(sets[i], "rms"),
+                                      binned_rms(right[i].stated.range_m, right[i].stated.normalised, 2)));
+  chart.series.push_back(level("consistent", right.back().stated.range_m, 1.0));
   return chart;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "harness/io/number_table.h"
+#include "harness/vision_scoring/detection_outcome.h"
 #include "harness/vision_scoring/detection_table.h"
 
 namespace stereobench::harness {
@@ -60,6 +62,35 @@ DetectionRow detection_row(const RowCells& cells) {
   return row;
 }
 
+/// A ball's truth, without a detection.
+DetectionRow truth_alone(DetectionRow row) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  row.detected_colour.reset();
+  row.range_m = row.bearing_rad = kNone;
+  row.left_px = row.right_px = Eigen::Vector2d::Constant(kNone);
+  row.covariance = Eigen::Matrix2d::Constant(kNone);
+  return row;
+}
+
+void append_finding(const BallFinding& finding, const DetectionRow& truth, std::vector<DetectionRow>& rows) {
+  if (finding.is_found) {
+    DetectionRow& row = rows.emplace_back(truth);
+    row.outcome = text_of(DetectionOutcome::kTruePositive);
+    row.detected_colour = truth.colour;
+    row.range_m = truth.true_range_m + finding.range_error_m;
+    row.left_px = truth.true_left_px + finding.left_error_px;
+    row.right_px = truth.true_right_px + finding.right_error_px;
+  }
+  if (finding.wrong_colour) {
+    DetectionRow& row = rows.emplace_back(truth);
+    row.outcome = text_of(DetectionOutcome::kWrongIdentity);
+    row.detected_colour = finding.wrong_colour;
+  }
+  if (finding.is_found || !truth.is_required) return;
+  rows.push_back(truth);
+  rows.back().outcome = kMiss;
+}
+
 }  // namespace
 
 std::vector<DetectionRow> read_detection_rows(const std::filesystem::path& file) {
@@ -70,6 +101,18 @@ std::vector<DetectionRow> read_detection_rows(const std::filesystem::path& file)
   rows.reserve(table.rows.size());
   for (const TableRow& row : table.rows) rows.push_back(detection_row({table, row}));
   return rows;
+}
+
+std::vector<DetectionRow> rows_of_findings(const DetectedBalls& findings,
+                                           std::span<const DetectionRow> rows) {
+  std::map<BallKey, DetectionRow> truth;
+  for (const DetectionRow& row : rows)
+    if (row.ball) truth.insert({{row.seed, static_cast<int>(row.frame), *row.ball}, truth_alone(row)});
+  std::vector<DetectionRow> made;
+  for (const auto& [key, ball] : findings)
+    if (const auto found = truth.find(key); found != truth.end())
+      append_finding(ball.finding, found->second, made);
+  return made;
 }
 
 }  // namespace stereobench::harness

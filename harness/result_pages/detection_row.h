@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "harness/regression/detected_balls.h"
 
 namespace stereobench::harness {
 
@@ -38,5 +41,11 @@ struct DetectionRow {
 /// Reads a detections.csv or detections.csv.gz.
 /// @throws std::runtime_error "file:line: what was expected"
 std::vector<DetectionRow> read_detection_rows(const std::filesystem::path& file);
+
+/// What a detector once made of the balls of a result, as rows: its findings beside the result's truth.
+/// @param findings of the same inputs, e.g. of a baseline. Of a detection they know the error of the range
+/// and of the centres; its bearing and its covariance are NaN
+/// @param rows of the result. Balls that are not among them are left out
+std::vector<DetectionRow> rows_of_findings(const DetectedBalls& findings, std::span<const DetectionRow> rows);
 
 }  // namespace stereobench::harness

@@ -13,6 +13,7 @@
 #include "harness/detector/detection_lines.h"
 #include "harness/drive/sightings.h"
 #include "harness/json/json_line.h"
+#include "harness/vision_scoring/detection_table.h"
 #include "harness/vision_scoring/rig_check.h"
 
 namespace stereobench::harness {
@@ -41,8 +42,8 @@ std::vector<std::string> lines_of(const fs::path& file) {
 
 }  // namespace
 
-VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
-                              std::optional<worlds::Identity> identity) {
+ScoredDetections replace_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
+                                   std::optional<worlds::Identity> identity, std::uint64_t seed) {
   const DatasetTruth truth = read_dataset_truth(folder);
   const BallGeometry geometry = {truth.believed_rig, truth.world.ball_radius_m()};
   const vision::BallSize size = {truth.world.ball_radius_m(), truth.world.ball_radius_sd_m};
@@ -52,7 +53,7 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
     step.measurements.clear();
     step.true_landmarks.clear();
   }
-  VisionScore score;
+  ScoredDetections scored;
   for (std::size_t i = 0; i < truth.frames.size(); ++i) {
     const std::size_t frame = truth.frames[i];
     if (i >= lines.size()) refuse(detections, i + 1, fmt::format("expected the line of frame {}", frame));
@@ -65,8 +66,9 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
     try {
       const auto observations = read_detections(lines[i], frame, geometry);
       const FrameMatch match = match_observations(seen, observations);
-      score += score_match(match);
-      score.rig += check_rig(truth.believed_rig, size, observations);
+      scored.score += score_match(match);
+      scored.score.rig += check_rig(truth.believed_rig, size, observations);
+      scored.rows += detection_rows({seed, frame, truth.world, truth.rig}, match);
       Sightings sightings = sightings_of(observations, balls_observed(match), truth.world.balls, told);
       step.measurements = std::move(sightings.measurements);
       step.true_landmarks = std::move(sightings.balls);
@@ -76,7 +78,7 @@ VisionScore replace_sightings(MeasurementLog& log, const fs::path& folder, const
   }
   if (lines.size() > truth.frames.size())
     refuse(detections, truth.frames.size() + 1, "expected no more lines: the data set has no more frames");
-  return score;
+  return scored;
 }
 
 }  // namespace stereobench::harness

@@ -1,8 +1,10 @@
 /// Detections that were made elsewhere, in the pictures of a rendered data set.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "harness/types.h"
 #include "harness/vision_scoring/vision_score.h"
@@ -10,15 +12,22 @@
 
 namespace stereobench::harness {
 
+/// What detections in a file are worth, and what became of each.
+struct ScoredDetections {
+  VisionScore score;
+  std::string rows;  ///< lines of detections.csv
+};
+
 /// Puts detections in place of a log's sightings, and scores them against the data set's truth.
 /// @param log of the data set
 /// @param folder that `stereobench render` wrote
 /// @param detections lines of detection_lines.h: one for each frame there are pictures of, in order
 /// @param identity how filters are to tell landmarks apart; empty: by their colours if no two share one, as
 ///   colour classes otherwise
+/// @param seed that the lines of detections.csv name
 /// @throws std::runtime_error "file:line: what was expected" for whatever is not exactly so
-VisionScore replace_sightings(MeasurementLog& log, const std::filesystem::path& folder,
-                              const std::filesystem::path& detections,
-                              std::optional<worlds::Identity> identity);
+ScoredDetections replace_sightings(MeasurementLog& log, const std::filesystem::path& folder,
+                                   const std::filesystem::path& detections,
+                                   std::optional<worlds::Identity> identity, std::uint64_t seed);
 
 }  // namespace stereobench::harness

@@ -16,8 +16,8 @@ namespace stereobench::harness {
 inline constexpr std::size_t kFirstScoredStep = 2;
 
 /// Normalised estimation error squared, e' P^+ e with the rank of P, with heading wrapped; its ratio is 1 on
-/// average when the covariance is honest. P may be singular: directions without variance are left out, and so
-/// is their error.
+/// average when the covariance is consistent. P may be singular: directions without variance are left out,
+/// and so is their error.
 /// @return nothing when P is zero or not finite
 std::optional<SquaredSum> normalised_error(const slam::Pose& estimate, const Eigen::Matrix3d& covariance,
                                            const slam::Pose& truth);
@@ -35,7 +35,7 @@ std::vector<std::optional<SquaredSum>> normalised_errors(const FilterRun& run, c
 /// @param sums one a step of the longest run; a step has no degrees of freedom until a seed has a value there
 void add_steps(std::vector<SquaredSum>& sums, std::span<const std::optional<SquaredSum>> run);
 
-/// Which steps are honest.
+/// Which steps are consistent.
 struct StepVerdict {
   long steps = 0;                 ///< that have a value
   double fraction_outside = 0.0;  ///< of their 95 % band, Holm-corrected for the number of steps; NaN

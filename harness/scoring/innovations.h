@@ -40,7 +40,7 @@ struct LandmarkInnovations {
 
 /// All seeds'.
 struct InnovationSummary {
-  Summary nis;       ///< over seeds: a run's sum over its degrees of freedom; 1 is honest
+  Summary nis;       ///< over seeds: a run's sum over its degrees of freedom; 1 is consistent
   Summary nis_used;  ///< without the refused
   InnovationSum sum;
   long runs_outside = 0;       ///< of their 99 % band, Holm-corrected for the number of runs

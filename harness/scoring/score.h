@@ -45,7 +45,7 @@ struct FilterSummary {
   Summary landmark_aligned_rms_m;
   Summary landmark_path_aligned_rms_m;
   double ate_aligned_median_m = 0.0;
-  Summary anees;  ///< over the seeds, of each run's mean; 1 is honest, above is overconfident
+  Summary anees;  ///< over the seeds, of each run's mean; 1 is consistent, above is overconfident
   std::vector<SquaredSum> nees_by_step;  ///< summed over the seeds
   StepVerdict nees;
   ConsistencySummary consistency;

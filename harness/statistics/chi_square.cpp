@@ -31,11 +31,11 @@ double chi_square_quantile(double probability, long degrees_of_freedom) {
 Band chi_square_band(double probability, long degrees_of_freedom) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (degrees_of_freedom < 1) return {kNone, kNone};
-  const ChiSquare honest = distribution(degrees_of_freedom);
+  const ChiSquare consistent = distribution(degrees_of_freedom);
   const double outside = 0.5 * (1.0 - probability);
   const auto count = static_cast<double>(degrees_of_freedom);
-  return {boost::math::quantile(honest, outside) / count,
-          boost::math::quantile(boost::math::complement(honest, outside)) / count};
+  return {boost::math::quantile(consistent, outside) / count,
+          boost::math::quantile(boost::math::complement(consistent, outside)) / count};
 }
 
 double chi_square_below(const SquaredSum& sum) {
@@ -45,8 +45,8 @@ double chi_square_below(const SquaredSum& sum) {
 double chi_square_p(const SquaredSum& sum) {
   if (sum.degrees_of_freedom < 1) return 1.0;
   if (!std::isfinite(sum.sum)) return 0.0;
-  const ChiSquare honest = distribution(sum.degrees_of_freedom);
-  const double above = boost::math::cdf(boost::math::complement(honest, sum.sum));
+  const ChiSquare consistent = distribution(sum.degrees_of_freedom);
+  const double above = boost::math::cdf(boost::math::complement(consistent, sum.sum));
   return std::min(1.0, 2.0 * std::min(chi_square_below(sum), above));
 }
 

@@ -7,12 +7,13 @@
 
 namespace stereobench::harness {
 
-/// A sum of squared lengths, and how many squared standard normals it would be a sum of if all were honest.
+/// A sum of squared lengths, and how many squared standard normals it would be a sum of if all were
+/// consistent.
 struct SquaredSum {
   double sum = 0.0;
   long degrees_of_freedom = 0;
 
-  /// @return 1 on average when honest; NaN for nothing
+  /// @return 1 on average when consistent; NaN for nothing
   double ratio() const { return sum / static_cast<double>(degrees_of_freedom); }
   SquaredSum& operator+=(const SquaredSum& other) {
     sum += other.sum;
@@ -32,7 +33,7 @@ enum class Seeds {
 /// @param count of the seeds
 SquaredSum worth(const SquaredSum& sum, Seeds seeds, std::size_t count);
 
-/// Between which bounds a ratio lies when all is honest.
+/// Between which bounds a ratio lies when all is consistent.
 struct Band {
   double low = 0.0;
   double high = 0.0;
@@ -47,11 +48,11 @@ double chi_square_quantile(double probability, long degrees_of_freedom);
 /// @return NaN for no degrees of freedom
 Band chi_square_band(double probability, long degrees_of_freedom);
 
-/// How probable a smaller sum is when all is honest.
+/// How probable a smaller sum is when all is consistent.
 /// @param sum of at least one degree of freedom
 double chi_square_below(const SquaredSum& sum);
 
-/// How probable a sum that is at least as far out is, on whichever side it lies, when all is honest.
+/// How probable a sum that is at least as far out is, on whichever side it lies, when all is consistent.
 /// @return in [0, 1]; 1 for no degrees of freedom; 0 for a sum that is not finite
 double chi_square_p(const SquaredSum& sum);
 

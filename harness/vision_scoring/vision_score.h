@@ -33,7 +33,7 @@ struct VisionScore {
   double range_bias_m() const;  ///< the mean error, measured minus true
   double bearing_bias_rad() const;
   double disparity_bias_px() const;
-  double mean_normalised_error() const;  ///< 1 when the covariance is honest
+  double mean_normalised_error() const;  ///< 1 when the covariance is consistent
 
   VisionScore& operator+=(const VisionScore& other);
 };

@@ -40,14 +40,21 @@ for line in ours.stdout:
     print(json.dumps(answer), flush=True)
 """
 
-CHART_IS_DRAWN = """
-[...document.querySelectorAll('.chart canvas, .map canvas')].map(canvas => {
+# How many colours each chart and map has, once it is on the screen.
+CHART_COLOURS = """
+(async () => {
+const frame = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+const counts = [];
+for (const canvas of document.querySelectorAll('.chart canvas, .map canvas')) {
   canvas.scrollIntoView();
+  await frame();
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   const colours = new Set();
   for (let i = 0; i < data.length; i += 4) colours.add(data[i] << 24 | data[i + 1] << 16 | data[i + 2] << 8 | data[i + 3]);
-  return colours.size;
-})
+  counts.push(colours.size);
+}
+return counts;
+})()
 """
 
 
@@ -92,10 +99,19 @@ class Pages(unittest.TestCase):
 
     def test_every_chart_and_map_is_drawn(self):
         def check(_):
-            colours = BROWSER.value(CHART_IS_DRAWN)
+            colours = BROWSER.value(CHART_COLOURS)
             self.assertGreater(len(colours), 0)
             self.assertGreater(min(colours), 10)  # a blank canvas has one
         self.on_every_page(check)
+
+    def test_charts_far_below_are_drawn_for_paper(self):
+        drawn = """[...document.querySelectorAll('.chart canvas')].map(canvas =>
+          new Set(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data).size > 1)"""
+        self.open("compare.html")
+        self.assertIn(False, BROWSER.value(drawn))
+        BROWSER.send("Emulation.setEmulatedMedia", media="print")
+        BROWSER.settle()
+        self.assertNotIn(False, BROWSER.value(drawn))
 
     def test_every_chart_and_map_has_words(self):
         def check(_):
@@ -116,7 +132,7 @@ class Pages(unittest.TestCase):
             }
         })()""")
         self.assertEqual(BROWSER.complaints, [])
-        for count in BROWSER.value(CHART_IS_DRAWN):
+        for count in BROWSER.value(CHART_COLOURS):
             self.assertGreater(count, 10)
 
     def test_texts_are_no_html(self):

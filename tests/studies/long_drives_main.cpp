@@ -76,7 +76,7 @@ long peak_memory_kb() {
 /// What the steps of a part of the drive took, and how wrong they were.
 struct Part {
   std::vector<double> step_ms;
-  double nees = 0.0;  ///< a third of it, summed: 1 a step is honest
+  double nees = 0.0;  ///< a third of it, summed: 1 a step is consistent
 
   void add(const Filter& filter, const Pose& truth, double took_ms) {
     const Estimate now = estimate_without_map(filter);

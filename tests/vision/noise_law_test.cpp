@@ -148,7 +148,7 @@ TEST(LampBehindTheBalls, IsToldByAllOfThem) {
                               14, kTolerance_m);
   ASSERT_GT(pulls.balls, 200);
   const double n = pulls.balls;
-  EXPECT_GT(pulls.nis / n / 2.0, 1.0 - 3.0 / std::sqrt(n));  // honest is 1; 1.71 is what is reached
+  EXPECT_GT(pulls.nis / n / 2.0, 1.0 - 3.0 / std::sqrt(n));  // consistent is 1; 1.71 is what is reached
   EXPECT_LT(pulls.nis / n / 2.0, 1.71 * (1.0 + 3.0 / std::sqrt(n)));
   EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 1.47 * (1.0 + 3.0 / std::sqrt(4.0 * n)));
 }
@@ -166,7 +166,7 @@ TEST_P(OutOfFocus, BallsAreMeasuredAsWellAsTheyClaim) {
   ASSERT_GT(pulls.balls, 75);
   const double n = pulls.balls;
   EXPECT_GT(pulls.nis / n / 2.0,
-            0.49 * (1.0 - 3.0 / std::sqrt(n)));  // honest is 1; 0.49 to 0.62 is what is reached
+            0.49 * (1.0 - 3.0 / std::sqrt(n)));  // consistent is 1; 0.49 to 0.62 is what is reached
   EXPECT_LT(pulls.nis / n / 2.0, 1.0 + 3.0 / std::sqrt(n));
   const double wider = std::sqrt(3.5449 * std::hypot(blur, 0.2887));
   EXPECT_LT(std::sqrt(pulls.bound_ratio2 / n), 1.5 * wider);

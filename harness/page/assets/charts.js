@@ -129,18 +129,19 @@ function chartsView(content) {
   const place = element('div', {class: 'chart'}, canvas);
   let chosen = content.charts[0];
   let drawn = null;
+  const describe = () => canvas.setAttribute('aria-label', chosen.words);
   const draw = () => {
     drawn?.destroy();
-    canvas.setAttribute('aria-label', chosen.words);
     drawn = new Chart(canvas, configuration(chosen));
   };
+  describe();
   if (content.charts.length > 1)
     view.append(element('div', {class: 'tools'}, choice('which chart', content.charts.map(({name}) => name), (i) => {
       chosen = content.charts[i];
+      describe();
       draw();
     })));
   view.append(place);
-  redraws.push(draw);
-  whenPlaced.push(draw);
+  drawWhenSeen(place, draw);
   return view;
 }

@@ -71,6 +71,21 @@ function redrawAll() {
 
 for (const surface of [darkScreen, paper]) surface.addEventListener('change', redrawAll);
 
+/** Draws what is costly once its place is near the screen or goes to paper, and anew in other colours. */
+function drawWhenSeen(place, draw) {
+  let isDrawn = false;
+  const drawNow = () => {
+    isDrawn = true;
+    nearness.disconnect();
+    draw();
+  };
+  const nearness = new IntersectionObserver((changes) => {
+    if (!isDrawn && changes.some(({isIntersecting}) => isIntersecting)) drawNow();
+  }, {rootMargin: '50% 0px'});
+  nearness.observe(place);
+  redraws.push(() => { if (isDrawn || paper.matches) drawNow(); });
+}
+
 /** A colour of the style sheet. */
 function paint(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

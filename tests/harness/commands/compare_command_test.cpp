@@ -138,6 +138,7 @@ TEST_F(CompareCommand, SaysWhichBallsWereLost) {
   const std::string ones = "1,1,1,1,1,1,1,1,1,1", noughts = "0,0,0,0,0,0,0,0,0,0";
   folder_.write("a/detections.csv.gz", detections("true_positive", "3"));
   folder_.write("b/detections.csv.gz", detections("miss", ""));
+  folder_.write("b/invocation.json", "{}");
   const Outcome lost = compare(rates(ones, noughts), rates(noughts, noughts), {"--json", path("out.json")});
   EXPECT_EQ(lost.exit_code, 1);
   EXPECT_THAT(lost.out, AllOf(HasSubstr("of 10 balls that had to be found, A alone found 10 and B alone 0"),

@@ -14,7 +14,10 @@
 namespace stereobench::harness {
 namespace {
 
+using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A short data set, rendered once for all tests of this file.
 class Dataset : public testing::Test {
@@ -84,6 +87,25 @@ TEST_F(Dataset, DetectionsOfOursGiveTheScoresOfTheRun) {
   for (const auto& [key, value] : of_run.items())
     EXPECT_NEAR(of_detections[key].get<double>(), value.get<double>(), 1e-9) << key;
   EXPECT_GT(vision["found"].get<int>(), 5);
+}
+
+// A file without the balls of one frame, beside the whole one: `compare` says which balls are gone.
+// Mutations: detections of a file that are not kept; the command of a replay that cannot be.
+TEST_F(Dataset, DetectionsOfTwoFilesAreCompared) {
+  const TestFolder whole, poorer;
+  ASSERT_EQ(slam(whole, {"--detections", detections()}).exit_code, 0);
+  std::vector<std::string> changed = lines();
+  auto line = nlohmann::json::parse(changed[1]);
+  line["balls"] = nlohmann::json::array();
+  changed[1] = line.dump();
+  std::string text;
+  for (const std::string& one : changed) text += one + "\n";
+  ASSERT_EQ(slam(poorer, {"--detections", poorer.write("poorer.jsonl", text)}).exit_code, 0);
+  const Outcome compared =
+      run_stereobench({"compare", (whole.path() / "out").string(), (poorer.path() / "out").string()});
+  EXPECT_THAT(compared.out,
+              AllOf(ContainsRegex("A alone found [1-9] and B alone 0"), HasSubstr("vision.recall"),
+                    Not(HasSubstr("stereobench replay"))));  // there is no scenario
 }
 
 TEST_F(Dataset, HowLandmarksAreToldApartCanBeChosen) {

@@ -63,7 +63,7 @@ TEST(NoiseFit, LeavesOutWhatFiltersRefuse) {
 
 // NIS / 2 of n samples scatters by 1 / sqrt(n), and the deviation in a bin lies between the law's at its
 // ends. Mutations: bins from the wrong end; samples of the bin at the other end.
-TEST(NoiseFit, BinsOfHonestNoiseHaveANisOfOne) {
+TEST(NoiseFit, BinsOfConsistentNoiseHaveANisOfOne) {
   const FittedNoise fitted = fit_noise(samples_of({}, 4000, 3));
   const auto held_out = samples_of({}, 4000, 4);
   const auto bins = bin_samples(held_out, fitted, 0.5, 10.0, 4);

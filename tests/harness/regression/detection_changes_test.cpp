@@ -92,6 +92,17 @@ TEST(DetectionChanges, SaysInWhichCameraCentresMoved) {
   EXPECT_LT(changes.left.standard_error_px.x(), 0.003);
 }
 
+// Mutation: growth in metres.
+TEST(DetectionChanges, SaysByHowMuchRangesGrew) {
+  PairedBalls pairs = balls_at_random();
+  for (PairedBall& ball : pairs.balls) ball.second = ball.first;
+  for (PairedBall& ball : pairs.balls) ball.second.range_error_m += 0.01 * ball.truth.range_m;
+  const DetectionChanges changes = detection_changes(pairs);
+  EXPECT_NEAR(changes.ranges.mean, 0.01, 1e-12);
+  EXPECT_NEAR(changes.ranges.standard_error, 0.0, 1e-12);
+  EXPECT_THAT(changes_text(changes, true), HasSubstr("balls, B over A: +1.000 +- 0.000 %"));
+}
+
 TEST(DetectionChanges, SaysWhichColourWasTakenForWhich) {
   PairedBalls pairs = balls_at_random();
   std::vector<PairedBall>& balls = pairs.balls;

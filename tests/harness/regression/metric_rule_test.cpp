@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// Mutations: recall that may fall; NIS that may only be smaller.
+// Mutations: recall that may fall; NIS that may only be smaller; underconfidence that counts in full.
 TEST(MetricRule, SaysWhichWayIsWorse) {
   const auto worse = [](const char* metric, double from, double to) {
     const MetricRule rule = rule_of(metric).value();
@@ -23,7 +23,7 @@ TEST(MetricRule, SaysWhichWayIsWorse) {
   for (const char* metric : {"filters.ekf.anees", "filters.ekf.consistency.nis.per_run"}) {
     EXPECT_TRUE(worse(metric, 1.1, 1.2)) << metric;
     EXPECT_TRUE(worse(metric, 0.9, 0.8)) << metric;
-    EXPECT_NEAR(badness(rule_of(metric).value(), 0.5), badness(rule_of(metric).value(), 2.0), 1e-12);
+    EXPECT_NEAR(2.0 * badness(rule_of(metric).value(), 0.5), badness(rule_of(metric).value(), 2.0), 1e-12);
   }
   EXPECT_TRUE(worse("vision.range_bias_m", 0.1, -0.2));
   EXPECT_TRUE(worse("filters.ekf.consistency.path_coverage.within_95", 0.95, 1.0));

@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 /// Things at random: a range, a place, a colour of eighteen.
 std::vector<Property> things(std::size_t count, slam::RandomStream& random) {
-  std::vector<Property> properties = {{"range", "m", {}}, {"x", "px", {}}, {"colour", "", {}}};
+  std::vector<Property> properties = {{"range", "m", {}}, {"x", "px", {}}, {"colour", "", {}, true}};
   for (std::size_t i = 0; i < count; ++i) {
     properties[0].values.push_back(1.0 + 9.0 * random.uniform());
     properties[1].values.push_back(1024.0 * random.uniform());
@@ -40,6 +40,36 @@ TEST(Slice, NamesWhatMarkedThingsHaveInCommon) {
   EXPECT_THAT(slice.conditions, ElementsAre("colour 3", StartsWith("range ")));
   EXPECT_GE(slice.marked * 10, slice.all_marked * 9);
   EXPECT_LT(slice.things, 70U);
+}
+
+// Two colours far apart are no interval.
+// Mutation: categories as intervals; sets of one category alone.
+TEST(Slice, NamesCategoriesThatAreNoNeighbours) {
+  slam::RandomStream random(3, slam::Stream::kOracle);
+  const std::vector<Property> properties = things(2000, random);
+  std::vector<bool> marked;
+  for (const double colour : properties[2].values)
+    marked.push_back((colour == 2.0 || colour == 13.0) && random.uniform() < 0.3);
+  const Slice slice = find_slice(properties, marked);
+  EXPECT_THAT(slice.conditions, ElementsAre("colour 2 or 13"));
+}
+
+// What is lost beyond a range is called so, though an interval of another property that goes with it is
+// smaller and still holds nine tenths.
+// Mutation: the smallest part that holds enough.
+TEST(Slice, NamesTheCauseRatherThanASmallerPart) {
+  slam::RandomStream random(4, slam::Stream::kOracle);
+  std::vector<Property> properties = {{"range", "m", {}}, {"radius", "px", {}}};
+  std::vector<bool> marked;
+  for (int i = 0; i < 1600; ++i) {
+    const double range_m = 1.0 + static_cast<double>(i % 400) / 100.0;
+    properties[0].values.push_back(range_m);
+    properties[1].values.push_back(50.0 / range_m * (1.0 + 0.1 * random.normal()));
+    marked.push_back(range_m >= 3.5);
+  }
+  const Slice slice = find_slice(properties, marked);
+  EXPECT_THAT(slice.conditions, ElementsAre("range 3.5 to 4.99 m"));
+  EXPECT_EQ(slice.marked, slice.all_marked);
 }
 
 // Mutation: no test of chance, and a third of these sets of marks get a name.

@@ -51,6 +51,23 @@ TEST(TestCommand, HoldsASuiteAgainstWhatWasBlessed) {
   EXPECT_EQ(suite.test({"--strict"}).exit_code, 6);
 }
 
+// A baseline knows where each ball was found: the page has both.
+// Mutation: a page without the findings of the baseline.
+TEST(TestCommand, ShowsFramesAsTheyWereAndAsTheyAre) {
+  TinySuite suite("  - {name: room, scenario: room.yaml}\n");
+  suite.test();
+  suite.bless();
+  const std::string file = "tiny.baseline/room.balls.csv";
+  std::string csv = bytes_of(suite.path(file));
+  const std::size_t line = csv.find("\n0,1,");
+  csv.replace(line, csv.find('\n', line + 1) - line, "\n0,1,0,1,1,,0.0000000,0.5,0.0,0.0,0.0");
+  suite.folder().write(file, csv);
+  suite.test();
+  EXPECT_THAT(bytes_of(suite.path("out/report.html")),
+              AllOf(HasSubstr("The frames that changed most"), HasSubstr("seed 0, frame 1"),
+                    HasSubstr("A, left camera (picture of the other result)"), HasSubstr("--frame 0:1")));
+}
+
 // Mutations: hashes of inputs that are not compared; seeds or filters among the inputs.
 TEST(TestCommand, DoesNotCompareWhatIsOfOtherInputs) {
   TinySuite suite(kField);

@@ -109,6 +109,37 @@ TEST(PanelOf, HasThePlacesOfItsCamera) {
   EXPECT_LT((middle(right) - found.true_right_px).norm(), 1e-6);
 }
 
+// A baseline found ball 1 farther than it is, lost ball 2 and took ball 3 for colour 7; the present result
+// lost ball 1. It knows nothing of ball 9. Mutations: errors without the truth that they are of; balls found
+// as they are now; no miss for a lost ball.
+TEST(RowsOfFindings, AreTheTruthWithWhatWasFoundThen) {
+  std::vector<DetectionRow> now = {row("miss", 1, true), row("true_positive", 2, true), row("miss", 3, true)};
+  for (DetectionRow& one : now) {
+    one.true_range_m = 2.0;
+    one.true_left_px = {100.0, 200.0};
+    one.true_right_px = {50.0, 200.0};
+  }
+  now[1].range_m = 2.0;
+  const BallFinding far = {.is_found = true,
+                           .wrong_colour = {},
+                           .range_error_m = 0.5,
+                           .left_error_px = {1.0, 2.0},
+                           .right_error_px = {3.0, 4.0}};
+  const DetectedBalls then = {{{2, 9, 1}, {{.is_required = true}, far}},
+                              {{2, 9, 2}, {{.is_required = true}, {}}},
+                              {{2, 9, 3}, {{.is_required = true}, {.wrong_colour = 7}}},
+                              {{2, 9, 9}, {{.is_required = true}, far}}};
+  const std::vector<DetectionRow> rows = rows_of_findings(then, now);
+  std::vector<std::string> outcomes;
+  for (const DetectionRow& one : rows) outcomes.push_back(one.outcome);
+  EXPECT_THAT(outcomes, ElementsAre("true_positive", "miss", "wrong_identity", "miss"));
+  EXPECT_EQ(rows[0].range_m, 2.5);
+  EXPECT_EQ(rows[0].left_px, Eigen::Vector2d(101.0, 202.0));
+  EXPECT_EQ(rows[0].right_px, Eigen::Vector2d(53.0, 204.0));
+  EXPECT_TRUE(std::isnan(rows[1].range_m));
+  EXPECT_EQ(rows[2].detected_colour, 7);
+}
+
 TEST(RowsOf, AreThoseOfTheFrameOfTheSeed) {
   std::vector<DetectionRow> rows = {row("miss", 1, true), row("miss", 2, true), row("miss", 3, true)};
   rows[1].seed = 3;

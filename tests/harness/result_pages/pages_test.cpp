@@ -18,9 +18,12 @@
 namespace stereobench::harness {
 namespace {
 
+using testing::AllOf;
 using testing::Each;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::vector<std::string> titles_of(const std::vector<Block>& blocks) {
   std::vector<std::string> titles;
@@ -218,6 +221,7 @@ TEST(ChangedFrames, HaveBothResultsSideBySide) {
   const std::vector<DetectionRow> missed = {
       {.seed = 3, .frame = 41, .outcome = "miss", .ball = 1, .is_required = true}};
   const std::vector<ChangedFrame> frames = {{3, 41, 1, 0.0}, {3, 42, 1, 0.0}};
+  folder.write("b/invocation.json", "{}");
   const PageFrames shown =
       changed_frames({folder.path() / "a", found}, {folder.path() / "b", missed}, frames);
   ASSERT_EQ(shown.frames.size(), 2U);
@@ -231,6 +235,7 @@ TEST(ChangedFrames, HaveBothResultsSideBySide) {
   EXPECT_EQ(panels[0].truth.at(0).fate, Fate::kFound);
   EXPECT_EQ(panels[1].truth.at(0).fate, Fate::kMissed);
   EXPECT_FALSE(shown.frames[1].panels[0].picture);
+  EXPECT_THAT(shown.frames[1].command, AllOf(StartsWith("stereobench replay "), EndsWith("/b --frame 3:42")));
   EXPECT_TRUE(
       changed_frames({folder.path() / "a", found}, {folder.path() / "a", missed}, frames).frames.empty());
 }

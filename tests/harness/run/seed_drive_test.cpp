@@ -124,16 +124,16 @@ TEST(Record, ProgressGrowsToOne) {
 // The bound is that of the odometry's real noise, whatever the filters believe; the batch believes what they
 // do. Mutation: either one told the other's.
 TEST(DriveSeed, TheBoundKnowsTheNoiseAndTheBatchBelievesIt) {
-  const Experiment honest = short_drive();
-  Experiment deceived = honest;
-  deceived.believed.odometry_noise = honest.scenario.odometry_noise;
+  const Experiment consistent = short_drive();
+  Experiment deceived = consistent;
+  deceived.believed.odometry_noise = consistent.scenario.odometry_noise;
   deceived.believed.odometry_noise->v_constant_mps *= 5.0;
-  const References one = drive_seed({&honest, 3}, [](double) {}).references;
+  const References one = drive_seed({&consistent, 3}, [](double) {}).references;
   const References two = drive_seed({&deceived, 3}, [](double) {}).references;
-  ASSERT_EQ(one.bound.value().poses.size(), honest.scenario.path.size());
+  ASSERT_EQ(one.bound.value().poses.size(), consistent.scenario.path.size());
   EXPECT_EQ(one.bound->landmarks.size(), 3U);
   EXPECT_EQ(one.bound->poses.back(), two.bound.value().poses.back());
-  EXPECT_EQ(one.batch.poses.size(), honest.scenario.path.size());
+  EXPECT_EQ(one.batch.poses.size(), consistent.scenario.path.size());
   EXPECT_NE(one.batch.poses.back().x_m, two.batch.poses.back().x_m);
   EXPECT_FALSE(one.batch.failed);
 }

@@ -41,7 +41,7 @@ const Eigen::Matrix3d kRoot{{0.3, 0.0, 0.0}, {-0.1, 0.2, 0.0}, {0.004, -0.003, 0
 
 // 20,000 draws of chi-square(3) / 3 have a mean of 1 +- 0.0058: five deviations. Mutations: no wrapping;
 // P in place of its inverse.
-TEST(NormalisedError, IsOneOnAverageWhenTheCovarianceIsHonest) {
+TEST(NormalisedError, IsOneOnAverageWhenTheCovarianceIsConsistent) {
   EXPECT_NEAR(mean_over_draws<3>(kRoot), 1.0, 0.03);
   EXPECT_NEAR(mean_over_draws<3>(kRoot, 0.25), 4.0, 0.12);
 }
@@ -121,7 +121,7 @@ TEST(NormalisedError, OfAPositionIsItsMahalanobisLength) {
   EXPECT_EQ(normalised_error(error, Eigen::Matrix2d{{0.04, 0.0}, {0.0, 0.0}}).value().degrees_of_freedom, 1);
 }
 
-/// Steps at which seeds are honest, or have errors a factor too large.
+/// Steps at which seeds are consistent, or have errors a factor too large.
 std::vector<SquaredSum> steps_of(std::uint64_t seed, std::size_t count, double factor_from_half) {
   slam::RandomStream random(seed, slam::Stream::kWorld);
   std::vector<SquaredSum> steps(count);
@@ -133,9 +133,9 @@ std::vector<SquaredSum> steps_of(std::uint64_t seed, std::size_t count, double f
   return steps;
 }
 
-// 300 families of 40 honest steps: with Holm's correction one in twenty has any step outside, 15 +- 3.8: four
-// deviations (Holm is a little cautious). Without it 260 would. Mutation: no correction.
-TEST(JudgeSteps, OneHonestFamilyInTwentyHasAnyStepOutside) {
+// 300 families of 40 consistent steps: with Holm's correction one in twenty has any step outside, 15 +- 3.8:
+// four deviations (Holm is a little cautious). Without it 260 would. Mutation: no correction.
+TEST(JudgeSteps, OneConsistentFamilyInTwentyHasAnyStepOutside) {
   int families = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed)
     families += judge_steps(steps_of(seed, 40, 1.0)).first_outside ? 1 : 0;

@@ -35,9 +35,9 @@ double five_deviations(double p, double count) {
 }
 
 // Mutations: the heading's variance in the ellipse; one degree of freedom; a box in place of an ellipse.
-TEST(CoverPath, IsTheEllipsesProbabilityWhenTheCovarianceIsHonest) {
-  const Drawn honest(3, 10'002);
-  const EllipseCoverage coverage = cover_path(honest.run, honest.log);
+TEST(CoverPath, IsTheEllipsesProbabilityWhenTheCovarianceIsConsistent) {
+  const Drawn consistent(3, 10'002);
+  const EllipseCoverage coverage = cover_path(consistent.run, consistent.log);
   EXPECT_EQ(coverage.positions, 10'000);
   for (std::size_t i = 0; i < kEllipses.size(); ++i)
     EXPECT_NEAR(coverage.within[i], kEllipses[i], five_deviations(kEllipses[i], 1e4)) << kEllipses[i];

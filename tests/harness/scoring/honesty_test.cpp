@@ -59,7 +59,7 @@ FilterSummary summary_of(std::uint64_t seeds, double claimed_variance = 1.0) {
 // Everything that is a test has its own level (1 %, 1 %, 5 %); a fraction's interval comes from the seeds:
 // four standard errors. Mutations: squared lengths halved in the filter, or of one degree of freedom;
 // ellipses of one degree of freedom.
-TEST(Honesty, OfAFilterThatIsExactIsNotDoubted) {
+TEST(Consistency, OfAFilterThatIsExactIsNotDoubted) {
   const FilterSummary exact = summary_of(100);
   const ConsistencySummary& c = exact.consistency;
   EXPECT_EQ(c.innovations.runs_outside, 0);
@@ -78,7 +78,7 @@ TEST(Honesty, OfAFilterThatIsExactIsNotDoubted) {
 
 // Half of the measurement's true variance is claimed: one run is enough, with every filter. Mutation: squared
 // lengths halved.
-TEST(Honesty, NisFindsAWrongNoiseInOneRun) {
+TEST(Consistency, NisFindsAWrongNoiseInOneRun) {
   const slam::Drive world = precise_lap();
   for (const char* filter : {"ekf", "fastslam1", "fastslam2", "ufastslam"}) {
     const std::vector<FilterScore> one = {score_of(filter, world, log_of(world, 3, 0.5))};
@@ -91,7 +91,7 @@ TEST(Honesty, NisFindsAWrongNoiseInOneRun) {
 
 // A recorded log replayed twenty times is one experiment: what its errors are by chance is no more
 // significant. Mutation: seeds of one log summed up as if they were independent.
-TEST(Honesty, ReplaysOfOneLogAreOneExperiment) {
+TEST(Consistency, ReplaysOfOneLogAreOneExperiment) {
   const slam::Drive world = precise_lap();
   long doubted = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -108,7 +108,7 @@ TEST(Honesty, ReplaysOfOneLogAreOneExperiment) {
 
 // A start whose heading is off by three of the last step's deviations turns the whole world, and nothing that
 // is seen can tell: the innovations are the same. The errors are not.
-TEST(Honesty, ABiasOfTheStartIsSeenByNeesAndNotByNis) {
+TEST(Consistency, ABiasOfTheStartIsSeenByNeesAndNotByNis) {
   constexpr double kOff_rad = 3e-4;
   const slam::Drive world = precise_lap();
   std::vector<FilterScore> straight;
@@ -129,7 +129,7 @@ TEST(Honesty, ABiasOfTheStartIsSeenByNeesAndNotByNis) {
 }
 
 // Each step of the log has its record, and particles that are resampled lose ancestors, never gain.
-TEST(Honesty, RecordsOfUpdatesAreAlignedWithTheSteps) {
+TEST(Consistency, RecordsOfUpdatesAreAlignedWithTheSteps) {
   slam::Drive world;
   world.side_m = 6.0;
   MeasurementLog log = log_of(world, 2);

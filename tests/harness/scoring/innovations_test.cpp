@@ -22,7 +22,7 @@ MeasurementLog log_of(std::size_t steps) {
   return log;
 }
 
-/// Honest innovations; those of one landmark are too long by a factor.
+/// Consistent innovations; those of one landmark are too long by a factor.
 InnovationScore drawn(std::uint64_t seed, int bad_landmark, double factor) {
   const MeasurementLog log = log_of(20);
   slam::RandomStream random(seed, slam::Stream::kWorld);
@@ -53,10 +53,11 @@ TEST(ScoreInnovations, SumsUpByRunAndLandmark) {
   EXPECT_DOUBLE_EQ(score.by_landmark.at(3).all.sum, 5.0);
 }
 
-// 400 studies of 5 honest runs and 10 landmarks: one in a hundred finds a run outside, and one a landmark; 4
+// 400 studies of 5 consistent runs and 10 landmarks: one in a hundred finds a run outside, and one a
+// landmark; 4
 // +- 2 each, five deviations. Mutations: no correction for their number (20 and 38); one degree of freedom
 // each.
-TEST(TallyInnovations, FindsNothingWhereAllIsHonest) {
+TEST(TallyInnovations, FindsNothingWhereAllIsConsistent) {
   int with_run = 0;
   int with_landmark = 0;
   for (std::uint64_t study = 0; study < 400; ++study) {

@@ -38,9 +38,9 @@ TEST(ChiSquare, PIsOfBothSides) {
   EXPECT_EQ(chi_square_p({}), 1.0);
 }
 
-// p-values of honest sums are uniform: the greatest distance of 5,000 sorted ones from that is below 1.95 /
-// 71 with a probability of 99.9 % (Kolmogorov).
-TEST(ChiSquare, PIsUniformWhenAllIsHonest) {
+// p-values of consistent sums are uniform: the greatest distance of 5,000 sorted ones from that is below 1.95
+// / 71 with a probability of 99.9 % (Kolmogorov).
+TEST(ChiSquare, PIsUniformWhenAllIsConsistent) {
   slam::RandomStream random(5, slam::Stream::kWorld);
   std::vector<double> p_values;
   for (int i = 0; i < 5000; ++i) {

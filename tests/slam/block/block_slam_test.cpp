@@ -198,8 +198,8 @@ double squared_length_at_the_end(const std::string& name, const Drive& world, st
 }
 
 // What blocks are for: after two laps with ten particles, forty seeds. The squared length of the error in
-// claimed deviations is 3 for an honest filter; its median, as its mean has no bound. Ten particles are too
-// few either way (medians of 11 and 18), and far fewer where each frame is drawn by itself.
+// claimed deviations is 3 for a consistent filter; its median, as its mean has no bound. Ten particles are
+// too few either way (medians of 11 and 18), and far fewer where each frame is drawn by itself.
 TEST_P(BlockSlams, KnowsBetterHowWrongItIs) {
   Drive world;
   world.laps = 2;

@@ -52,7 +52,7 @@ EkfSlam filter_of(Linearisation linearisation) {
 
 struct Score {
   double rms_m = 0.0;
-  double nees = 0.0;  ///< at the end, a third: 1 is honest
+  double nees = 0.0;  ///< at the end, a third: 1 is consistent
   FilterCounters counters;
 };
 
@@ -78,7 +78,7 @@ Score drive(Linearisation linearisation, int seeds) {
   return score;
 }
 
-// 60 drives: the mean of NEES / 3 has a standard deviation of 0.105 where claims are honest, and three of
+// 60 drives: the mean of NEES / 3 has a standard deviation of 0.105 where claims are consistent, and three of
 // them are allowed. Mutations: chords in the direction of their start; slopes at the prediction.
 TEST(IteratedEkf, IsAsGoodAsItClaims) {
   const Score iterated = drive(Linearisation::kIterated, 60);

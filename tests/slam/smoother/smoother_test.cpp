@@ -51,7 +51,7 @@ TEST_P(SmootherLaw, IsTheOptimumOfAllUpToNow) {
 /// How a filter fares on some drives.
 struct Score {
   double rms_m = 0.0;  ///< mean of the drives'
-  double nees = 0.0;   ///< a third, over all steps: 1 is honest
+  double nees = 0.0;   ///< a third, over all steps: 1 is consistent
 };
 Score score_of(const std::string& name, int seeds, const Drive& world) {
   Score score;
@@ -78,7 +78,7 @@ TEST(Smoother, IsAsGoodAsItClaims) {
 // pose is certain, bends. Mutations: factors of landmarks never looked at again; the reader's belief kept
 // from frame to frame, which is the iterated EKF; factors looked at only where the variable that is
 // eliminated first has moved, and not the other. Steps halved along slopes of long ago stay green.
-TEST(Smoother, IsHonestWhereBearingsArePoor) {
+TEST(Smoother, IsConsistentWhereBearingsArePoor) {
   Drive poor = drive_with_poor_bearings();
   poor.looks_at_start = true;
   const Score smoother = score_of("smoother", 10, poor);

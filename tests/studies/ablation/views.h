@@ -19,7 +19,7 @@ struct Outcome {
   long trusted = 0;     ///< observations that are to be trusted
   long wrong = 0;       ///< of these, those of nothing, of a ball twice or of another colour
   double rms = 0.0;     ///< error of the range, mm; of photographs of a centre, px
-  double nis = 0.0;     ///< mean of e' R^-1 e / 2: 1 where covariances are honest
+  double nis = 0.0;     ///< mean of e' R^-1 e / 2: 1 where covariances are consistent
   double cpu_s = 0.0;   ///< that vision took
   double digest = 0.0;  ///< of all errors: the same where all are the same to the bit
 };

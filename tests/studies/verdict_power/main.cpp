@@ -19,7 +19,9 @@
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "harness/regression/detection_changes.h"
+#include "harness/regression/verdict_report.h"
 #include "harness/run/seed_drive.h"
+#include "harness/statistics/statistics.h"
 #include "harness/vision_scoring/detection_table.h"
 #include "tests/studies/verdict_power/detector_variants.h"
 
@@ -43,7 +45,7 @@ std::vector<Variant> all_variants() {
   return variants;
 }
 
-/// What a variant makes of a drive that ours looks at.
+/// What a variant makes of a drive that the detector looks at.
 class VariantDrive {
  public:
   VariantDrive(const Variant& variant, std::size_t number, std::uint64_t seed)
@@ -52,7 +54,7 @@ class VariantDrive {
   }
 
   void look(const FrameEvent& event, const Observations& before, const worlds::Scenario& scenario) {
-    const FoundByOurs found{event.observations, before, scenario.believed_rig, event.world.ball_radius_m()};
+    const Found found{event.observations, before, scenario.believed_rig, event.world.ball_radius_m()};
     const Observations observations = variant_.detect(found, chance_);
     const FrameMatch match =
         match_observations({event.world, event.rig, event.world_from_robot, event.frame}, observations);
@@ -101,6 +103,12 @@ void drive_variants(const Experiment& experiment, std::uint64_t seed, const std:
   for (std::size_t i = 0; i < drives.size(); ++i) drives[i].finish(experiment, recording.log, results[i]);
 }
 
+constexpr const char* kAte = "filters.iekf.ate_rms_m";
+
+double mean_ate_m(const VariantResult& result) {
+  return summarise(result.table.metrics.at(kAte)).mean;
+}
+
 /// What `compare` says of two results.
 nlohmann::json comparison_of(VariantResult& first, VariantResult& second, const std::filesystem::path& file) {
   const auto balls_of = [&file](const VariantResult& result) {
@@ -111,17 +119,21 @@ nlohmann::json comparison_of(VariantResult& first, VariantResult& second, const 
   for (VariantResult* result : {&first, &second}) result->table.metrics = result->metrics.metrics();
   const ResultComparison comparison = compare_results(first.table, second.table, {}, counts_of(changes));
   nlohmann::json said = {{"text", changes_text(changes, true)},
+                         {"ate_ratio", mean_ate_m(second) / mean_ate_m(first)},
                          {"compared", comparison.metrics.size()},
                          {"regressed", nlohmann::json::array()},
                          {"improved", nlohmann::json::array()}};
   for (const MetricVerdict& metric : comparison.metrics) {
+    said["rows"][metric.metric] = fmt::format("{} {:.4g} -> {:.4g}, {}, margin {}, p {:.2g}",
+                                              text_of(metric.verdict), metric.first_mean, metric.second_mean,
+                                              change_text(metric), margin_text(metric), metric.p_holm);
     if (metric.verdict == Verdict::kRegressed) said["regressed"].push_back(metric.metric);
     if (metric.verdict == Verdict::kImproved) said["improved"].push_back(metric.metric);
   }
   return said;
 }
 
-/// One repetition: each fault beside ours, and each noisy variant beside the next one.
+/// One repetition: each fault beside the detector as it is, and each noisy variant beside the next one.
 std::string repetition(const Experiment& experiment, std::uint64_t number,
                        const std::filesystem::path& folder, const std::function<void(double)>& report) {
   const std::vector<Variant> variants = all_variants();
@@ -143,10 +155,11 @@ std::string repetition(const Experiment& experiment, std::uint64_t number,
 /// What came out of one variant over all repetitions.
 struct Tally {
   long repetitions = 0;
-  long regressed = 0;     ///< any metric
-  long improved = 0;      ///< any metric
-  long right_metric = 0;  ///< one of those that are to be
-  long right_report = 0;
+  long regressed = 0;      ///< any metric
+  long improved = 0;       ///< any metric
+  long right_metric = 0;   ///< one of those that are to be
+  long right_report = 0;   ///< all that the report is to say is said
+  double ate_ratio = 0.0;  ///< summed over the repetitions
   std::map<std::string, long> by_metric;
 };
 
@@ -158,8 +171,23 @@ void add(const Variant& variant, const nlohmann::json& said, Tally& tally) {
   tally.right_metric += std::ranges::any_of(variant.metrics, [&](const std::string& metric) {
     return std::ranges::find(regressed, metric) != regressed.end();
   });
-  tally.right_report += said.at("text").get<std::string>().find(variant.says) != std::string::npos ? 1 : 0;
+  const auto text = said.at("text").get<std::string>();
+  tally.right_report += std::ranges::all_of(
+      variant.says, [&](const std::string& line) { return text.find(line) != std::string::npos; });
+  tally.ate_ratio += said.at("ate_ratio").get<double>();
   for (const std::string& metric : regressed) ++tally.by_metric[metric];
+}
+
+/// Says why a fault was not seen as it should be.
+void explain(const Variant& variant, std::size_t repetition, const nlohmann::json& said, const Tally& before,
+             const Tally& after) {
+  if (!variant.metrics.empty() && after.right_metric == before.right_metric)
+    for (const std::string& metric : variant.metrics)
+      fmt::print(stderr, "{}, repetition {}: {} is {}\n", variant.name, repetition, metric,
+                 said.at("rows").at(metric).get<std::string>());
+  if (after.right_report == before.right_report)
+    fmt::print(stderr, "{}, repetition {}: the report says\n{}", variant.name, repetition,
+               said.at("text").get<std::string>());
 }
 
 std::string most_frequent(const Tally& tally) {
@@ -175,20 +203,24 @@ std::string most_frequent(const Tally& tally) {
 
 void print(const std::vector<Variant>& variants, const std::vector<Tally>& tallies) {
   AlignedTable table{.header = {"variant", "comparisons", "REGRESSED", "IMPROVED", "right metric",
-                                "right report", "most often"}};
+                                "right report", "ATE, B / A", "most often"}};
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const Tally& tally = tallies[i];
     const auto unless = [](bool nothing, long count) { return nothing ? "-" : fmt::format("{}", count); };
     table.rows.push_back({variants[i].name, fmt::format("{}", tally.repetitions),
                           fmt::format("{}", tally.regressed), fmt::format("{}", tally.improved),
                           unless(variants[i].metrics.empty(), tally.right_metric),
-                          unless(variants[i].says.empty(), tally.right_report), most_frequent(tally)});
+                          unless(variants[i].says.empty(), tally.right_report),
+                          fmt::format("{:.3g}", tally.ate_ratio / static_cast<double>(tally.repetitions)),
+                          most_frequent(tally)});
   }
   fmt::print("{}", markdown(table));
 }
 
-int run_study(const std::filesystem::path& scenario, std::size_t repetitions, int jobs) {
-  const Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
+int run_study(const std::filesystem::path& scenario, const std::string& detector, std::size_t repetitions,
+              int jobs) {
+  Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
+  experiment.detector.command = detector;
   std::vector<Variant> variants = faulty_variants();
   const std::size_t faults = variants.size();
   variants.push_back(noisy_variant(kNoise_px));
@@ -199,10 +231,14 @@ int run_study(const std::filesystem::path& scenario, std::size_t repetitions, in
       [&](std::size_t index, const std::function<void(double)>& report) {
         return repetition(experiment, index, std::filesystem::temp_directory_path(), report);
       },
-      [&](std::size_t, const std::string& answer) {
+      [&](std::size_t index, const std::string& answer) {
         const auto said = nlohmann::json::parse(answer);
-        for (std::size_t i = 0; i < said.size(); ++i)
-          add(variants[std::min(i, faults)], said[i], tallies[std::min(i, faults)]);
+        for (std::size_t i = 0; i < said.size(); ++i) {
+          const std::size_t at = std::min(i, faults);
+          const Tally before = tallies[at];
+          add(variants[at], said[i], tallies[at]);
+          explain(variants[at], index, said[i], before, tallies[at]);
+        }
       },
       [&](double done) { progress.show(done); });
   fmt::print("{} seeds a comparison, {} steps a seed\n\n", kSeedsOfRepetition,
@@ -220,8 +256,10 @@ int main(int argc, char** argv) {
   std::size_t repetitions = 100;
   int jobs = 2;
   program.add_option("--scenario", scenario, "with pictures")->capture_default_str();
+  std::string detector;
+  program.add_option("--detector", detector, "command of a program in place of our detector");
   program.add_option("--repetitions", repetitions, "how often each fault is planted")->capture_default_str();
   program.add_option("--jobs", jobs, "processes at a time")->capture_default_str();
   CLI11_PARSE(program, argc, argv);
-  return stereobench::harness::run_study(scenario, repetitions, jobs);
+  return stereobench::harness::run_study(scenario, detector, repetitions, jobs);
 }
