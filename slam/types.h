@@ -76,6 +76,8 @@ struct FilterCounters {
   long rejected_inputs = 0;     ///< non-finite or impossible controls and measurements that were ignored
   long joint_searches_cut =
       0;  ///< joint associations that would have taken too long and were settled greedily
+  long refitted_frames =
+      0;  ///< (particle, frame) pairs that were fitted again as a whole, without what the fit spoke against
 
   FilterCounters& operator+=(const FilterCounters& other) {
     resamplings += other.resamplings;
@@ -84,6 +86,7 @@ struct FilterCounters {
     gated_measurements += other.gated_measurements;
     rejected_inputs += other.rejected_inputs;
     joint_searches_cut += other.joint_searches_cut;
+    refitted_frames += other.refitted_frames;
     return *this;
   }
 };

@@ -97,12 +97,12 @@ std::string claim_warnings(const RunResult& result) {
 /// What filters repaired or refused, as sums over the seeds; nothing for filters that did neither.
 std::string counters_table(const std::vector<FilterResult>& filters) {
   AlignedTable table{.header = {"repaired or refused", "refused, by particle", "inputs", "covariances",
-                                "weights", "joint searches cut"}};
+                                "weights", "joint searches cut", "frames refitted, by particle"}};
   for (const FilterResult& filter : filters) {
     const slam::FilterCounters& c = filter.counters;
-    const std::array<long, 5> counts = {c.gated_measurements, c.rejected_inputs, c.covariance_repairs,
-                                        c.weight_collapses, c.joint_searches_cut};
-    if (counts == std::array<long, 5>{}) continue;
+    const std::array<long, 6> counts = {c.gated_measurements, c.rejected_inputs,    c.covariance_repairs,
+                                        c.weight_collapses,   c.joint_searches_cut, c.refitted_frames};
+    if (counts == std::array<long, 6>{}) continue;
     table.rows.push_back({filter.filter});
     for (const long count : counts) table.rows.back().push_back(fmt::format("{}", count));
   }

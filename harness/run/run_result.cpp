@@ -66,7 +66,8 @@ Json counters_json(const slam::FilterCounters& counters) {
           {"rejected_inputs", counters.rejected_inputs},
           {"covariance_repairs", counters.covariance_repairs},
           {"weight_collapses", counters.weight_collapses},
-          {"joint_searches_cut", counters.joint_searches_cut}};
+          {"joint_searches_cut", counters.joint_searches_cut},
+          {"refitted_by_particle", counters.refitted_frames}};
 }
 
 Json filter_json(const RunResult& result, const FilterResult& filter) {

@@ -6,7 +6,7 @@ namespace stereobench::slam {
 STEREOBENCH_ALL_FIELDS(Pose, x_m, y_m, heading_rad)
 STEREOBENCH_ALL_FIELDS(LandmarkEstimate, landmark_id, colour_class, position_m, covariance, origin)
 STEREOBENCH_ALL_FIELDS(FilterCounters, resamplings, covariance_repairs, weight_collapses, gated_measurements,
-                       rejected_inputs, joint_searches_cut)
+                       rejected_inputs, joint_searches_cut, refitted_frames)
 STEREOBENCH_ALL_FIELDS(Control, v_mps, w_radps, duration_s, lateral_mps, covariance)
 STEREOBENCH_ALL_FIELDS(RangeBearing, range_m, bearing_rad, covariance, landmark_id, colour_class, sd_scale)
 STEREOBENCH_ALL_FIELDS(BatchStep, controls, sightings)

@@ -167,6 +167,7 @@ void BlockSlam::use(Hypothesis& mine, std::span<const Sighting> frame) {
   mine.now.use(frame, motion_);
   FilterCounters counters = mine.now.take_counters();
   counters.gated_measurements *= particles_of_each();
+  counters.refitted_frames *= particles_of_each();
   counters_ += counters;
   note_founded(mine);
   mine.frames.push_back({after_drift(motion_, before, mine.now.drift()), mine.now.used()});

@@ -82,6 +82,7 @@ std::optional<FrameMode> EkfSlam::leave_out_outliers(const Decided& decided, con
     if (*worst <= policy_.gate) return mode;
     const std::size_t k = used[static_cast<std::size_t>(worst - mode->squared_lengths.begin())];
     ++counters_.gated_measurements;
+    if (used.size() == decided.order.size()) ++counters_.refitted_frames;
     if (config_.report_updates) report_.innovations.push_back({decided.frame[k].index, *worst, true});
     std::erase(used, k);
   }

@@ -264,6 +264,7 @@ void PoseCorrection<Model>::fit_at_once(const Particle& particle, const ChordBel
       posterior = posterior_of(fit, particle.pose);
       break;
     }
+    if (used.size() == order_.size()) ++counters.refitted_frames;
     used.erase(used.begin() + worst.match);
     matches_.erase(matches_.begin() + worst.match);
   }

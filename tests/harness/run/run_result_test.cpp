@@ -179,12 +179,12 @@ TEST(RunResult, WhatVisionCannotSayIsADash) {
 TEST(RunResult, WhatFiltersRepairAndRefuseIsCountedAndShown) {
   std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 4, 0.8)};
   EXPECT_EQ(result_table(assemble("name", "none", drives)).find("repaired"), std::string::npos);
-  for (SeedDrive& drive : drives) drive.runs[1].last.counters = {9, 1, 2, 30, 4, 5};
+  for (SeedDrive& drive : drives) drive.runs[1].last.counters = {9, 1, 2, 30, 4, 5, 7};
   const RunResult result = assemble("name", "none", drives);
   const auto json = run_json(result)["filters"];
   EXPECT_EQ(json["ufastslam"]["counters"].dump(),
             R"({"refused_by_particle":60,"rejected_inputs":8,"covariance_repairs":2,"weight_collapses":4,)"
-            R"("joint_searches_cut":10})");
+            R"("joint_searches_cut":10,"refitted_by_particle":14})");
   EXPECT_EQ(json["dead_reckoning"]["counters"]["rejected_inputs"], 0);
   const auto lines = lines_of(result_table(result));
   const std::size_t header = line_of(lines, "repaired or refused");

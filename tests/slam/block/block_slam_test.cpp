@@ -67,6 +67,7 @@ TEST(BlockSlam, OneParticleStandsForAllUntilTheyDiffer) {
       EXPECT_EQ(of_many.covariance, of_one.covariance);
       EXPECT_EQ(of_many.effective_particles, 30.0);
       EXPECT_EQ(of_many.counters.gated_measurements, 30 * of_one.counters.gated_measurements);
+      EXPECT_EQ(of_many.counters.refitted_frames, 30 * of_one.counters.refitted_frames);
       EXPECT_EQ(of_many.counters.resamplings, 0);
     }
     if (step == 19) {

@@ -111,6 +111,7 @@ TEST(IteratedEkf, LeavesOutWhatAllOthersSpeakAgainst) {
     EXPECT_TRUE(near(filter.estimate_without_map().pose, drive.truth(), 0.005)) << step;
   }
   EXPECT_EQ(filter.estimate_without_map().counters.gated_measurements, wrong);
+  EXPECT_EQ(filter.estimate_without_map().counters.refitted_frames, wrong);
 }
 
 // The lie of a kidnapper: the robot is put elsewhere, and all it sees speaks against the odometry.
