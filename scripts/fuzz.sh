@@ -1,6 +1,6 @@
 #!/bin/bash
 # Feeds what reads files from anywhere (pictures, calibrations, detections, palettes, scenarios, logs, trajectories,
-# marks, meshes) with mutated inputs of up to a megabyte under the sanitizers, by clang's libFuzzer. What it finds is left in build/fuzz/findings, with exit code 1.
+# marks, meshes, results, suites, baselines) with mutated inputs of up to a megabyte under the sanitizers, by clang's libFuzzer. What it finds is left in build/fuzz/findings, with exit code 1.
 # usage: scripts/fuzz.sh [MINUTES in all, default 10]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,7 +9,8 @@ command -v clang++-14 >/dev/null || { echo "clang++-14 is missing: apt-get insta
 cmake --preset fuzz -Wno-dev >/dev/null
 cmake --build --preset fuzz --target stereobench_fuzz
 program=$PWD/build/fuzz/tests/stereobench_fuzz
-entries=(scene picture calibration detections palette scenario log trajectory poses marks mesh)
+entries=(scene picture calibration detections palette scenario log trajectory poses marks mesh
+  result suite baseline)
 seconds=$((${1:-10} * 60 / ${#entries[@]}))
 mkdir -p build/fuzz/findings
 

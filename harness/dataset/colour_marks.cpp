@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "harness/io/json_file.h"
 #include "harness/io/picture_reader.h"
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {
@@ -52,17 +51,12 @@ Mark read_mark(const JsonValue& value) {
 }
 
 std::vector<Mark> read_marks(const fs::path& file) {
-  const std::string text = read_text(file);
-  try {
-    const nlohmann::json json = parse_line(text);
-    const JsonValue value(json, "");
+  return read_json_file(file, [](const JsonValue& value) {
     value.allow({"marks"});
     std::vector<Mark> marks;
     for (const JsonValue& entry : value.at("marks").list(1, kMostMarks)) marks.push_back(read_mark(entry));
     return marks;
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  });
 }
 
 std::size_t add_pixels(const cv::Mat& levels, const Mark& mark, std::vector<Eigen::Vector3d>& pixels) {

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/experiment/write_experiment.h"
+#include "harness/io/json_file.h"
 #include "harness/io/sha256.h"
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
 #include "renderer/backend.h"
 
 namespace stereobench::harness {
@@ -25,18 +24,6 @@ struct ScenarioHashes {
   std::map<std::string, std::string> files;
 };
 
-/// Reads a file of JSON with a function of its value. @throws std::runtime_error "file: key: what was
-/// expected"
-template <class Read>
-auto read_json_file(const fs::path& file, const Read& read) {
-  try {
-    const nlohmann::json json = parse_line(read_text(file));
-    return read(JsonValue(json, ""), json);
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
-}
-
 Invocation invocation_of(const JsonValue& value) {
   value.allow({"scenario", "folder", "overrides", "backend"});
   Invocation invocation{.scenario = value.at("scenario").text(), .folder = value.at("folder").text()};
@@ -50,13 +37,10 @@ Invocation invocation_of(const JsonValue& value) {
   return invocation;
 }
 
-ScenarioHashes hashes_in(const JsonValue& run, const nlohmann::json& json) {
+ScenarioHashes hashes_in(const JsonValue& run) {
   const JsonValue made_from = run.at("made_from");
   ScenarioHashes hashes{.scenario = made_from.at("scenario_sha256").text()};
-  const JsonValue files = made_from.at("files_sha256");
-  if (!json["made_from"]["files_sha256"].is_object()) files.refuse("an object");
-  for (const auto& [name, hash] : json["made_from"]["files_sha256"].items())
-    hashes.files[name] = JsonValue(hash, "made_from.files_sha256." + excerpt(name)).text();
+  for (const auto& [name, hash] : made_from.at("files_sha256").entries()) hashes.files[name] = hash.text();
   return hashes;
 }
 
@@ -96,8 +80,7 @@ Invocation read_invocation(const fs::path& result, const fs::path& scenario) {
     throw std::runtime_error(
         fmt::format("{}: has no {}, which `run` alone writes, and older versions did not: run it again",
                     result.string(), kInvocation));
-  Invocation invocation =
-      read_json_file(file, [](const JsonValue& value, const auto&) { return invocation_of(value); });
+  Invocation invocation = read_json_file(file, invocation_of);
   if (!scenario.empty()) invocation.scenario = fs::absolute(scenario);
   if (!fs::exists(invocation.scenario))
     throw std::runtime_error(fmt::format("{}: the scenario {} is not there: --scenario says where it is now",

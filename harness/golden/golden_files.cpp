@@ -6,10 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/atomic_file.h"
+#include "harness/io/json_file.h"
 #include "harness/io/picture_file.h"
 #include "harness/io/picture_reader.h"
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
 #include "harness/json/json_text.h"
 
 namespace stereobench::harness {
@@ -76,21 +75,17 @@ GoldenFacts read_facts(const fs::path& file) {
   const auto whole = [](const JsonValue& value, int least) {
     return static_cast<int>(value.integer(least, kLargest));
   };
-  try {
-    const nlohmann::json json = parse_line(read_text(file));
-    const JsonValue value(json, "");
+  return read_json_file(file, [&](const JsonValue& value) {
     value.allow({"size_px", "smaller", "first_mesh", "linear", "left", "right"});
     const std::vector<JsonValue> size = value.at("size_px").list(2, 2);
-    return {.width_px = whole(size[0], 1),
-            .height_px = whole(size[1], 1),
-            .smaller = whole(value.at("smaller"), 1),
-            .first_mesh = whole(value.at("first_mesh"), 0),
-            .is_linear = value.at("linear").flag(),
-            .left = hashes_in(value.at("left")),
-            .right = hashes_in(value.at("right"))};
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+    return GoldenFacts{.width_px = whole(size[0], 1),
+                       .height_px = whole(size[1], 1),
+                       .smaller = whole(value.at("smaller"), 1),
+                       .first_mesh = whole(value.at("first_mesh"), 0),
+                       .is_linear = value.at("linear").flag(),
+                       .left = hashes_in(value.at("left")),
+                       .right = hashes_in(value.at("right"))};
+  });
 }
 
 /// Numbers of surfaces as colours, which every reader of PNGs keeps.

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
+#include "harness/io/json_file.h"
 #include "harness/vision_scoring/detection_table.h"
 
 namespace stereobench::harness {
@@ -53,18 +52,13 @@ SeedTable seed_table_of(const JsonValue& run) {
 
 StoredResult read_result(const fs::path& path) {
   const fs::path file = file_of(path);
-  try {
-    const nlohmann::json json = parse_line(read_text(file));
-    const JsonValue run(json, "");
-    if (!json.is_object()) run.refuse("an object");
+  return read_json_file(file, [&](const JsonValue& run) {
     run.at("schema").integer(1, 1);
     StoredResult result{.scenario = run.at("scenario").text(), .seeds = seed_table_of(run)};
     const fs::path detections = file.parent_path() / kDetections;
     if (fs::exists(detections)) result.detections = detections;
     return result;
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  });
 }
 
 }  // namespace stereobench::harness

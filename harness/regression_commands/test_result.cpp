@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/io/atomic_file.h"
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
+#include "harness/io/json_file.h"
 #include "harness/json/json_text.h"
 
 namespace stereobench::harness {
@@ -18,17 +17,6 @@ namespace fs = std::filesystem;
 constexpr const char* kPlaces = "places.json";
 constexpr std::size_t kMostCases = 100'000;
 constexpr std::size_t kMostMetrics = 1'000'000;
-
-/// Lets `read` have a file's JSON; its complaints get the file's name.
-template <class Reader>
-auto read_json(const fs::path& file, const Reader& read) {
-  try {
-    const nlohmann::json json = parse_line(read_text(file));
-    return read(JsonValue(json, ""));
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
-}
 
 double number_or_nan(const JsonValue& value) {
   constexpr double kLargest = std::numeric_limits<double>::max();
@@ -66,7 +54,7 @@ void write_side_file(const fs::path& out, const TestPlaces& places) {
 }
 
 TestPlaces read_side_file(const fs::path& out) {
-  return read_json(out / kPlaces, [](const JsonValue& places) {
+  return read_json_file(out / kPlaces, [](const JsonValue& places) {
     return TestPlaces{places.at("suite").text(), places.at("baseline").text()};
   });
 }
@@ -77,7 +65,7 @@ std::vector<TestedCase> read_test_result(const fs::path& out) {
     throw std::runtime_error(fmt::format(
         "{}: expected a folder with a {}; `stereobench test` writes it last, so it did not end here",
         out.string(), kTestResult));
-  return read_json(file, [](const JsonValue& test) {
+  return read_json_file(file, [](const JsonValue& test) {
     std::vector<TestedCase> cases;
     for (const JsonValue& entry : test.at("cases").list(1, kMostCases)) cases.push_back(case_of(entry));
     return cases;

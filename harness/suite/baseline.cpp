@@ -1,11 +1,6 @@
 #include "harness/suite/baseline.h"
 
-#include <stdexcept>
-
-#include <fmt/format.h>
-
-#include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
+#include "harness/io/json_file.h"
 #include "harness/json/json_text.h"
 #include "harness/regression/result_folder.h"
 #include "harness/run/seed_metrics.h"
@@ -24,8 +19,7 @@ std::string text_or_empty(const JsonValue& value) {
   return value.is_null() ? "" : value.text();
 }
 
-Baseline baseline_of(const nlohmann::json& json) {
-  const JsonValue top(json, "");
+Baseline baseline_of(const JsonValue& top) {
   top.allow({"schema", "scenario", "blessed", "inputs", "seeds", "per_seed"});
   top.at("schema").integer(1, 1);
   const JsonValue blessed = top.at("blessed"), inputs = top.at("inputs");
@@ -65,11 +59,7 @@ std::string baseline_text(const Baseline& baseline) {
 
 std::optional<Baseline> read_baseline(const fs::path& file) {
   if (!fs::exists(file)) return {};
-  try {
-    return baseline_of(parse_line(read_text(file)));
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  return read_json_file(file, baseline_of);
 }
 
 }  // namespace stereobench::harness

@@ -185,7 +185,7 @@ void check_palette(Bytes bytes) {
 }
 
 std::span<const Entry> entries() {
-  static constexpr std::array<Entry, 12> kEntries = {{{"scene", check_scene, scene_seeds},
+  static constexpr std::array<Entry, 14> kEntries = {{{"scene", check_scene, scene_seeds},
                                                       {"picture", check_picture, picture_seeds},
                                                       {"calibration", check_calibration, calibration_seeds},
                                                       {"detections", check_detections, detection_seeds},
@@ -196,7 +196,9 @@ std::span<const Entry> entries() {
                                                       {"poses", check_poses, pose_seeds},
                                                       {"marks", check_marks, mark_seeds},
                                                       {"mesh", check_mesh, mesh_seeds},
-                                                      {"result", check_result, result_seeds}}};
+                                                      {"result", check_result, result_seeds},
+                                                      {"suite", check_suite, suite_seeds},
+                                                      {"baseline", check_baseline, baseline_seeds}}};
   return kEntries;
 }
 

@@ -52,6 +52,13 @@ std::vector<std::string> mesh_seeds();
 void check_result(Bytes bytes);
 std::vector<std::string> result_seeds();
 
+/// The text of a suite.
+void check_suite(Bytes bytes);
+std::vector<std::string> suite_seeds();
+/// The text of a case's baseline.
+void check_baseline(Bytes bytes);
+std::vector<std::string> baseline_seeds();
+
 /// All of them.
 std::span<const Entry> entries();
 

@@ -12,6 +12,8 @@
 #include "harness/experiment/experiment.h"
 #include "harness/logs/measurement_log_reader.h"
 #include "harness/regression/result_folder.h"
+#include "harness/suite/baseline.h"
+#include "harness/suite/suite.h"
 #include "harness/trajectories/trajectory_file.h"
 #include "renderer/meshes/mesh_file.h"
 #include "tests/fuzz/promises.h"
@@ -140,6 +142,53 @@ void check_result(Bytes bytes) {
 std::vector<std::string> result_seeds() {
   return {R"({"schema": 1, "scenario": "office", "seeds": [0, 7], "per_seed": {
   "filters.ekf.ate_rms_m": [0.125, 1e-3], "filters.ekf.failures": [0, 1], "vision.recall": [null, 0.75]}})"};
+}
+
+void check_suite(Bytes bytes) {
+  const OwnFile file("suite.yaml", text_of(bytes));
+  read_or_complain([&] {
+    const harness::Suite suite = harness::read_suite(file.path());
+    expect(!suite.cases.empty() && suite.alpha > 0.0, "a suite has a case, and a chance of false alarms");
+    std::set<std::string> names;
+    for (const harness::SuiteCase& one : suite.cases)
+      expect(names.insert(one.name).second, "cases have names of their own");
+  });
+}
+
+std::vector<std::string> suite_seeds() {
+  return {R"(suite: vision
+alpha: 0.02
+presets:
+  - name: short
+    seeds: 0..19
+    set: [path.laps=0.2, "gates=[]"]
+    filters: [smoother]
+    detector: python3 detector.py
+    gates: [{metric: vision.recall, at_least: 0.5}]
+cases:
+  - {name: plain, like: short, scenario: ball_circle.yaml, margins: [{metric: vision.recall, change: 0.01}]}
+  - name: noisy
+    like: short
+    scenario: ball_circle.yaml
+    golden: {frames: [0, 3], limits: edges}
+)"};
+}
+
+void check_baseline(Bytes bytes) {
+  const OwnFile file("case.json", text_of(bytes));
+  read_or_complain([&] {
+    const harness::Baseline baseline = harness::read_baseline(file.path()).value();
+    const OwnFile again("again.json", harness::baseline_text(baseline));
+    expect(harness::baseline_text(harness::read_baseline(again.path()).value()) ==
+               harness::baseline_text(baseline),
+           "a baseline is read as it is written");
+  });
+}
+
+std::vector<std::string> baseline_seeds() {
+  return {R"({"schema": 1, "scenario": "office", "blessed": {"reason": "r", "stereobench": "0.1.0",
+  "instead_of": null}, "inputs": {"sha256": "a1", "pixels": null, "detector": "none"}, "seeds": [0, 7],
+  "per_seed": {"filters.ekf.ate_rms_m": [0.125, 1e-3], "vision.recall": [null, 0.75]}})"};
 }
 
 std::vector<std::string> log_seeds() {
