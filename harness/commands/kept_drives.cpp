@@ -117,9 +117,15 @@ void KeptDrives::hand_on(const std::vector<DriveTask>& tasks, const OnSeed& on_s
 void KeptDrives::say_what_is_kept(const std::vector<DriveTask>& tasks, const std::string& what) const {
   const auto kept =
       std::ranges::count_if(tasks, [&](const DriveTask& task) { return store_.holds(task.key); });
+  const bool is_program = std::ranges::any_of(
+      tasks, [](const DriveTask& task) { return !task.experiment->detector.command.empty(); });
   if (kept > 0)
-    note(fmt::format("{}: {} of {} drives are taken over from a run that was interrupted", what, kept,
-                     tasks.size()));
+    note(fmt::format(
+        "{}: {} of {} drives are taken over from a run that was interrupted{}", what, kept, tasks.size(),
+        is_program ? "; if the detector reads other files than its command names, such as weights, "
+                     "and they have changed since, remove " +
+                         std::string(kFile) + " from the output folder and start again"
+                   : ""));
   say_that_work_is_kept();
 }
 

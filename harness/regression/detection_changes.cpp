@@ -169,8 +169,10 @@ PairedCount count(const Balls& balls, const Right& is_right) {
 /// "58 of 60 at range 4.1 to 6 m, colour 3 (where 140 of 1840 balls are)"
 std::string slice_text(const Slice& slice) {
   if (slice.conditions.empty()) return "they have nothing in common that chance does not explain";
-  return fmt::format("{} of {} at {} (where {} of {} balls are)", slice.marked, slice.all_marked,
-                     fmt::join(slice.conditions, ", "), slice.things, slice.all_things);
+  const std::string rivals =
+      slice.rivals.empty() ? "" : fmt::format("; said as well by {}", fmt::join(slice.rivals, ", or by "));
+  return fmt::format("{} of {} at {} (where {} of {} balls are){}", slice.marked, slice.all_marked,
+                     fmt::join(slice.conditions, ", "), slice.things, slice.all_things, rivals);
 }
 
 std::string shift_text(const CentreShift& shift) {
@@ -195,15 +197,27 @@ std::string confusions_text(const std::vector<Confusion>& confusions) {
 
 nlohmann::ordered_json slice_json(const std::optional<Slice>& slice) {
   if (!slice) return nullptr;
-  return {{"conditions", slice->conditions},
-          {"marked", slice->marked},
-          {"of_marked", slice->all_marked},
-          {"balls", slice->things},
-          {"of_balls", slice->all_things}};
+  return {{"conditions", slice->conditions}, {"rivals", slice->rivals}, {"marked", slice->marked},
+          {"of_marked", slice->all_marked},  {"balls", slice->things},  {"of_balls", slice->all_things}};
 }
 
 nlohmann::ordered_json pixel_json(const Eigen::Vector2d& pixel) {
   return nlohmann::ordered_json::array({pixel.x(), pixel.y()});
+}
+
+/// Whether a mean stands for all that it is of: their standard deviation is less than half of it.
+bool stands_for_all(double mean, double standard_error, long count) {
+  return standard_error * std::sqrt(static_cast<double>(count)) < 0.5 * std::abs(mean);
+}
+
+/// Whether all balls moved alike: then where range errors grew says where they are sensitive, and no more.
+bool is_one_change_of_all(const DetectionChanges& changes) {
+  const long count = changes.found_by_both;
+  const auto shifted = [&](const CentreShift& shift) {  // along the rows, which ranges come from
+    return stands_for_all(shift.mean_px.x(), shift.standard_error_px.x(), count);
+  };
+  return shifted(changes.left) || shifted(changes.right) ||
+         stands_for_all(changes.ranges.mean, changes.ranges.standard_error, count);
 }
 
 bool has_moved(const CentreShift& shift) {
@@ -224,13 +238,14 @@ DetectionChanges detection_changes(const PairedBalls& pairs) {
   changes.found_by_both = std::ssize(found);
   changes.lost_slice = slice_of(required, [&](std::size_t i) { return is_lost(*required[i]); });
   changes.misidentified_slice = slice_of(all, [&](std::size_t i) { return is_misidentified(*all[i]); });
-  const std::vector<bool> carries = carriers_of_growth(found);
-  changes.misplaced_slice = slice_of(found, [&](std::size_t i) { return carries[i]; });
   changes.confusions = confusions_of(those(balls, is_misidentified));
   changes.left = shift_of(found, &BallFinding::left_error_px);
   changes.right = shift_of(found, &BallFinding::right_error_px);
   changes.ranges = growth_of(found);
   changes.frames = changed_frames(balls);
+  if (is_one_change_of_all(changes)) return changes;
+  const std::vector<bool> carries = carriers_of_growth(found);
+  changes.misplaced_slice = slice_of(found, [&](std::size_t i) { return carries[i]; });
   return changes;
 }
 

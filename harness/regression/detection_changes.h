@@ -56,7 +56,8 @@ struct DetectionChanges {
   // What balls have in common.
   std::optional<Slice> lost_slice;           ///< found by the first alone, of the required
   std::optional<Slice> misidentified_slice;  ///< taken for another colour by the second alone, of all
-  std::optional<Slice> misplaced_slice;      ///< that make up nine tenths of the growth of range errors
+  /// That make up nine tenths of the growth of range errors; empty where all moved alike.
+  std::optional<Slice> misplaced_slice;
 
   std::vector<Confusion> confusions;  ///< the most frequent first
   CentreShift left;                   ///< of the balls that both found

@@ -26,6 +26,7 @@ constexpr std::size_t kMostConditions = 3;
 constexpr std::size_t kBins = 8;
 
 constexpr std::size_t kMostCategories = 4;
+constexpr double kTold = 9.2;  ///< twice the logarithm of 100: so much likelier is what is told apart
 
 using Indices = std::vector<std::size_t>;
 
@@ -38,6 +39,7 @@ struct Candidate {
   double choices = 1.0;            ///< how many others of its kind there are
   std::size_t things = 0;
   std::size_t marked = 0;
+  double preference = 0.0;  ///< preference_for
 };
 
 bool holds(const Candidate& candidate, std::size_t thing) {
@@ -129,15 +131,15 @@ double preference_for(const Candidate& part, std::size_t things, std::size_t mar
   return 2.0 * (cells - sums);
 }
 
-/// The part that marked things prefer most of those that hold enough of them; empty where none is small and
-/// unlikely enough.
-std::optional<Candidate> best_part(std::span<const Property> properties, const Indices& things,
-                                   const std::vector<bool>& marked, double least_marked) {
+/// Of each property the part that marked things prefer most of those that hold enough of them and are small
+/// and unlikely enough. Properties without one are left out.
+std::vector<Candidate> best_parts(std::span<const Property> properties, const Indices& things,
+                                  const std::vector<bool>& marked, double least_marked) {
   const std::size_t all_marked = count_marked(things, marked);
   const double largest = kLargestPart * static_cast<double>(things.size());
-  std::optional<Candidate> best;
-  double most = 0.0;
-  for (const Property& property : properties)
+  std::vector<Candidate> parts;
+  for (const Property& property : properties) {
+    Candidate best;
     for (Candidate& candidate :
          property.is_category ? sets_of(property, things, marked) : intervals_of(property, things)) {
       for (const std::size_t thing : things) {
@@ -147,14 +149,20 @@ std::optional<Candidate> best_part(std::span<const Property> properties, const I
       }
       if (static_cast<double>(candidate.marked) < least_marked) continue;
       if (static_cast<double>(candidate.things) > largest) continue;
-      const double preference = preference_for(candidate, things.size(), all_marked);
+      candidate.preference = preference_for(candidate, things.size(), all_marked);
       const double choices = candidate.choices * static_cast<double>(properties.size());
-      if (preference <= most) continue;
-      if (chance_of(candidate, things.size(), all_marked) * choices >= kChance) continue;
-      best = candidate;
-      most = preference;
+      if (candidate.preference <= best.preference) continue;
+      if (chance_of(candidate, things.size(), all_marked) * choices < kChance) best = candidate;
     }
-  return best;
+    if (best.property != nullptr) parts.push_back(best);
+  }
+  return parts;
+}
+
+/// Whether two parts are of the same things.
+bool are_alike(const Candidate& one, const Candidate& other, const Indices& things) {
+  return std::ranges::all_of(things,
+                             [&](std::size_t thing) { return holds(one, thing) == holds(other, thing); });
 }
 
 /// Whole numbers, which may count things, to the last digit.
@@ -176,6 +184,24 @@ std::string text_of(const Candidate& candidate) {
   return fmt::format("{} {} to {}{}", name, low, number_text(candidate.high), behind);
 }
 
+/// The parts of other properties that speak of what is marked nearly as well. Another name of the same
+/// things is none: a ball that alone has its colour.
+std::vector<std::string> rivals_of(const Candidate& best, const std::vector<Candidate>& parts,
+                                   const Indices& things) {
+  std::vector<Candidate> told = {best};
+  std::vector<std::string> rivals;
+  for (const Candidate& part : parts) {
+    const auto is_another_name = [&](const Candidate& one) {
+      return part.property->is_category && one.property->is_category && are_alike(part, one, things);
+    };
+    if (part.property == best.property || part.preference < best.preference - kTold) continue;
+    if (std::ranges::any_of(told, is_another_name)) continue;
+    told.push_back(part);
+    rivals.push_back(text_of(part));
+  }
+  return rivals;
+}
+
 }  // namespace
 
 Slice find_slice(std::span<const Property> properties, const std::vector<bool>& marked) {
@@ -188,8 +214,10 @@ Slice find_slice(std::span<const Property> properties, const std::vector<bool>& 
   const double least_marked = kShareOfMarked * static_cast<double>(slice.all_marked);
   std::vector<Candidate> conditions;
   while (least_marked > 0.0) {
-    const auto part = best_part(properties, things, marked, least_marked);
-    if (!part) break;
+    const std::vector<Candidate> parts = best_parts(properties, things, marked, least_marked);
+    const auto part = std::ranges::max_element(parts, {}, &Candidate::preference);
+    if (part == parts.end()) break;
+    if (conditions.empty()) slice.rivals = rivals_of(*part, parts, things);
     const auto same = std::ranges::find(conditions, part->property, &Candidate::property);
     if (same == conditions.end() && conditions.size() == kMostConditions) break;
     if (same == conditions.end())

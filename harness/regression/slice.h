@@ -19,6 +19,7 @@ struct Property {
 /// A part of some things: those whose properties lie within limits.
 struct Slice {
   std::vector<std::string> conditions;  ///< e.g. "range 4.1 to 6 m"; none: all of them
+  std::vector<std::string> rivals;      ///< conditions that say as much as the first of these
   std::size_t things = 0;               ///< that lie within
   std::size_t marked = 0;               ///< of these, the marked ones
   std::size_t all_things = 0;
@@ -31,7 +32,8 @@ struct Slice {
 /// the largest likelihood ratio of marks inside and outside is taken, then the next one within it, of up to
 /// three properties. One is only taken that leaves at most two thirds of the things, and that chance would
 /// hardly find: the hypergeometric probability of so many marked ones among so few, times the number of
-/// properties, times the number of intervals or sets that one could have taken, is below 1 %.
+/// properties, times the number of intervals or sets that one could have taken, is below 1 %. Rivals are the
+/// best ones of other properties with at least a hundredth of the first one's likelihood.
 /// @param marked one a thing
 /// @throws std::invalid_argument when a property has not one value a thing
 Slice find_slice(std::span<const Property> properties, const std::vector<bool>& marked);

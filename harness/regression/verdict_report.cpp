@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 /// A table for people has so many rows of metrics that more seeds may decide, and names so many that are not
 /// judged.
 constexpr long kMostInconclusive = 10;
+constexpr long kMostBesideRegressed = 3;  ///< of them where a metric is REGRESSED
 constexpr std::size_t kMostNotJudged = 5;
 
 constexpr std::array kVerdicts = {Verdict::kRegressed, Verdict::kVanished, Verdict::kInconclusive,
@@ -56,6 +57,10 @@ std::string counted(long count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+long most_inconclusive(const ResultComparison& comparison) {
+  return comparison.has(Verdict::kRegressed) ? kMostBesideRegressed : kMostInconclusive;
+}
+
 AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings& settings, bool all) {
   AlignedTable table{.header = {"metric", "verdict", "A", "B",
                                 fmt::format("worse by, {:g} % interval", 100.0 * (1.0 - settings.alpha)),
@@ -63,7 +68,8 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
   long inconclusive = 0;
   for (const MetricVerdict& metric : comparison.metrics) {
     if (metric.verdict == Verdict::kPass && !all) continue;
-    if (metric.verdict == Verdict::kInconclusive && ++inconclusive > kMostInconclusive && !all) continue;
+    if (metric.verdict == Verdict::kInconclusive && ++inconclusive > most_inconclusive(comparison) && !all)
+      continue;
     table.rows.push_back({metric.metric, text_of(metric.verdict), format_number(metric.first_mean),
                           format_number(metric.second_mean), metric.equal ? "equal" : change_text(metric),
                           margin_text(metric),
@@ -76,7 +82,7 @@ AlignedTable table_of(const ResultComparison& comparison, const VerdictSettings&
 /// What the table leaves out.
 std::string lines_below(const ResultComparison& comparison, bool all) {
   std::string lines;
-  const long left_out = count_of(comparison, Verdict::kInconclusive) - kMostInconclusive;
+  const long left_out = count_of(comparison, Verdict::kInconclusive) - most_inconclusive(comparison);
   if (!all && left_out > 0) lines += counted(left_out, "more metric") + " INCONCLUSIVE\n";
   const std::vector<std::string>& names = comparison.not_judged;
   if (names.empty()) return lines;

@@ -117,8 +117,9 @@ int compare(CompareArguments arguments) {
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
   say(few_seeds_warning(comparison, settings));
   const int outcome = exit_code_of(comparison, arguments.strict);
-  say_gates(verdict_table(comparison, settings, arguments.all) +
-                detection_lines(judgement, replayable(arguments.second)) + verdict_summary(comparison),
+  const std::string detections = detection_lines(judgement, replayable(arguments.second));
+  say_gates(detections + (detections.empty() ? "" : "\n") +
+                verdict_table(comparison, settings, arguments.all) + verdict_summary(comparison),
             outcome != kPassed);
   return outcome;
 }

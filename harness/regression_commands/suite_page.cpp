@@ -42,7 +42,6 @@ void append_lines(const std::string& text, std::vector<std::string>& lines) {
 Block remarks_block(const CaseReport& report, const std::vector<std::string>& words) {
   PageText text;
   append_lines(remarks(report), text.lines);
-  if (text.lines.empty()) text.lines.push_back("nothing to be said");
   return {.title = "Case",
           .note = report.error.empty()
                       ? fmt::format("{}/report.html shows its maps, errors over time and worst frames.",
@@ -87,7 +86,8 @@ void write_suite_page(const SuitePlan& plan, const std::filesystem::path& out,
   std::vector<ComparedCase> cases;
   for (std::size_t i = 0; i < reports.size(); ++i)
     cases.push_back(compared_case(plan, plan.cases[i], out, reports[i]));
-  const std::vector<std::string> facts = {fmt::format("{} cases", cases.size()), shell_line(words)};
+  const std::vector<std::string> facts = {fmt::format("{} cases", cases.size()), "A: the baseline", "B: now",
+                                          shell_line(words)};
   write_file_atomically(out / kReport, page_html(cases_page(plan.suite.name, facts, std::move(cases))));
 }
 

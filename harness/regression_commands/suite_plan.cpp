@@ -155,8 +155,12 @@ SuitePlan plan_suite(const SuiteArguments& arguments) {
 }
 
 std::string obstacle_to_comparison(const PlannedCase& planned, const SuitePlan& plan) {
-  const char* const bless = "look at the result; where it is good: stereobench bless OUT --reason WHY";
-  if (!planned.baseline) return fmt::format("the baseline has no {}.json: {}", planned.what.name, bless);
+  const char* const bless =
+      "look at the result; where it is good: stereobench bless RESULTS --reason WHY, RESULTS being the "
+      "folder "
+      "named below";
+  if (!planned.baseline)
+    return fmt::format("there is no {}; {}", baseline_file(plan.baseline, planned.what.name).string(), bless);
   const BaselineInputs& before = planned.baseline->inputs;
   const std::string name = planned.what.name + ".json";
   if (before.sha256 != planned.inputs.sha256)

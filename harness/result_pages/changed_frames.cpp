@@ -36,8 +36,8 @@ SideOfFrame side_of(const char* name, const ResultFrames& result, const ChangedF
 FramePanel panel_of_side(const SideOfFrame& side, const vision::StereoRig& rig, vision::Side camera,
                          std::vector<std::string>& jpegs) {
   FramePanel panel = panel_of(side.rows, rig, camera);
-  panel.title = fmt::format("{}, {}{}", side.name, panel.title,
-                            side.is_borrowed ? " (picture of the other result)" : "");
+  panel.title =
+      fmt::format("{}, {}{}", side.name, panel.title, side.is_borrowed ? " (picture of the other)" : "");
   if (side.kept)
     panel.picture =
         place_of(camera == vision::Side::kLeft ? side.kept->left_jpeg : side.kept->right_jpeg, jpegs);

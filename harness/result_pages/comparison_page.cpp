@@ -223,8 +223,8 @@ CellMark mark_of(Verdict verdict) {
 
 std::vector<Block> comparison_blocks(const ComparisonStory& story) {
   std::vector<Block> blocks = {verdict_block(story)};
-  append_blocks(blocks, paired_blocks(story));
   append_blocks(blocks, slice_blocks(story));
+  append_blocks(blocks, paired_blocks(story));
   append_blocks(blocks, table_blocks(story));
   append_blocks(blocks, other_blocks(story));
   if (!story.words.empty())
@@ -255,7 +255,7 @@ Page cases_page(const std::string& title, const std::vector<std::string>& facts,
   page.blocks.push_back({.title = "Cases", .note = "", .content = std::move(table)});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     page.blocks.push_back({.title = cases[i].name,
-                           .note = cases[i].says,
+                           .note = cases[i].blocks.size() > 1 ? "" : cases[i].says,
                            .identity = fmt::format("case-{}", i + 1),
                            .is_chapter = true});
     append_blocks(page.blocks, std::move(cases[i].blocks));

@@ -1,7 +1,10 @@
+#include <set>
+
 #include "harness/io/answer_store.h"
 #include "harness/json/cbor.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
+#include "harness/process/standard_streams.h"
 #include "harness/run/seed_result.h"
 
 namespace stereobench::harness {
@@ -42,6 +45,7 @@ struct GroupDrive {
   AnswerStore& store;
   std::map<std::string, std::string> faults;  ///< by the key of the task
   std::vector<Group> broken;                  ///< one of several tasks took the others with it
+  std::set<const Experiment*> told = {};      ///< those that have a fault
 
   void keep(const Group& group, const std::string& bytes) {
     const nlohmann::json answers = json_of(bytes);
@@ -50,13 +54,19 @@ struct GroupDrive {
       if (fault.empty())
         store.append(group[i].key, answers[i].at("result").get<std::string>());
       else
-        faults[group[i].key] = fault;
+        add_fault(group[i], fault);
     }
+  }
+
+  /// The first fault of an experiment is told at once: nobody has to wait for the end.
+  void add_fault(const DriveTask& task, const std::string& message) {
+    faults[task.key] = message;
+    if (told.insert(task.experiment).second) note(message.substr(0, message.find('\n')));
   }
 
   void note_fault(const Group& group, const std::string& message) {
     if (group.size() == 1)
-      faults[group.front().key] = message;
+      add_fault(group.front(), message);
     else
       broken.push_back(group);
   }

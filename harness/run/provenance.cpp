@@ -1,6 +1,7 @@
 #include "harness/run/provenance.h"
 
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "harness/io/sha256.h"
@@ -8,7 +9,28 @@
 namespace stereobench::harness {
 namespace {
 
+namespace fs = std::filesystem;
+
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostEntries = 20'000;  ///< that are looked at below a script's folder
+
+/// The Python files beside a script and in folders below: what it may import. Hidden folders are left out.
+std::set<std::string> modules_beside(const fs::path& script) {
+  std::set<std::string> modules;
+  std::error_code error;
+  const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
+  const auto options = fs::directory_options::skip_permission_denied;
+  std::size_t entries = 0;
+  for (fs::recursive_directory_iterator file(folder, options, error), end;
+       file != end && !error && ++entries < kMostEntries; file.increment(error)) {
+    const bool is_hidden = file->path().filename().string().starts_with(".");
+    if (is_hidden && file->is_directory(error)) file.disable_recursion_pending();
+    if (is_hidden || file->path().extension() != ".py" || !file->is_regular_file(error)) continue;
+    modules.insert(file->path().lexically_normal().string());
+  }
+  return modules;
+}
 
 }  // namespace
 
@@ -18,8 +40,12 @@ std::map<std::string, std::string> files_of_command(std::string command) {
   std::map<std::string, std::string> files;
   std::istringstream words(command);
   std::error_code error;
-  for (std::string word; words >> word;)
-    if (std::filesystem::is_regular_file(word, error)) files[word] = sha256_of_file(word);
+  for (std::string word; words >> word;) {
+    if (!fs::is_regular_file(word, error)) continue;
+    files[word] = sha256_of_file(word);
+    if (fs::path(word).extension() != ".py") continue;
+    for (const std::string& module : modules_beside(word)) files.try_emplace(module, sha256_of_file(module));
+  }
   return files;
 }
 

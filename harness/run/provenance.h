@@ -24,7 +24,8 @@ struct Provenance {
 /// did not write.
 nlohmann::ordered_json provenance_json(const Provenance& provenance);
 
-/// SHA-256 of the files among a command's words, e.g. of my_detector.py in "python3 my_detector.py".
+/// SHA-256 of the files among a command's words, e.g. of my_detector.py in "python3 my_detector.py"; with a
+/// Python script those of all Python files beside it and below, which it may import.
 std::map<std::string, std::string> files_of_command(std::string command);
 
 /// What a drive's outcome depends on besides its seed, in one text: the provenance, the program itself, and

@@ -112,8 +112,9 @@ std::string suite_text(const std::vector<CaseReport>& cases, const std::filesyst
     if (state_of(report) == CaseState::kPassed && report.partial.empty()) continue;
     text += fmt::format("\n{}: {}\n{}", report.name, text_of(state_of(report)), remarks(report));
     if (report.judgement)
-      text += verdict_table(report.judgement->comparison, report.settings, false) +
-              detection_lines(*report.judgement, (out / report.name).string());
+      text += "A is the baseline, B is now\n" +
+              detection_lines(*report.judgement, (out / report.name).string()) + "\n" +
+              verdict_table(report.judgement->comparison, report.settings, false);
   }
   return text;
 }

@@ -53,13 +53,16 @@ std::string rows_warning(const RigCheck& check, const vision::RigBelief& belief)
 }
 
 std::string size_warning(const RigCheck& check, const vision::RigBelief& belief) {
+  const double share = share_of(check.camera, belief);
   return fmt::format(
-      "disparities of {:.0f} px are {:.1f} % larger than the sizes of balls say: the baseline is {:.4f} m in "
+      "disparities of {:.0f} px are {:.1f} % {} than the sizes of balls say: the baseline is {:.4f} m in "
       "place "
       "of {:.4f}, and the right camera is turned by {:.3f} deg about y beyond what is believed, or balls are "
-      "of another size, or lenses bend otherwise than believed; calibrate the rig",
-      kUsualDisparity_px, 100.0 * share_of(check.camera, belief), check.baseline_m * (1.0 + belief.fault[3]),
-      check.baseline_m, slam::kDegreesPerRad * belief.fault[1]);
+      "of another size, or lenses bend otherwise than believed, or the detector's radii are off; calibrate "
+      "the "
+      "rig where the radii can be trusted",
+      kUsualDisparity_px, 100.0 * std::abs(share), share < 0.0 ? "smaller" : "larger",
+      check.baseline_m * (1.0 + belief.fault[3]), check.baseline_m, slam::kDegreesPerRad * belief.fault[1]);
 }
 
 }  // namespace

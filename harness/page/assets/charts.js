@@ -50,7 +50,7 @@ function datasetsOf(series, chart) {
   return [{
     label: series.name, data: points(series.x, series.y, chart.log_y), borderColor: colour,
     backgroundColor: isPoints && many ? `${colour}88` : colour, showLine: !isPoints, borderWidth: 2,
-    pointStyle: isPoints && !many ? point : 'circle', pointRadius: isPoints ? (many ? 1.5 : 4) : 0, pointHitRadius: 6, spanGaps: false,
+    pointStyle: !isPoints ? 'line' : many ? 'circle' : point, pointRadius: isPoints ? (many ? 1.5 : 4) : 0, pointHitRadius: 6, spanGaps: false,
     borderDash: series.look === 'dashes' ? [4, 4] : isPoints ? [] : dash,
     intervals: series.low.length > 0 ? series.x.map((at, i) => [at, series.low[i], series.high[i]]) : null,
   }];
@@ -98,7 +98,6 @@ function axis(title, logarithmic, names, [low, high], isX) {
 }
 
 function configuration(chart) {
-  const allPoints = chart.series.every(({look: drawn}) => drawn === 'points');
   return {
     type: 'line', plugins: [intervals],
     data: {datasets: chart.series.flatMap((series) => datasetsOf(series, chart))},
@@ -111,9 +110,7 @@ function configuration(chart) {
           ({y, low, high}) => [...y, ...low, ...high]), chart.log_y), false)},
       plugins: {
         legend: {position: 'bottom', labels: {
-          color: paint('ink'), boxWidth: allPoints ? 8 : 26,
-          boxHeight: allPoints ? 8 : 2,
-          usePointStyle: allPoints,
+          color: paint('ink'), usePointStyle: true, pointStyleWidth: 22, boxHeight: 7,
           filter: (item, data) => !data.datasets[item.datasetIndex].hiddenInLegend}},
         tooltip: {callbacks: {
           title: ([item]) => item && `${chart.x}: ${chart.x_names[item.parsed.x] ?? shown(item.parsed.x)}`,

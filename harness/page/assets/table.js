@@ -1,4 +1,4 @@
-/** A change within its margins: worse is to the right. All in units of the margin, cut at three. */
+/** A change within its margins: worse is to the right. All in units of the margin; an arrow is beyond three. */
 function intervalDrawing([low, value, high]) {
   const most = 3;
   const x = (change) => 65 + 20 * Math.max(-most, Math.min(most, change));
@@ -9,7 +9,9 @@ function intervalDrawing([low, value, high]) {
                shape('rect', {class: 'zone', x: x(-1), y: 1, width: x(1) - x(-1), height: 14}),
                shape('line', {class: 'zero', x1: 65, x2: 65, y1: 0, y2: 16}),
                shape('line', {class: `bar ${side}`, x1: x(ends[0]), x2: x(ends[1]), y1: 8, y2: 8}),
-               shape('circle', {class: side, cx: x(known(value, 0)), cy: 8, r: 3}));
+               Math.abs(value) > most ?
+                 shape('path', {class: `beyond ${side}`, d: value > 0 ? 'M122 3L130 8L122 13z' : 'M8 3L0 8L8 13z'}) :
+                 shape('circle', {class: side, cx: x(known(value, 0)), cy: 8, r: 3}));
 }
 
 function cellContent(cell) {
@@ -35,7 +37,7 @@ function compareKeys(a, b) {
 
 function tableView(content, title) {
   const words = content.header.map((_, column) => content.rows.every(({cells}) => typeof sortKey(cells[column]) ===
-    'string' && !/^[-+]?[0-9]/.test(sortKey(cells[column])) && sortKey(cells[column]) !== '-'));
+    'string' && !/^[-+]?[0-9][^ ]*( [^ ]{1,3})?$/.test(sortKey(cells[column])) && sortKey(cells[column]) !== '-'));
   const rows = content.rows.map(({cells, quiet}) => {
     const row = element('tr', {}, ...cells.map((cell, column) => {
       const attributes = words[column] ? {class: 'words'} : {};

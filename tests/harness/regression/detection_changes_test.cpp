@@ -101,6 +101,7 @@ TEST(DetectionChanges, SaysByHowMuchRangesGrew) {
   EXPECT_NEAR(changes.ranges.mean, 0.01, 1e-12);
   EXPECT_NEAR(changes.ranges.standard_error, 0.0, 1e-12);
   EXPECT_THAT(changes_text(changes, true), HasSubstr("balls, B over A: +1.000 +- 0.000 %"));
+  EXPECT_FALSE(changes.misplaced_slice) << "it is all balls";
 }
 
 TEST(DetectionChanges, SaysWhichColourWasTakenForWhich) {

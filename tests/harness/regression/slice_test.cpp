@@ -9,6 +9,7 @@
 namespace stereobench::harness {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -52,6 +53,27 @@ TEST(Slice, NamesCategoriesThatAreNoNeighbours) {
     marked.push_back((colour == 2.0 || colour == 13.0) && random.uniform() < 0.3);
   const Slice slice = find_slice(properties, marked);
   EXPECT_THAT(slice.conditions, ElementsAre("colour 2 or 13"));
+  EXPECT_THAT(slice.rivals, IsEmpty());
+}
+
+// All things at the left are of colour 3, and no others are: nobody can tell which of both it is. The ball's
+// number is another name of its colour, and no news.
+// Mutations: no rivals; rivals that are another name.
+TEST(Slice, NamesWhatCannotBeToldApart) {
+  slam::RandomStream random(5, slam::Stream::kOracle);
+  std::vector<Property> properties = {{"x", "px", {}}, {"colour", "", {}, true}, {"ball", "", {}, true}};
+  std::vector<bool> marked;
+  for (int i = 0; i < 800; ++i) {
+    const bool is_left = i % 8 == 0;
+    properties[0].values.push_back(is_left ? 100.0 * random.uniform() : 100.0 + 900.0 * random.uniform());
+    properties[1].values.push_back(is_left ? 3.0 : 4.0 + i % 8);
+    properties[2].values.push_back(properties[1].values.back() + 20.0);
+    marked.push_back(is_left && i % 16 == 0);
+  }
+  const Slice slice = find_slice(properties, marked);
+  ASSERT_EQ(slice.conditions.size(), 1U);
+  ASSERT_EQ(slice.rivals.size(), 1U);
+  EXPECT_THAT(slice.conditions[0] + slice.rivals[0], AllOf(HasSubstr("colour 3"), HasSubstr("x ")));
 }
 
 // What is lost beyond a range is called so, though an interval of another property that goes with it is
