@@ -33,6 +33,13 @@ double unit_of_change(const MetricVerdict& metric) {
   return metric.scale > 0.0 ? 0.01 * metric.scale : 1.0;
 }
 
+/// What a change is said in, behind its number.
+const char* unit_text(const MetricVerdict& metric) {
+  if (metric.scale > 0.0) return scale_of(metric.metric) == metric.metric ? " %" : " % of the rms";
+  const std::optional<MetricRule> rule = rule_of(metric.metric);
+  return rule && rule->better == MetricRule::Better::kNearOne ? " (ln)" : "";
+}
+
 const char* text_of(ChangeTest test) {
   switch (test) {
     case ChangeTest::kWilcoxon:
@@ -103,13 +110,13 @@ std::string change_text(const MetricVerdict& metric) {
     return signed_number(std::abs(value) < rounding ? 0.0 : value / unit);
   };
   return fmt::format("{} [{}, {}]{}", in_unit(metric.change), in_unit(metric.interval.low),
-                     in_unit(metric.interval.high), metric.scale > 0.0 ? " %" : "");
+                     in_unit(metric.interval.high), unit_text(metric));
 }
 
 std::string margin_text(const MetricVerdict& metric) {
   if (!std::isfinite(metric.margin)) return "-";
   const double unit = unit_of_change(metric);
-  return fmt::format("{:.3g}{}", metric.margin / unit, metric.scale > 0.0 ? " %" : "");
+  return fmt::format("{:.3g}{}", metric.margin / unit, unit_text(metric));
 }
 
 std::string note_text(const MetricVerdict& metric) {

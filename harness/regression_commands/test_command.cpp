@@ -122,6 +122,7 @@ void add_test_command(CLI::App& program, Action& action) {
       "Cases that see the same world through the same cameras share its pictures. Nothing is written into "
       "the\n"
       "baseline: `stereobench bless` does that. Interrupted, the same command goes on where it was.\n"
+      "Results go to out/NAME_suite unless --out says otherwise; report.html there is the page to look at.\n"
       "Exits with 1 when a metric is REGRESSED or VANISHED, a gate is broken or a picture has changed, with "
       "4\n"
       "when a case broke down, with 5 when a baseline is missing or of other inputs.\n\n"
