@@ -35,14 +35,16 @@ void remove_pairs(const fs::path& out) {
   for (const fs::path& file : old) fs::remove(file);
 }
 
+void add_pair(const fs::path& out, const KeptPair& pair) {
+  prepare_output_folder(out / kFrames);
+  write_file_atomically(file_of(out, pair.seed, pair.frame, kLeft), pair.left_jpeg);
+  write_file_atomically(file_of(out, pair.seed, pair.frame, kRight), pair.right_jpeg);
+}
+
 void write_pairs(const fs::path& out, std::span<const KeptPair> pairs, const vision::StereoRig& rig) {
   remove_pairs(out);
   if (pairs.empty()) return;
-  prepare_output_folder(out / kFrames);
-  for (const KeptPair& pair : pairs) {
-    write_file_atomically(file_of(out, pair.seed, pair.frame, kLeft), pair.left_jpeg);
-    write_file_atomically(file_of(out, pair.seed, pair.frame, kRight), pair.right_jpeg);
-  }
+  for (const KeptPair& pair : pairs) add_pair(out, pair);
   write_file_atomically(out / kFrames / kRigFile, calibration_yaml(rig));
 }
 

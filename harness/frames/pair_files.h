@@ -22,6 +22,9 @@ inline constexpr const char* kFrames = "frames";
 void write_pairs(const std::filesystem::path& out, std::span<const KeptPair> pairs,
                  const vision::StereoRig& rig);
 
+/// Writes the pictures of one more pair beside them. @throws std::runtime_error when a file cannot be written
+void add_pair(const std::filesystem::path& out, const KeptPair& pair);
+
 /// Removes what write_pairs wrote. @param out folder of the result
 void remove_pairs(const std::filesystem::path& out);
 

@@ -11,6 +11,7 @@
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
+#include "harness/regression_commands/changed_pairs.h"
 #include "harness/regression_commands/suite_page.h"
 #include "harness/regression_commands/suite_pictures.h"
 #include "harness/regression_commands/suite_run.h"
@@ -72,6 +73,7 @@ int test(const TestArguments& arguments) {
   write_side_file(out, {arguments.suite.suite, plan.baseline});
   std::vector<CaseReport> cases = run_suite(plan, arguments.suite, out, kept);
   check_pictures(plan, arguments.suite, out, cases);
+  keep_changed_pairs(plan, arguments.suite, out, cases);
   write_suite_page(plan, out, cases, arguments.suite.run.words);
   write_files(arguments, plan, out, cases);
   kept.discard();

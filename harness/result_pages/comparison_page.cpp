@@ -26,7 +26,8 @@ std::optional<PageInterval> interval_in_margins(const MetricVerdict& metric) {
                       metric.interval.high / metric.margin};
 }
 
-PageRow verdict_row(const MetricVerdict& metric) {
+/// @param has_regressed whether any metric has: then those that more seeds may decide are shown on demand
+PageRow verdict_row(const MetricVerdict& metric, bool has_regressed) {
   const PageCell verdict{.text = text_of(metric.verdict),
                          .number = static_cast<double>(metric.verdict),
                          .mark = mark_of(metric.verdict)};
@@ -47,7 +48,7 @@ PageRow verdict_row(const MetricVerdict& metric) {
            p,
            count_cell(metric.pairs),
            {.text = note_text(metric)}},
-          metric.verdict == Verdict::kPass};
+          metric.verdict == Verdict::kPass || (has_regressed && metric.verdict == Verdict::kInconclusive)};
 }
 
 Block verdict_block(const ComparisonStory& story) {
@@ -55,7 +56,11 @@ Block verdict_block(const ComparisonStory& story) {
                              fmt::format("worse by, {:g} % interval", 100.0 * (1.0 - story.settings.alpha)),
                              "margin", "p (Holm)", "seeds", "note"},
                   .quiet = "metrics that pass"};
-  for (const MetricVerdict& metric : story.comparison.metrics) table.rows.push_back(verdict_row(metric));
+  const bool has_regressed = story.comparison.has(Verdict::kRegressed);
+  if (has_regressed && story.comparison.has(Verdict::kInconclusive))
+    table.quiet = "metrics that pass or are inconclusive";
+  for (const MetricVerdict& metric : story.comparison.metrics)
+    table.rows.push_back(verdict_row(metric, has_regressed));
   return {.title = "Verdicts",
           .note = verdict_summary(story.comparison) + few_seeds_warning(story.comparison, story.settings) +
                   "In margins: drawn to the right is worse, and the grey zone is the margin.",

@@ -110,7 +110,7 @@ function configuration(chart) {
           ({y, low, high}) => [...y, ...low, ...high]), chart.log_y), false)},
       plugins: {
         legend: {position: 'bottom', labels: {
-          color: paint('ink'), usePointStyle: true, pointStyleWidth: 22, boxHeight: 7,
+          color: paint('ink'), usePointStyle: true, boxHeight: 8,
           filter: (item, data) => !data.datasets[item.datasetIndex].hiddenInLegend}},
         tooltip: {callbacks: {
           title: ([item]) => item && `${chart.x}: ${chart.x_names[item.parsed.x] ?? shown(item.parsed.x)}`,

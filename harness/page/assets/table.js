@@ -14,12 +14,17 @@ function intervalDrawing([low, value, high]) {
                  shape('circle', {class: side, cx: x(known(value, 0)), cy: 8, r: 3}));
 }
 
+/** A name of metrics, files or filters, which lines may break behind its dots and dashes. */
+function breakable(text) {
+  return text.split(/(?<=[._])/).flatMap((part, i) => (i === 0 ? [part] : [element('wbr'), part]));
+}
+
 function cellContent(cell) {
-  if (typeof cell === 'string') return cell;
-  if (cell.interval) return intervalDrawing(cell.interval);
-  if (cell.link) return element('a', {href: `#${cell.link}`}, cell.text);
-  if (cell.mark) return element('span', {class: `mark ${cell.mark}`}, cell.text);
-  return cell.text;
+  if (typeof cell === 'string') return breakable(cell);
+  if (cell.interval) return [intervalDrawing(cell.interval)];
+  if (cell.link) return [element('a', {href: `#${cell.link}`}, cell.text)];
+  if (cell.mark) return [element('span', {class: `mark ${cell.mark}`}, cell.text)];
+  return breakable(cell.text);
 }
 
 /** What a cell is sorted by: numbers before texts, and what has none last. */
@@ -41,7 +46,7 @@ function tableView(content, title) {
   const rows = content.rows.map(({cells, quiet}) => {
     const row = element('tr', {}, ...cells.map((cell, column) => {
       const attributes = words[column] ? {class: 'words'} : {};
-      return element('td', attributes, cellContent(cell));
+      return element('td', attributes, ...cellContent(cell));
     }));
     row.hidden = quiet;
     return {row, cells, quiet};
