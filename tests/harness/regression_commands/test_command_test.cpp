@@ -68,6 +68,29 @@ TEST(TestCommand, ShowsFramesAsTheyWereAndAsTheyAre) {
                     HasSubstr("A, left camera (picture of the other)"), HasSubstr("--frame 0:1")));
 }
 
+// A detector that finds nothing any more: each of the frames that changed most is shown, also those whose
+// pictures the run has not kept. What it looks like in text: which is A, and the cause before the table.
+// Mutations: pictures of kept pairs alone; the table first.
+TEST(TestCommand, ShowsPicturesOfAllFramesThatChangedMost) {
+  TinySuite suite("  - {name: room, scenario: room.yaml}\n");
+  suite.test();
+  suite.bless();
+  suite.folder().write("blind.py", R"(
+import json, sys
+sys.stdin.readline()
+for line in sys.stdin:
+    print(json.dumps({"frame": json.loads(line)["frame"], "balls": []}), flush=True)
+)");
+  const Outcome worse = suite.test({"--detector", "python3 '" + suite.path("blind.py") + "'"});
+  EXPECT_EQ(worse.exit_code, 1) << worse.err;
+  EXPECT_THAT(bytes_of(suite.path("out/report.html")),
+              AllOf(HasSubstr("The frames that changed most"), Not(HasSubstr("\"picture\":null"))));
+  const std::size_t names = worse.out.find("A is the baseline, B is now");
+  const std::size_t cause = worse.out.find("balls that had to be found, A alone found");
+  EXPECT_LT(names, cause);
+  EXPECT_LT(cause, worse.out.find("vision.recall"));
+}
+
 // Mutations: hashes of inputs that are not compared; seeds or filters among the inputs.
 TEST(TestCommand, DoesNotCompareWhatIsOfOtherInputs) {
   TinySuite suite(kField);
