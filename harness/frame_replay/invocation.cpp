@@ -1,9 +1,13 @@
 #include "harness/frame_replay/invocation.h"
 
+#include <iterator>
 #include <map>
+#include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/experiment/write_experiment.h"
@@ -59,6 +63,18 @@ void check_unchanged(const fs::path& result, const Invocation& invocation, const
   }
 }
 
+/// Which folders in this one have a result, e.g. those of a suite's cases: "; in it have one: noisy, plain".
+std::string runs_within(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (fs::exists(entry.path() / "run.json")) names.insert(entry.path().filename().string());
+  if (names.empty()) return "";
+  constexpr std::size_t kMostNamed = 10;
+  while (names.size() > kMostNamed) names.erase(std::prev(names.end()));
+  return fmt::format("; in it have one: {}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 std::string invocation_text(const Invocation& invocation) {
@@ -74,8 +90,8 @@ Invocation read_invocation(const fs::path& result, const fs::path& scenario) {
   const fs::path folder = fs::is_directory(result) ? result : result.parent_path();
   const fs::path run = folder / "run.json", file = folder / kInvocation;
   if (!fs::exists(run))
-    throw std::runtime_error(
-        fmt::format("{}: expected a folder with a run.json, which `run` writes last", result.string()));
+    throw std::runtime_error(fmt::format("{}: expected a folder with a run.json, which `run` writes last{}",
+                                         result.string(), runs_within(folder)));
   if (!fs::exists(file))
     throw std::runtime_error(
         fmt::format("{}: has no {}, which `run` alone writes, and older versions did not: run it again",

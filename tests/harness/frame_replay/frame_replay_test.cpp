@@ -200,6 +200,8 @@ TEST_F(ResultFolder, OfWhichSomethingIsMissingIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("has no invocation.json"));
   fs::remove(folder_.path() / "out/run.json");
   EXPECT_THAT(refusal(), HasSubstr("expected a folder with a run.json"));
+  folder_.write("out/plain/run.json", "{}");  // a suite's folder in place of its case's
+  EXPECT_THAT(refusal(), HasSubstr("; in it have one: plain"));
 }
 
 }  // namespace
