@@ -84,6 +84,7 @@ std::optional<JsonValue> JsonValue::find(std::string_view key) const {
 
 JsonValue JsonValue::at(std::string_view key) const {
   if (const auto found = find(key)) return *found;
+  if (!value_->is_object()) refuse("an object");
   refuse(fmt::format("\"{}\"", key));
 }
 
