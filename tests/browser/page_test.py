@@ -40,18 +40,21 @@ for line in ours.stdout:
     print(json.dumps(answer), flush=True)
 """
 
-# How many colours each chart and map has, once it is on the screen.
+# How many colours each chart and map has, once it is on the screen: a blank canvas has one.
 CHART_COLOURS = """
 (async () => {
 const frame = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
-const counts = [];
-for (const canvas of document.querySelectorAll('.chart canvas, .map canvas')) {
-  canvas.scrollIntoView();
-  await frame();
+const coloursOf = (canvas) => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   const colours = new Set();
   for (let i = 0; i < data.length; i += 4) colours.add(data[i] << 24 | data[i + 1] << 16 | data[i + 2] << 8 | data[i + 3]);
-  counts.push(colours.size);
+  return colours.size;
+};
+const counts = [];
+for (const canvas of document.querySelectorAll('.chart canvas, .map canvas')) {
+  canvas.scrollIntoView();
+  for (let wait = 0; wait < 100 && coloursOf(canvas) < 2; ++wait) await frame();
+  counts.push(coloursOf(canvas));
 }
 return counts;
 })()
@@ -101,7 +104,7 @@ class Pages(unittest.TestCase):
         def check(_):
             colours = BROWSER.value(CHART_COLOURS)
             self.assertGreater(len(colours), 0)
-            self.assertGreater(min(colours), 10)  # a blank canvas has one
+            self.assertGreater(min(colours), 10)
         self.on_every_page(check)
 
     def test_charts_far_below_are_drawn_for_paper(self):
