@@ -2,9 +2,10 @@
 
 usage: page_test.py STEREOBENCH SOURCE_DIR; exits with 77 (skipped) where there is no Chromium (Debian's package
 chromium). Mutations that turn it red, each tried: the chart library left out (no chart is drawn); a picture's address
-without "data:" (the browser asks, and the page's policy refuses); the arrow keys swapped; the slider's listener left out, or
-its arrow keys leaf, too; a table's numbers sorted as texts; texts put in as HTML; an overlay that stays; errors on the
-map as they are, whatever is chosen; dark colours on paper, or none on dark screens; no words, no commands.
+without "data:" (the browser asks, and the page's policy refuses); the arrow keys swapped; the slider's listener left
+out, or its arrow keys leaf, too; a table's numbers sorted as texts; texts put in as HTML; an overlay that stays;
+errors on the map as they are, whatever is chosen; dark colours on paper, or none on dark screens; charts that paper
+does not get; no words, no commands.
 """
 
 import pathlib
@@ -110,7 +111,7 @@ class Pages(unittest.TestCase):
     def test_charts_far_below_are_drawn_for_paper(self):
         drawn = """[...document.querySelectorAll('.chart canvas')].map(canvas =>
           new Set(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data).size > 1)"""
-        self.open("compare.html")
+        self.open("compare.html", height=200)
         self.assertIn(False, BROWSER.value(drawn))
         BROWSER.send("Emulation.setEmulatedMedia", media="print")
         BROWSER.settle()

@@ -76,22 +76,24 @@ TEST(Slice, NamesWhatCannotBeToldApart) {
   EXPECT_THAT(slice.conditions[0] + slice.rivals[0], AllOf(HasSubstr("colour 3"), HasSubstr("x ")));
 }
 
-// What is lost beyond a range is called so, though an interval of another property that goes with it is
-// smaller and still holds nine tenths.
+// All beyond 3.5 m is lost. Nine tenths of it have one of four colours that nothing nearer has: they are a
+// smaller part, but not the cause.
 // Mutation: the smallest part that holds enough.
 TEST(Slice, NamesTheCauseRatherThanASmallerPart) {
   slam::RandomStream random(4, slam::Stream::kOracle);
-  std::vector<Property> properties = {{"range", "m", {}}, {"radius", "px", {}}};
+  std::vector<Property> properties = {{"colour", "", {}, true}, {"range", "m", {}}};
   std::vector<bool> marked;
   for (int i = 0; i < 1600; ++i) {
     const double range_m = 1.0 + static_cast<double>(i % 400) / 100.0;
-    properties[0].values.push_back(range_m);
-    properties[1].values.push_back(50.0 / range_m * (1.0 + 0.1 * random.normal()));
     marked.push_back(range_m >= 3.5);
+    const bool has_far_colour = marked.back() && random.uniform() < 0.94;
+    properties[0].values.push_back(has_far_colour ? i % 4 : 4 + i % 7);
+    properties[1].values.push_back(range_m);
   }
   const Slice slice = find_slice(properties, marked);
   EXPECT_THAT(slice.conditions, ElementsAre("range 3.5 to 4.99 m"));
   EXPECT_EQ(slice.marked, slice.all_marked);
+  EXPECT_THAT(slice.rivals, IsEmpty());
 }
 
 // Mutation: no test of chance, and a third of these sets of marks get a name.

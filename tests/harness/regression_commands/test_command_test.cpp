@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/regression_commands/changed_pairs.h"
 #include "tests/harness/regression_commands/tiny_suite.h"
 
 namespace stereobench::harness {
@@ -68,9 +69,21 @@ TEST(TestCommand, ShowsFramesAsTheyWereAndAsTheyAre) {
                     HasSubstr("A, left camera (picture of the other)"), HasSubstr("--frame 0:1")));
 }
 
-// A detector that finds nothing any more: each of the frames that changed most is shown, also those whose
-// pictures the run has not kept. What it looks like in text: which is A, and the cause before the table.
-// Mutations: pictures of kept pairs alone; the table first.
+// Mutation: pictures of kept pairs alone.
+TEST(KeepChangedPairs, RendersWhatTheRunHasNotKept) {
+  TinySuite suite("  - {name: room, scenario: room.yaml}\n");
+  const SuiteArguments arguments{.suite = suite.path("tiny.yaml")};
+  CaseReport report{.name = "room"};
+  report.judgement.emplace();
+  report.judgement->comparison.metrics = {{.metric = "vision.recall", .verdict = Verdict::kRegressed}};
+  report.judgement->changes.emplace().frames = {{1, 2, 1, 0.0}};
+  keep_changed_pairs(plan_suite(arguments), arguments, suite.path("out"), {report});
+  EXPECT_TRUE(suite.has("out/room/frames/seed1_frame0002_left.jpg"));
+  EXPECT_TRUE(suite.has("out/room/frames/seed1_frame0002_right.jpg"));
+}
+
+// A detector that finds nothing any more. It is said which is A, and the cause stands before the table.
+// Mutation: the table first.
 TEST(TestCommand, ShowsPicturesOfAllFramesThatChangedMost) {
   TinySuite suite("  - {name: room, scenario: room.yaml}\n");
   suite.test();
