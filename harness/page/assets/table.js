@@ -16,7 +16,7 @@ function intervalDrawing([low, value, high]) {
 
 /** A name of metrics, files or filters, which lines may break behind its dots and dashes. */
 function breakable(text) {
-  return text.split(/(?<=[._])/).flatMap((part, i) => (i === 0 ? [part] : [element('wbr'), part]));
+  return text.split(/(?<=[._])(?=[A-Za-z])/).flatMap((part, i) => (i === 0 ? [part] : [element('wbr'), part]));
 }
 
 function cellContent(cell) {
