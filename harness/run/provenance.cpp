@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostEntries = 20'000;  ///< that are looked at below a script's folder
 
-/// The Python files beside a script and in folders below: what it may import. Hidden folders are left out.
+/// The Python files beside a script and in folders below: what it may import. Hidden folders and virtual
+/// environments are left out.
 std::set<std::string> modules_beside(const fs::path& script) {
   std::set<std::string> modules;
   std::error_code error;
@@ -25,7 +26,8 @@ std::set<std::string> modules_beside(const fs::path& script) {
   for (fs::recursive_directory_iterator file(folder, options, error), end;
        file != end && !error && ++entries < kMostEntries; file.increment(error)) {
     const bool is_hidden = file->path().filename().string().starts_with(".");
-    if (is_hidden && file->is_directory(error)) file.disable_recursion_pending();
+    const bool is_environment = fs::exists(file->path() / "pyvenv.cfg", error);
+    if ((is_hidden || is_environment) && file->is_directory(error)) file.disable_recursion_pending();
     if (is_hidden || file->path().extension() != ".py" || !file->is_regular_file(error)) continue;
     modules.insert(file->path().lexically_normal().string());
   }
