@@ -63,6 +63,10 @@ void check_unchanged(const fs::path& result, const Invocation& invocation, const
   }
 }
 
+fs::path folder_of(const fs::path& result) {
+  return fs::is_directory(result) ? result : result.parent_path();
+}
+
 /// Which folders in this one have a result, e.g. those of a suite's cases: "; in it have one: noisy, plain".
 std::string runs_within(const fs::path& folder) {
   std::set<std::string> names;
@@ -86,8 +90,13 @@ std::string invocation_text(const Invocation& invocation) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string replayable_folder(const fs::path& result) {
+  const fs::path folder = folder_of(result);
+  return fs::exists(folder / kInvocation) ? folder.string() : "";
+}
+
 Invocation read_invocation(const fs::path& result, const fs::path& scenario) {
-  const fs::path folder = fs::is_directory(result) ? result : result.parent_path();
+  const fs::path folder = folder_of(result);
   const fs::path run = folder / "run.json", file = folder / kInvocation;
   if (!fs::exists(run))
     throw std::runtime_error(fmt::format("{}: expected a folder with a run.json, which `run` writes last{}",

@@ -24,6 +24,10 @@ struct Invocation {
 /// The content of invocation.json.
 std::string invocation_text(const Invocation& invocation);
 
+/// The folder of a result whose frames can be rendered again; empty for others, such as those of `slam`.
+/// @param result the folder, or its run.json
+std::string replayable_folder(const std::filesystem::path& result);
+
 /// Reads how a result was asked for, and checks that the scenario and the files that it names are still those
 /// that run.json has the hashes of.
 /// @param result the folder that `run` wrote, or its run.json

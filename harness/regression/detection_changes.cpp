@@ -1,6 +1,7 @@
 #include "harness/regression/detection_changes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/json/json_numbers.h"
 #include "harness/page/command_words.h"
 #include "slam/math/angles.h"
 
@@ -89,39 +91,21 @@ std::vector<bool> carriers_of_growth(const Balls& balls) {
   return carries;
 }
 
-/// A mean with its standard error; zero for fewer than two numbers.
-struct MeanWithError {
-  double mean = 0.0;
-  double standard_error = 0.0;
-};
-
-MeanWithError mean_with_error(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  if (values.size() < 2) return {};
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  for (const double value : values) squares += (value - sum / count) * (value - sum / count);
-  return {sum / count, std::sqrt(squares / (count - 1.0) / count)};
-}
-
 CentreShift shift_of(const Balls& balls, Eigen::Vector2d BallFinding::*error) {
-  std::vector<double> shifts_px[2];
+  std::vector<double> x_px, y_px;
   for (const PairedBall* ball : balls) {
     const Eigen::Vector2d shift = ball->second.*error - ball->first.*error;
-    if (!shift.allFinite()) continue;
-    for (int axis = 0; axis < 2; ++axis) shifts_px[axis].push_back(shift[axis]);
+    x_px.push_back(shift.x());
+    y_px.push_back(shift.y());
   }
-  const MeanWithError x = mean_with_error(shifts_px[0]);
-  const MeanWithError y = mean_with_error(shifts_px[1]);
-  return {{x.mean, y.mean}, {x.standard_error, y.standard_error}};
+  return {summarise(x_px), summarise(y_px)};
 }
 
-RangeGrowth growth_of(const Balls& balls) {
+Summary growth_of(const Balls& balls) {
   std::vector<double> shares;
   for (const PairedBall* ball : balls)
     shares.push_back((ball->second.range_error_m - ball->first.range_error_m) / ball->truth.range_m);
-  const MeanWithError growth = mean_with_error(shares);
-  return {growth.mean, growth.standard_error};
+  return summarise(shares);
 }
 
 std::vector<Confusion> confusions_of(const Balls& misidentified) {
@@ -175,9 +159,13 @@ std::string slice_text(const Slice& slice) {
                      fmt::join(slice.conditions, ", "), slice.things, slice.all_things, rivals);
 }
 
+double standard_error_of(const Summary& summary) {
+  return summary.sd / std::sqrt(static_cast<double>(summary.count));
+}
+
 std::string shift_text(const CentreShift& shift) {
-  return fmt::format("({:+.4f} +- {:.4f}, {:+.4f} +- {:.4f}) px", shift.mean_px.x(),
-                     shift.standard_error_px.x(), shift.mean_px.y(), shift.standard_error_px.y());
+  return fmt::format("({:+.4f} +- {:.4f}, {:+.4f} +- {:.4f}) px", shift.x_px.mean,
+                     standard_error_of(shift.x_px), shift.y_px.mean, standard_error_of(shift.y_px));
 }
 
 std::string frames_text(const std::vector<ChangedFrame>& frames) {
@@ -201,27 +189,24 @@ nlohmann::ordered_json slice_json(const std::optional<Slice>& slice) {
           {"of_marked", slice->all_marked},  {"balls", slice->things},  {"of_balls", slice->all_things}};
 }
 
-nlohmann::ordered_json pixel_json(const Eigen::Vector2d& pixel) {
-  return nlohmann::ordered_json::array({pixel.x(), pixel.y()});
+nlohmann::ordered_json shift_json(const CentreShift& shift) {
+  return nlohmann::ordered_json::array({number(shift.x_px.mean), number(shift.y_px.mean)});
 }
 
-/// Whether a mean stands for all that it is of: their standard deviation is less than half of it.
-bool stands_for_all(double mean, double standard_error, long count) {
-  return standard_error * std::sqrt(static_cast<double>(count)) < 0.5 * std::abs(mean);
-}
-
-/// Whether all balls moved alike: then where range errors grew says where they are sensitive, and no more.
+/// Whether all balls moved alike: their standard deviation is less than half of their mean. Then where range
+/// errors grew says where they are sensitive, and no more.
 bool is_one_change_of_all(const DetectionChanges& changes) {
-  const long count = changes.found_by_both;
-  const auto shifted = [&](const CentreShift& shift) {  // along the rows, which ranges come from
-    return stands_for_all(shift.mean_px.x(), shift.standard_error_px.x(), count);
-  };
-  return shifted(changes.left) || shifted(changes.right) ||
-         stands_for_all(changes.ranges.mean, changes.ranges.standard_error, count);
+  return std::ranges::any_of(std::array{changes.left.x_px, changes.right.x_px, changes.range_growth},
+                             [](const Summary& moved) { return moved.sd < 0.5 * std::abs(moved.mean); });
+}
+
+/// Whether there are any, and one at least is not zero.
+bool has_moved(const Summary& summary) {
+  return summary.count > 1 && (summary.mean != 0.0 || summary.sd != 0.0);
 }
 
 bool has_moved(const CentreShift& shift) {
-  return !shift.mean_px.isZero(0.0) || !shift.standard_error_px.isZero(0.0);
+  return has_moved(shift.x_px) || has_moved(shift.y_px);
 }
 
 }  // namespace
@@ -241,7 +226,7 @@ DetectionChanges detection_changes(const PairedBalls& pairs) {
   changes.confusions = confusions_of(those(balls, is_misidentified));
   changes.left = shift_of(found, &BallFinding::left_error_px);
   changes.right = shift_of(found, &BallFinding::right_error_px);
-  changes.ranges = growth_of(found);
+  changes.range_growth = growth_of(found);
   changes.frames = changed_frames(balls);
   if (is_one_change_of_all(changes)) return changes;
   const std::vector<bool> carries = carriers_of_growth(found);
@@ -275,9 +260,9 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   if (has_moved(changes.left) || has_moved(changes.right))
     text += fmt::format("centres of the {} balls that both found, B minus A: left {}, right {}\n",
                         changes.found_by_both, shift_text(changes.left), shift_text(changes.right));
-  if (changes.ranges.mean != 0.0 || changes.ranges.standard_error != 0.0)
+  if (has_moved(changes.range_growth))
     text += fmt::format("ranges of these {} balls, B over A: {:+.3f} +- {:.3f} %\n", changes.found_by_both,
-                        100.0 * changes.ranges.mean, 100.0 * changes.ranges.standard_error);
+                        100.0 * changes.range_growth.mean, 100.0 * standard_error_of(changes.range_growth));
   if (range_errors_grew && changes.misplaced_slice && !changes.misplaced_slice->conditions.empty())
     text +=
         "  nine tenths of the growth of squared range errors: " + slice_text(*changes.misplaced_slice) + "\n";
@@ -317,9 +302,9 @@ nlohmann::ordered_json changes_json(const DetectionChanges& changes) {
           {"misidentified", slice_json(changes.misidentified_slice)},
           {"misplaced", slice_json(changes.misplaced_slice)},
           {"confusions", confusions},
-          {"left_shift_px", pixel_json(changes.left.mean_px)},
-          {"right_shift_px", pixel_json(changes.right.mean_px)},
-          {"range_growth", changes.ranges.mean},
+          {"left_shift_px", shift_json(changes.left)},
+          {"right_shift_px", shift_json(changes.right)},
+          {"range_growth", number(changes.range_growth.mean)},
           {"frames", frames}};
 }
 

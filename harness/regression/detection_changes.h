@@ -14,20 +14,14 @@
 #include "harness/regression/slice.h"
 #include "harness/regression/verdict.h"
 #include "harness/statistics/paired.h"
+#include "harness/statistics/statistics.h"
 
 namespace stereobench::harness {
 
-/// By how much the centres of balls that both found moved in a camera, px: mean and its standard error.
+/// By how much the centres of balls that both found moved in a camera, px.
 struct CentreShift {
-  Eigen::Vector2d mean_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d standard_error_px = Eigen::Vector2d::Zero();
-};
-
-/// By how much the ranges of balls that both found grew, as a share of the true range: mean and its standard
-/// error.
-struct RangeGrowth {
-  double mean = 0.0;
-  double standard_error = 0.0;
+  Summary x_px;
+  Summary y_px;
 };
 
 /// Balls of one colour that were taken for another.
@@ -62,7 +56,7 @@ struct DetectionChanges {
   std::vector<Confusion> confusions;  ///< the most frequent first
   CentreShift left;                   ///< of the balls that both found
   CentreShift right;
-  RangeGrowth ranges;
+  Summary range_growth;              ///< of the same balls, as a share of the true range
   std::vector<ChangedFrame> frames;  ///< the ten that changed most, if as many did
 };
 

@@ -24,12 +24,6 @@
 namespace stereobench::harness {
 namespace {
 
-/// The folder of a result that `replay` can read; empty for others, such as those of `slam`.
-std::string replayable(const std::filesystem::path& result) {
-  const std::filesystem::path folder = std::filesystem::is_directory(result) ? result : result.parent_path();
-  return std::filesystem::exists(folder / kInvocation) ? folder.string() : "";
-}
-
 struct CompareArguments {
   std::filesystem::path first;
   std::filesystem::path second;
@@ -59,7 +53,7 @@ std::optional<PairedBalls> balls_of(const StoredResult& first, const StoredResul
 
 void write_files(const CompareArguments& arguments, const Judgement& judgement, const std::string& scenario) {
   const ComparedNames names{arguments.first.string(), arguments.second.string()};
-  const std::string detections = detection_lines(judgement, replayable(arguments.second));
+  const std::string detections = detection_lines(judgement, replayable_folder(arguments.second));
   const ResultComparison& comparison = judgement.comparison;
   if (!arguments.json.empty()) {
     nlohmann::ordered_json json = verdict_json(comparison, arguments.settings, names);
@@ -117,7 +111,7 @@ int compare(CompareArguments arguments) {
   if (first.scenario != second.scenario) say("warning: A and B are of different scenarios\n");
   say(few_seeds_warning(comparison, settings));
   const int outcome = exit_code_of(comparison, arguments.strict);
-  const std::string detections = detection_lines(judgement, replayable(arguments.second));
+  const std::string detections = detection_lines(judgement, replayable_folder(arguments.second));
   say_gates(detections + (detections.empty() ? "" : "\n") +
                 verdict_table(comparison, settings, arguments.all) + verdict_summary(comparison),
             outcome != kPassed);

@@ -39,9 +39,12 @@ void append_lines(const std::string& text, std::vector<std::string>& lines) {
 }
 
 /// What is to be said of a case beside its metrics.
-Block remarks_block(const CaseReport& report, const std::vector<std::string>& words) {
+Block remarks_block(const CaseReport& report, const std::optional<Baseline>& baseline,
+                    const std::vector<std::string>& words) {
   PageText text;
   append_lines(remarks(report), text.lines);
+  if (baseline)
+    text.lines.push_back(fmt::format("the baseline was blessed because: {}", baseline->blessing.reason));
   return {.title = "Case",
           .note = report.error.empty()
                       ? fmt::format("{}/report.html shows its maps, errors over time and worst frames.",
@@ -64,7 +67,7 @@ ComparedCase compared_case(const SuitePlan& plan, const PlannedCase& planned,
                   : !report.not_compared.empty() ? report.not_compared
                   : report.judgement             ? verdict_summary(report.judgement->comparison)
                                                  : "";
-  compared.blocks.push_back(remarks_block(report, planned.arguments.run.words));
+  compared.blocks.push_back(remarks_block(report, planned.baseline, planned.arguments.run.words));
   if (!report.judgement) return compared;
   const StoredResult before{.scenario = planned.baseline->scenario, .seeds = planned.baseline->seeds};
   const StoredResult now = read_result(out / report.name);

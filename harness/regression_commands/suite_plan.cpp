@@ -133,6 +133,7 @@ PlannedCase plan_case(const SuiteCase& what, const SuiteArguments& suite) {
 
 SuitePlan plan_suite(const SuiteArguments& arguments) {
   SuitePlan plan{.suite = read_suite(arguments.suite)};
+  plan.out = output_folder(arguments.run, plan.suite.name + "_suite");
   plan.baseline = arguments.baseline.empty() ? usual_baseline(arguments.suite) : arguments.baseline;
   for (const SuiteCase& what : plan.suite.cases) {
     if (!fits_any(what.name, arguments.only)) continue;
@@ -155,10 +156,8 @@ SuitePlan plan_suite(const SuiteArguments& arguments) {
 }
 
 std::string obstacle_to_comparison(const PlannedCase& planned, const SuitePlan& plan) {
-  const char* const bless =
-      "look at the result; where it is good: stereobench bless RESULTS --reason WHY, RESULTS being the "
-      "folder "
-      "named below";
+  const std::vector<std::string> words = {"stereobench", "bless", plan.out.string(), "--reason", "WHY"};
+  const std::string bless = "look at the result; where it is good: " + shell_line(words);
   if (!planned.baseline)
     return fmt::format("there is no {}; {}", baseline_file(plan.baseline, planned.what.name).string(), bless);
   const BaselineInputs& before = planned.baseline->inputs;

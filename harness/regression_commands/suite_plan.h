@@ -39,6 +39,7 @@ struct PlannedCase {
 struct SuitePlan {
   Suite suite;
   std::filesystem::path baseline;
+  std::filesystem::path out;  ///< of the results
   std::vector<PlannedCase> cases;
   std::string pixels;  ///< as of pixels_of; empty where no case has pictures
 };

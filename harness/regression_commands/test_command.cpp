@@ -62,7 +62,7 @@ void write_files(const TestArguments& arguments, const SuitePlan& plan, const fs
 
 int test(const TestArguments& arguments) {
   const SuitePlan plan = plan_suite(arguments.suite);
-  const fs::path out = output_folder(arguments.suite.run, plan.suite.name + "_suite");
+  const fs::path& out = plan.out;
   if (arguments.suite.run.dry_run) {
     say_what_would_be_done(plan, out);
     return kPassed;

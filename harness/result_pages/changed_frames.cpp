@@ -25,7 +25,7 @@ struct SideOfFrame {
   const char* name = "";
   std::vector<DetectionRow> rows;
   std::optional<KeptPair> kept;
-  bool is_borrowed = false;  ///< the picture is the other result's
+  std::string borrowed_from = {};  ///< " (picture of B)" where it has none of its own
 };
 
 SideOfFrame side_of(const char* name, const ResultFrames& result, const ChangedFrame& frame) {
@@ -33,11 +33,17 @@ SideOfFrame side_of(const char* name, const ResultFrames& result, const ChangedF
   return {name, rows_of(result.rows, frame.seed, step), read_pair(result.folder, frame.seed, step)};
 }
 
+/// Takes the other result's picture where there is one.
+void borrow(const SideOfFrame& from, SideOfFrame& side) {
+  if (!from.kept) return;
+  side.kept = from.kept;
+  side.borrowed_from = fmt::format(" (picture of {})", from.name);
+}
+
 FramePanel panel_of_side(const SideOfFrame& side, const vision::StereoRig& rig, vision::Side camera,
                          std::vector<std::string>& jpegs) {
   FramePanel panel = panel_of(side.rows, rig, camera);
-  panel.title =
-      fmt::format("{}, {}{}", side.name, panel.title, side.is_borrowed ? " (picture of the other)" : "");
+  panel.title = fmt::format("{}, {}{}", side.name, panel.title, side.borrowed_from);
   if (side.kept)
     panel.picture =
         place_of(camera == vision::Side::kLeft ? side.kept->left_jpeg : side.kept->right_jpeg, jpegs);
@@ -62,18 +68,18 @@ PageFrames changed_frames(const ResultFrames& first, const ResultFrames& second,
   if (!rig) rig = rig_of_pairs(first.folder);
   if (!rig) return {};
   PageFrames shown{.width_px = rig->intrinsics.width_px, .height_px = rig->intrinsics.height_px};
-  const bool can_replay = std::filesystem::exists(second.folder / kInvocation);
+  const std::string replayable = replayable_folder(second.folder);
   for (const ChangedFrame& frame : frames) {
     SideOfFrame before = side_of("A", first, frame);
     SideOfFrame after = side_of("B", second, frame);
-    before.is_borrowed = !before.kept && after.kept;
-    after.is_borrowed = !after.kept && before.kept;
-    if (before.is_borrowed) before.kept = after.kept;
-    if (after.is_borrowed) after.kept = before.kept;
+    if (!before.kept)
+      borrow(after, before);
+    else if (!after.kept)
+      borrow(before, after);
     PageFrame made{
         .title = fmt::format("seed {}, frame {}", frame.seed, frame.frame),
         .note = fmt::format("{}; {}{}", faults_text(before), faults_text(after), growth_text(frame)),
-        .command = can_replay ? replay_command(frame, second.folder.string()) : ""};
+        .command = replayable.empty() ? "" : replay_command(frame, replayable)};
     for (const vision::Side camera : {vision::Side::kLeft, vision::Side::kRight})
       for (const SideOfFrame* side : {&before, &after})
         made.panels.push_back(panel_of_side(*side, *rig, camera, shown.jpegs));

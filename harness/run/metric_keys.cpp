@@ -193,9 +193,8 @@ constexpr SummaryKey kSingles[] = {
     {"filters.*.counters.weight_collapses", "Updates after which every particle's weight had vanished."},
     {"filters.*.counters.joint_searches_cut", "Searches for the best association that were cut short."},
     {"filters.*.counters.refitted_by_particle",
-     "Frames that a particle fitted again as a whole, without sightings that the others spoke against, "
-     "summed "
-     "over the particles."},
+     "Frames that a particle fitted again as a whole, without what the fit spoke against, summed over the "
+     "particles."},
     {"filters.*.failures", "Seeds in which the filter broke down; they enter no mean."},
     {"per_seed.*[]",
      "A metric of each seed, in the order of seeds: the key of that name, or its mean, of a run of the seed "

@@ -87,9 +87,10 @@ TEST(DetectionChanges, SaysInWhichCameraCentresMoved) {
   std::vector<PairedBall>& balls = pairs.balls;
   for (PairedBall& ball : balls) ball.second.left_error_px.x() += 0.3;
   const DetectionChanges changes = detection_changes(pairs);
-  EXPECT_NEAR(changes.left.mean_px.x(), 0.3, 5.0 * changes.left.standard_error_px.x());
-  EXPECT_NEAR(changes.right.mean_px.x(), 0.0, 5.0 * changes.right.standard_error_px.x());
-  EXPECT_LT(changes.left.standard_error_px.x(), 0.003);
+  const double standard_error_px = changes.left.x_px.sd / std::sqrt(changes.left.x_px.count);
+  EXPECT_NEAR(changes.left.x_px.mean, 0.3, 5.0 * standard_error_px);
+  EXPECT_NEAR(changes.right.x_px.mean, 0.0, 5.0 * standard_error_px);
+  EXPECT_LT(standard_error_px, 0.003);
 }
 
 // Mutation: growth in metres.
@@ -98,8 +99,8 @@ TEST(DetectionChanges, SaysByHowMuchRangesGrew) {
   for (PairedBall& ball : pairs.balls) ball.second = ball.first;
   for (PairedBall& ball : pairs.balls) ball.second.range_error_m += 0.01 * ball.truth.range_m;
   const DetectionChanges changes = detection_changes(pairs);
-  EXPECT_NEAR(changes.ranges.mean, 0.01, 1e-12);
-  EXPECT_NEAR(changes.ranges.standard_error, 0.0, 1e-12);
+  EXPECT_NEAR(changes.range_growth.mean, 0.01, 1e-12);
+  EXPECT_NEAR(changes.range_growth.sd, 0.0, 1e-12);
   EXPECT_THAT(changes_text(changes, true), HasSubstr("balls, B over A: +1.000 +- 0.000 %"));
   EXPECT_FALSE(changes.misplaced_slice) << "it is all balls";
 }

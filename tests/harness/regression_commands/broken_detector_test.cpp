@@ -42,6 +42,7 @@ for line in sys.stdin:
                            "  - {name: field, scenario: field.yaml}\n");
   const Outcome outcome = suite.test({"--junit", suite.path("junit.xml")});
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(GetParam().says)) << "told at once";
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("bad: ERROR"), HasSubstr(GetParam().says)));
   EXPECT_THAT(bytes_of(suite.path("junit.xml")), HasSubstr("<error type=\"ERROR\""));
   EXPECT_TRUE(suite.has("out/good/run.json"));

@@ -66,7 +66,7 @@ TEST(TestCommand, ShowsFramesAsTheyWereAndAsTheyAre) {
   suite.test();
   EXPECT_THAT(bytes_of(suite.path("out/report.html")),
               AllOf(HasSubstr("The frames that changed most"), HasSubstr("seed 0, frame 1"),
-                    HasSubstr("A, left camera (picture of the other)"), HasSubstr("--frame 0:1")));
+                    HasSubstr("A, left camera (picture of B)"), HasSubstr("--frame 0:1")));
 }
 
 // Mutation: pictures of kept pairs alone.

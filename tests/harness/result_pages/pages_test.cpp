@@ -228,7 +228,7 @@ TEST(ChangedFrames, HaveBothResultsSideBySide) {
   EXPECT_THAT(shown.jpegs, ElementsAre("left", "right"));
   const auto& panels = shown.frames[0].panels;
   ASSERT_EQ(panels.size(), 4U);
-  EXPECT_EQ(panels[0].title, "A, left camera (picture of the other)");
+  EXPECT_EQ(panels[0].title, "A, left camera (picture of B)");
   EXPECT_EQ(panels[3].title, "B, right camera");
   EXPECT_EQ(panels[0].picture, 0U);
   EXPECT_EQ(panels[3].picture, 1U);
