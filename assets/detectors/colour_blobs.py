@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 
 SMALLEST_RADIUS_PX = 5.0
-CENTRE_SD_PX = 0.05  # what a centre is off by, as measured with `vision.disparity_rms_px` of run.json
+CENTRE_SD_PX = 0.035  # of a row or a column: `vision.disparity_rms_px` of run.json is sqrt(2) times as much
 
 
 def light_of(level, setup):

@@ -72,7 +72,7 @@ TEST(TestCommand, ShowsFramesAsTheyWereAndAsTheyAre) {
 // run keeps four. Each is shown. It is said which is A, and the cause stands before the table. Mutations:
 // pictures of kept pairs alone; the table first.
 TEST(TestCommand, ShowsPicturesOfAllFramesThatChangedMost) {
-  TinySuite suite("  - {name: room, scenario: room.yaml, set: [path.laps=0.16]}\n");
+  TinySuite suite("  - {name: room, scenario: room.yaml, set: [path.laps=0.14]}\n");
   suite.test();
   suite.bless();
   suite.folder().write("blind.py", R"(
