@@ -35,7 +35,7 @@ fs::path make_scratch_folder() {
 
 void write_picture(const fs::path& path, const cv::Mat& picture) {
   // It is read once: packing it well would take longer than all that is done with it.
-  const std::vector<std::uint8_t> bytes = renderer::encode_png(picture, renderer::PngPacking::kLetters);
+  const std::vector<std::uint8_t> bytes = renderer::encode_png(picture, renderer::PngPacking::kStored);
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));

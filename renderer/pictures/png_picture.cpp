@@ -86,9 +86,10 @@ void write(png_structp png, png_infop info, Work& work) {
                      : picture.channels() == 3 ? PNG_COLOR_TYPE_RGB
                                                : PNG_COLOR_TYPE_RGBA;
   png_set_write_fn(png, &work, put, nullptr);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_compression_level(png, Z_BEST_SPEED);
-  png_set_compression_strategy(png, work.packing == PngPacking::kRuns ? Z_RLE : Z_HUFFMAN_ONLY);
+  const bool packed = work.packing == PngPacking::kRuns;
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, packed ? PNG_FILTER_SUB : PNG_FILTER_NONE);
+  png_set_compression_level(png, packed ? Z_BEST_SPEED : Z_NO_COMPRESSION);
+  png_set_compression_strategy(png, Z_RLE);
   png_set_IHDR(png, info, static_cast<png_uint_32>(picture.cols), static_cast<png_uint_32>(picture.rows),
                picture.depth() == CV_8U ? 8 : 16, colour, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
