@@ -11,6 +11,7 @@
 #include "harness/dataset/formats/format_registry.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/seed_render.h"
+#include "harness/experiment/write_experiment.h"
 #include "harness/io/file_list.h"
 #include "harness/process/interruption.h"
 #include "harness/process/standard_streams.h"
