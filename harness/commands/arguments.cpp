@@ -97,25 +97,27 @@ CLI::Validator real_between(double least, double greatest) {
           fmt::format("FLOAT in [{} - {}]", least, greatest)};
 }
 
+CLI::Option* repeatable(CLI::Option* option) {
+  return option->expected(1)->take_all()->allow_extra_args(false);
+}
+
 void add_gate_option(CLI::App& command, std::vector<Gate>& gates) {
-  command
-      .add_option_function<std::vector<std::string>>(
+  repeatable(
+      command.add_option_function<std::vector<std::string>>(
           "--gate",
           [&gates](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) gates.push_back(parse_gate(text));
           },
           "a limit on a number of the result, e.g. --gate 'vision.recall>=0.98'; exit code 1 where it is "
-          "broken; may be repeated")
-      ->type_name("METRIC<=LIMIT")
-      ->allow_extra_args(false);
+          "broken; may be repeated"))
+      ->type_name("METRIC<=LIMIT");
 }
 
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
-  command
-      .add_option("--set", overrides,
-                  "change a line of the scenario, e.g. --set camera.noise_sd_levels=4; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  repeatable(command.add_option(
+                 "--set", overrides,
+                 "change a line of the scenario, e.g. --set camera.noise_sd_levels=4; may be repeated"))
+      ->type_name("KEY=VALUE");
 }
 
 void add_backend_option(CLI::App& command, renderer::Backend& backend) {

@@ -58,6 +58,11 @@ void add_backend_option(CLI::App& command, renderer::Backend& backend);
 /// @param command parsed
 std::vector<std::string> words_of(const CLI::App& command);
 
+/// Lets an option be given several times, each time with one value: what follows is not taken for a second
+/// one.
+/// @return the option
+CLI::Option* repeatable(CLI::Option* option);
+
 /// Where results go: --out, or out/<name>.
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name);
 

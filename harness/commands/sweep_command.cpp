@@ -172,12 +172,11 @@ void add_sweep_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("sweep", "run a scenario over a grid of values, e.g. of noise");
   auto arguments = std::make_shared<SweepArguments>();
   add_scenario_options(*command, arguments->scenario);
-  command
-      ->add_option("--vary", arguments->variations,
-                   "a line of the scenario and its values, e.g. --vary camera.noise_sd_levels=0,1,2,4,8; may "
-                   "be repeated; lines that vary together: --vary KEY1:KEY2=A1:A2,B1:B2")
+  repeatable(command->add_option(
+                 "--vary", arguments->variations,
+                 "a line of the scenario and its values, e.g. --vary camera.noise_sd_levels=0,1,2,4,8; may "
+                 "be repeated; lines that vary together: --vary KEY1:KEY2=A1:A2,B1:B2"))
       ->type_name("KEY=A,B,C")
-      ->allow_extra_args(false)
       ->required();
   command->footer(
       "Every cell sees the same worlds and odometry, so that cells differ in what is varied alone. Filters "

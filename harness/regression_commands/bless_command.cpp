@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
@@ -150,8 +151,9 @@ int bless(const BlessArguments& arguments) {
 void add_options(CLI::App& command, BlessArguments& arguments) {
   command.add_option("result", arguments.result, "the folder of a finished `stereobench test`")->required();
   command.add_option("--reason", arguments.reason, "why this is good, in one line; it is kept")->required();
-  command.add_option("--only", arguments.only,
-                     "bless only cases whose names fit; may be repeated (default: all)");
+  repeatable(command.add_option("--only", arguments.only,
+                                "bless only cases whose names fit; may be repeated (default: all)"))
+      ->type_name("GLOB");
   command.add_option("--baseline", arguments.baseline,
                      "folder of the baseline (default: the one that was tested against)");
   command.add_flag("--undecided", arguments.takes_undecided,

@@ -128,12 +128,14 @@ void add_options(CLI::App& command, CompareArguments& arguments) {
                   "scenario with its detector repeats")
       ->type_name("N")
       ->check(CLI::Range(2, 100));
-  command.add_option("--only", arguments.settings.only,
-                     "judge only metrics whose names fit, e.g. 'vision.*'; may be repeated (default: all)");
-  command
-      .add_option("--margin", arguments.margins,
-                  "how much a metric may change before it matters: NAME=5% of its mean in A, or NAME=0.01 in "
-                  "its own unit; NAME may have * in it; may be repeated, the last one that fits counts")
+  repeatable(command.add_option(
+                 "--only", arguments.settings.only,
+                 "judge only metrics whose names fit, e.g. 'vision.*'; may be repeated (default: all)"))
+      ->type_name("GLOB");
+  repeatable(command.add_option(
+                 "--margin", arguments.margins,
+                 "how much a metric may change before it matters: NAME=5% of its mean in A, or NAME=0.01 in "
+                 "its own unit; NAME may have * in it; may be repeated, the last one that fits counts"))
       ->type_name("NAME=CHANGE");
   command
       .add_option("--alpha", arguments.settings.alpha,

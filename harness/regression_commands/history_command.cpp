@@ -62,11 +62,13 @@ void add_history_options(CLI::App& command, HistoryArguments& arguments) {
       .add_option("results", arguments.results,
                   "folders that run or slam wrote, or their run.json, from the oldest to the newest")
       ->required();
-  command.add_option("--only", arguments.settings.only,
-                     "only metrics whose names fit, e.g. 'vision.*' (default: all)");
-  command
-      .add_option("--margin", arguments.margins,
-                  "how much a metric may change before it matters, as of compare; may be repeated")
+  repeatable(
+      command.add_option("--only", arguments.settings.only,
+                         "only metrics whose names fit, e.g. 'vision.*'; may be repeated (default: all)"))
+      ->type_name("GLOB");
+  repeatable(
+      command.add_option("--margin", arguments.margins,
+                         "how much a metric may change before it matters, as of compare; may be repeated"))
       ->type_name("NAME=CHANGE");
   command
       .add_option("--alpha", arguments.settings.alpha,

@@ -76,10 +76,9 @@ void add_replay_command(CLI::App& program, Action& action) {
       "replay", "render frames of a finished run again, and show what the detector makes of them");
   auto arguments = std::make_shared<ReplayArguments>();
   command->add_option("result", arguments->result, "a folder that `run` wrote")->required();
-  command->add_option("--frame", arguments->frames, "which frame: seed and step; may be repeated")
+  repeatable(command->add_option("--frame", arguments->frames, "which frame: seed and step; may be repeated"))
       ->required()
-      ->type_name("SEED:STEP")
-      ->allow_extra_args(false);
+      ->type_name("SEED:STEP");
   command->add_option("--scenario", arguments->scenario,
                       "where the scenario lies now (default: where the run read it)");
   command

@@ -86,8 +86,10 @@ int test(const TestArguments& arguments) {
 void add_options(CLI::App& command, TestArguments& arguments) {
   SuiteArguments& suite = arguments.suite;
   command.add_option("suite", suite.suite, "suite file (YAML)")->required();
-  command.add_option("--only", suite.only,
-                     "run only cases whose names fit, e.g. 'circle*'; may be repeated (default: all)");
+  repeatable(
+      command.add_option("--only", suite.only,
+                         "run only cases whose names fit, e.g. 'circle*'; may be repeated (default: all)"))
+      ->type_name("GLOB");
   command.add_option("--baseline", suite.baseline,
                      "folder of the baseline (default: NAME.baseline beside NAME.yaml)");
   command

@@ -15,6 +15,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+// What follows the value is another argument. Mutation: the option takes all that follow.
+TEST(RepeatableOption, TakesOneValueAtATime) {
+  CLI::App program;
+  std::vector<std::string> only, folders;
+  repeatable(program.add_option("--only", only, "names"))->type_name("GLOB");
+  program.add_option("folders", folders, "results")->required();
+  program.parse("--only vision.* A --only batch.* B");
+  EXPECT_THAT(only, ElementsAre("vision.*", "batch.*"));
+  EXPECT_THAT(folders, ElementsAre("A", "B"));
+  EXPECT_THAT(program.help(), HasSubstr("--only GLOB  "));
+}
+
 // Mutation: dead reckoning not put first.
 TEST(ParseFilters, PutsDeadReckoningFirstAndKeepsTheOrderOfTheOthers) {
   EXPECT_THAT(parse_filters("ufastslam,fastslam2"), ElementsAre(kBaselineFilter, "ufastslam", "fastslam2"));
