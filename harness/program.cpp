@@ -71,6 +71,7 @@ int run_command_line(int argc, char** argv) {
   Action action;
   add_run_command(program, action);
   add_render_command(program, action);
+  add_export_command(program, action);
   add_slam_command(program, action);
   add_compare_command(program, action);
   add_test_command(program, action);

@@ -25,6 +25,7 @@ using Action = std::function<int()>;
 /// Each adds a subcommand that, when it is chosen, puts what is to be done into `action`.
 void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
+void add_export_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_test_command(CLI::App& program, Action& action);

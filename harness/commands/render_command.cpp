@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -6,15 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/dataset_talk.h"
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/dataset/drive_json.h"
 #include "harness/dataset/formats/format_registry.h"
 #include "harness/dataset/rendered_dataset.h"
 #include "harness/dataset/seed_render.h"
 #include "harness/experiment/write_experiment.h"
 #include "harness/io/file_list.h"
 #include "harness/process/interruption.h"
-#include "harness/process/standard_streams.h"
 #include "harness/run/provenance.h"
 #include "renderer/backend.h"
 #include "vision/observe.h"
@@ -25,7 +27,7 @@ namespace {
 struct RenderArguments {
   ScenarioArguments scenario;
   FrameChoice frames;
-  const DatasetFormat* format = &dataset_formats().front();
+  std::vector<const DatasetFormat*> formats = {&dataset_formats().front()};
   TruthRequest truth;
 };
 
@@ -52,58 +54,65 @@ nlohmann::ordered_json identity_of(const RenderArguments& arguments, const Exper
       {"files_sha256", hashes_of_named_files(asked.scenario, asked.overrides)}};
   identity[kBallSize] = {{"radius_m", scenario.world.ball_radius_m()},
                          {"radius_sd_m", scenario.world.ball_radius_sd_m}};
+  identity[kDrive] = drive_json(drive_of(scenario, scenario.world, 0));
   if (scenario.rows_within_px != vision::ObserverSettings{}.rows_within_px)
     identity[kRowsWithin] = scenario.rows_within_px;
-  for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
-  if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
-  if (arguments.format != &dataset_formats().front()) identity["format"] = arguments.format->name;
   return identity;
 }
 
-/// One task a seed; of several, each has a folder of its own.
+/// The same of one format's data set.
+nlohmann::ordered_json identity_of(nlohmann::ordered_json identity, const RenderArguments& arguments,
+                                   const DatasetFormat& format, std::uint64_t seed) {
+  identity["seed"] = seed;
+  if (!is_plain(format)) {
+    identity["format"] = format.name;
+    return identity;
+  }
+  for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
+  if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
+  return identity;
+}
+
+/// Of several formats, each has a folder of its own, and in it each of several seeds.
+std::filesystem::path folder_of(const std::filesystem::path& out, const RenderArguments& arguments,
+                                const DatasetFormat& format, std::uint64_t seed) {
+  const std::filesystem::path folder = folder_of(out, format, arguments.formats);
+  return arguments.scenario.run.seeds.size() > 1 ? folder / fmt::format("seed_{}", seed) : folder;
+}
+
+/// One task a seed.
 std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const Experiment& experiment,
                                      const std::filesystem::path& out) {
   const FrameChoice frames = frames_of_drive(arguments.frames, experiment.scenario.path.size());
   std::vector<std::uint64_t> seeds = arguments.scenario.run.seeds;
   if (seeds.empty()) seeds = {experiment.seeds.front()};
-  const RenderTask any_seed = {.experiment = &experiment,
-                               .format = arguments.format,
-                               .frames = frames,
-                               .truth = arguments.truth,
-                               .backend = arguments.scenario.backend,
-                               .folder = out,
-                               .identity = identity_of(arguments, experiment, frames)};
+  const nlohmann::ordered_json identity = identity_of(arguments, experiment, frames);
   std::vector<RenderTask> tasks;
   for (const std::uint64_t seed : seeds) {
-    tasks.push_back(any_seed);
-    tasks.back().seed = seed;
-    tasks.back().identity["seed"] = seed;
-    if (seeds.size() > 1) tasks.back().folder = out / fmt::format("seed_{}", seed);
+    tasks.push_back({.experiment = &experiment,
+                     .seed = seed,
+                     .frames = frames,
+                     .truth = arguments.truth,
+                     .backend = arguments.scenario.backend,
+                     .datasets = {}});
+    for (const DatasetFormat* format : arguments.formats)
+      tasks.back().datasets.push_back({format, folder_of(out, arguments, *format, seed),
+                                       identity_of(identity, arguments, *format, seed)});
   }
   return tasks;
 }
 
-/// Folders that hold something else are refused before anything is rendered.
-void check_folders(const std::vector<RenderTask>& tasks, const std::filesystem::path& out) {
-  if (tasks.size() > 1 && holds_rendering(out))
-    throw std::runtime_error(fmt::format(
-        "{}: holds a data set itself, and cannot hold one for each seed; choose another folder or remove it",
-        out.string()));
-  for (const RenderTask& task : tasks) require_same_rendering(task.folder, task.identity);
-}
-
-void say_what_was_done(const RenderTask& task, const RenderedSeed& rendered) {
-  const std::string folder = (task.folder / "").string();
-  if (!rendered.spoilt.empty())
-    note(
-        fmt::format("{}: {} files were missing or not as they had been written (the first: {}); they are "
-                    "rendered again",
-                    folder, rendered.spoilt.size(), rendered.spoilt.front()));
-  if (rendered.was_complete)
-    fmt::print("{} is complete and is left as it is\n", folder);
-  else
-    fmt::print("{}: {} stereo pairs with {} in {}\n", task.experiment->scenario.name, rendered.pairs,
-               task.format->holds, folder);
+/// Refuses what a format cannot hold, and truth that none of them has a place for.
+void check_formats(const RenderArguments& arguments, const Experiment& experiment) {
+  const worlds::Scenario& scenario = experiment.scenario;
+  const DatasetDrive drive = drive_of(scenario, scenario.world, 0, arguments.frames, arguments.truth);
+  for (const DatasetFormat* format : arguments.formats) format->check(drive);
+  const bool has_plain =
+      std::ranges::any_of(arguments.formats, [](const DatasetFormat* format) { return is_plain(*format); });
+  if (!has_plain && !arguments.truth.kinds.empty())
+    throw std::runtime_error(
+        fmt::format("--truth: {} has a place for what is its own alone; add the format {}",
+                    arguments.formats.front()->name, dataset_formats().front().name));
 }
 
 int render(const RenderArguments& arguments) {
@@ -114,23 +123,27 @@ int render(const RenderArguments& arguments) {
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
         arguments.scenario.scenario.string()));
-  arguments.format->check(scenario, arguments.truth);
+  check_formats(arguments, experiment);
   const std::filesystem::path out = output_folder(run, scenario.name + "_dataset");
   const std::vector<RenderTask> tasks = render_tasks(arguments, experiment, out);
-  check_folders(tasks, out);
+  for (const RenderTask& task : tasks) require_room(task.datasets, out);
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   warn_of_missing_textures(scenario, *arguments.scenario.meshes);
   if (run.dry_run) {
     for (const RenderTask& task : tasks)
-      fmt::print("{}: would render frames {} of seed {} to {}\n", scenario.name, text_of(task.frames),
-                 task.seed, (task.folder / "").string());
+      for (const WantedDataset& wanted : task.datasets)
+        fmt::print("{}: would render frames {} of seed {} to {}\n", scenario.name, text_of(task.frames),
+                   task.seed, (wanted.folder / "").string());
     return kPassed;
   }
   say_that_work_is_kept();
   const std::vector<RenderedSeed> rendered = render_seeds(tasks, run.jobs, "render " + scenario.name);
   CoarseBlur blur;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    say_what_was_done(tasks[i], rendered[i]);
+    for (std::size_t k = 0; k < tasks[i].datasets.size(); ++k) {
+      const WantedDataset& wanted = tasks[i].datasets[k];
+      say_what_was_written(scenario.name, *wanted.format, wanted.folder, rendered[i].datasets[k]);
+    }
     blur += rendered[i].blur;
   }
   warn_of_blur(scenario.shutter, blur);
@@ -138,14 +151,12 @@ int render(const RenderArguments& arguments) {
 }
 
 void add_format_option(CLI::App& command, const std::shared_ptr<RenderArguments>& arguments) {
-  std::string formats;
-  for (const DatasetFormat& format : dataset_formats())
-    formats += fmt::format("{}{} ({})", formats.empty() ? "" : ", ", format.name, format.holds);
   command
       .add_option_function<std::string>(
-          "--format", [arguments](const std::string& name) { arguments->format = &dataset_format(name); },
-          "how the files are laid out: " + formats)
-      ->type_name("NAME")
+          "--format",
+          [arguments](const std::string& names) { arguments->formats = parse_formats(names, "--format"); },
+          "how the files are laid out; several, comma-separated, have a folder each: " + names_and_contents())
+      ->type_name("NAME[,NAME]")
       ->default_str(std::string(dataset_formats().front().name));
 }
 
@@ -176,7 +187,7 @@ void add_render_command(CLI::App& program, Action& action) {
       ->default_str("exact")
       ->needs(truth);
   command->footer(
-      "The format stereobench has left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/\n"
+      "The format plain has left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/\n"
       "right_depth/ (PFM, planar Z in metres), calibration.yaml (as believed), true_calibration.yaml,\n"
       "balls.csv and the log that `stereobench slam` reads. --truth adds folders of the same names for\n"
       "each camera (left_flow/...), those of disparity, match and flow with what becomes of each pixel\n"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/formats/stereobench_format.h"
+#include "harness/dataset/formats/plain_format.h"
 #include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
 #include "harness/io/number_table.h"

@@ -17,12 +17,6 @@ namespace {
 /// The folder's marker while frames are still being written.
 constexpr const char* kUnfinished = "dataset.unfinished.json";
 
-/// The finished data set's key that lists the frames it has pictures of.
-constexpr const char* kFrames = "frames";
-
-/// And the one that says how coarse their motion blur is.
-constexpr const char* kBlur = "blur";
-
 /// The markers that there are.
 std::vector<std::filesystem::path> markers_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> markers;

@@ -13,6 +13,12 @@
 
 namespace stereobench::harness {
 
+/// The finished data set's key that lists the frames it has pictures of.
+inline constexpr const char* kFrames = "frames";
+
+/// And the one that says how coarse their motion blur is.
+inline constexpr const char* kBlur = "blur";
+
 /// The folder of a data set of any format. Which files it has, the format's DatasetWriter says. Beside them
 /// lies dataset.json, written last: where it is, the folder is complete. It says what was rendered, which
 /// frames there are, how coarse their blur is, and size and SHA-256 of each file.

@@ -1,9 +1,10 @@
 #include "harness/dataset/seed_render.h"
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 
-#include "harness/dataset/frame_truth.h"
-#include "harness/dataset/rendered_dataset.h"
+#include "harness/dataset/truth/frame_truth.h"
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/cbor.h"
@@ -15,32 +16,38 @@
 namespace stereobench::harness {
 
 STEREOBENCH_ALL_FIELDS(CoarseBlur, pairs, most_step_px)
-STEREOBENCH_ALL_FIELDS(RenderedSeed, pairs, was_complete, spoilt, blur)
+STEREOBENCH_ALL_FIELDS(WrittenDataset, pairs, was_complete, spoilt)
+STEREOBENCH_ALL_FIELDS(RenderedSeed, datasets, blur)
 
 namespace {
 
 RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
   const worlds::Scenario& scenario = task.experiment->scenario;
-  RenderedDataset dataset(task.folder, task.identity);
-  if (dataset.is_complete()) return {.was_complete = true};
-  RenderedSeed rendered = {.spoilt = dataset.spoilt()};
   const worlds::World world = worlds::world_for_seed(scenario, task.seed);
+  const DatasetDrive drive = drive_of(scenario, world, task.seed, task.frames, task.truth);
+  std::vector<DatasetOutput> outputs;
+  for (const WantedDataset& wanted : task.datasets) outputs.emplace_back(wanted, drive);
+  RenderedSeed rendered;
+  const auto keep_outcome = [&] {
+    for (const DatasetOutput& output : outputs) rendered.datasets.push_back(output.written());
+    return rendered;
+  };
+  if (std::ranges::all_of(outputs, [](const DatasetOutput& one) { return one.written().was_complete; }))
+    return keep_outcome();
   renderer::MeshCache meshes;  // for the pictures and for the truth
   FrameTruth truth(scenario, world, meshes.forms());
-  const auto writer = task.format->make({scenario, world, task.seed, task.frames, task.truth});
   Listeners listeners;
   listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
   listeners.on_progress = on_progress;
   listeners.on_frame = [&](const FrameEvent& event) {
     truth.look_at(event);
-    dataset.write(event.step, writer->frame_files(event, truth));
-    ++rendered.pairs;
+    for (DatasetOutput& output : outputs) output.write(truth);
   };
   const Recording recording =
       record(*task.experiment, task.seed, listeners, task.backend, {}, meshes.forms());
+  for (DatasetOutput& output : outputs) output.finish(recording.log, recording.blur);
   rendered.blur = recording.blur;
-  dataset.finish(writer->drive_files(recording.log), recording.blur);
-  return rendered;
+  return keep_outcome();
 }
 
 std::vector<RenderedSeed> render_in_processes(const std::vector<RenderTask>& tasks, int jobs,
@@ -56,7 +63,8 @@ std::vector<RenderedSeed> render_in_processes(const std::vector<RenderTask>& tas
     run_in_processes(tasks.size(), jobs, render, keep, on_progress);
   } catch (...) {  // the other processes were killed, maybe in the middle of a file
     for (const RenderTask& task : tasks)
-      if (std::filesystem::exists(task.folder)) remove_leftovers(task.folder);
+      for (const WantedDataset& wanted : task.datasets)
+        if (std::filesystem::exists(wanted.folder)) remove_leftovers(wanted.folder);
     throw;
   }
   return rendered;

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/dataset/frame_truth.h"
+#include "harness/dataset/truth/frame_truth.h"
 #include "harness/drive/recording.h"
 #include "harness/frame_replay/frame_replay.h"
 #include "harness/io/sha256.h"

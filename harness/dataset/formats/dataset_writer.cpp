@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "harness/io/picture_file.h"
+#include "harness/io/text_file.h"
 
 namespace stereobench::harness {
 
@@ -15,6 +16,11 @@ DatasetFile picture_file(std::string name, std::function<cv::Mat()> picture) {
 
 DatasetFile picture_file(std::string name, const cv::Mat& picture) {
   return picture_file(std::move(name), [picture] { return picture; });
+}
+
+DatasetFile camera_file(std::string name, DatasetPair& pair, vision::Side side) {
+  if (const auto file = pair.file_of(side)) return {std::move(name), [file] { return read_text(*file); }};
+  return picture_file(std::move(name), [side, &pair] { return pair.picture(side); });
 }
 
 DatasetFile text_file(std::string name, std::string text) {

@@ -1,18 +1,15 @@
 /// What a data-set format is: which files there are of a stereo pair and of a drive, and what is in them.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "harness/dataset/frame_truth.h"
-#include "harness/dataset/truth_request.h"
-#include "harness/drive/frame_choice.h"
-#include "harness/drive/recording.h"
-#include "worlds/types.h"
+#include "harness/dataset/dataset_drive.h"
+#include "harness/dataset/dataset_pair.h"
+#include "harness/types.h"
 
 namespace stereobench::harness {
 
@@ -27,17 +24,11 @@ struct DatasetFile {
 DatasetFile picture_file(std::string name, std::function<cv::Mat()> picture);
 DatasetFile picture_file(std::string name, const cv::Mat& picture);
 
+/// A file that is what a camera stored. @param name ends with ".png"
+DatasetFile camera_file(std::string name, DatasetPair& pair, vision::Side side);
+
 /// A file that is a text.
 DatasetFile text_file(std::string name, std::string text);
-
-/// The drive that a data set is of: one seed's.
-struct DatasetDrive {
-  const worlds::Scenario& scenario;
-  const worlds::World& world;  ///< of the seed
-  std::uint64_t seed = 0;
-  FrameChoice frames;  ///< that are asked for; the shutter may drop some
-  TruthRequest truth;  ///< what was asked for beside them
-};
 
 /// A data-set format at work on one drive. It names files and says what is in them. The data set that it is
 /// a format of (rendered_dataset.h) makes folders, writes files whole or not at all, leaves those alone that
@@ -48,13 +39,11 @@ class DatasetWriter {
 
   /// The files of one stereo pair; each pair of the drive is asked for once, in order, also where a rendering
   /// that was interrupted goes on.
-  /// @param event, truth of this pair; their values may be asked for until the next pair comes
-  virtual std::vector<DatasetFile> frame_files(const FrameEvent& event, FrameTruth& truth) const = 0;
+  /// @param pair its values may be asked for until the next pair comes
+  virtual std::vector<DatasetFile> frame_files(DatasetPair& pair) const = 0;
 
   /// The files of the whole drive, asked for after its last pair. They are always written anew.
-  /// @param log the odometry, what was observed, and the true path: every step of the drive. Which of them
-  /// have
-  ///        pictures, and from where these are taken, says pictures_of (frames_file.h)
+  /// @param log the odometry, what was observed, and the true path: every step of the drive
   virtual std::vector<DatasetFile> drive_files(const MeasurementLog& log) const = 0;
 };
 

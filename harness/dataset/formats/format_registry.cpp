@@ -2,40 +2,79 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/dataset/formats/kitti_format.h"
-#include "harness/dataset/formats/stereobench_format.h"
+#include "harness/dataset/formats/eth3d_format.h"
+#include "harness/dataset/formats/euroc_format.h"
+#include "harness/dataset/formats/kitti_odometry_format.h"
+#include "harness/dataset/formats/kitti_stereo_format.h"
+#include "harness/dataset/formats/middlebury_format.h"
+#include "harness/dataset/formats/plain_format.h"
+#include "harness/dataset/formats/sceneflow_format.h"
+#include "harness/dataset/formats/tum_format.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
 namespace {
 
-/// One row a format: name, what it holds, what it refuses, how it starts.
+/// One row a format: name, what it holds, the truth that it needs, what it refuses, how it starts.
 constexpr auto kFormats = std::to_array<DatasetFormat>({
-    {"stereobench", "ids, depth, calibration and truth", check_stereobench_format, stereobench_writer},
-    {"kitti", "disparity and calibration as in KITTI stereo 2015", check_kitti_format, kitti_writer},
+    {"plain", "ids, depth, calibration and truth", "", check_plain_format, plain_writer},
+    {"kitti-odometry", "poses, as in KITTI odometry", "", check_kitti_odometry_format, kitti_odometry_writer},
+    {"kitti-stereo", "disparity, as in KITTI stereo 2015", "disparity,flow", check_kitti_stereo_format,
+     kitti_stereo_writer},
+    {"kitti-stereo-2012", "disparity, as in KITTI stereo 2012", "disparity", check_kitti_stereo_2012_format,
+     kitti_stereo_2012_writer},
+    {"kitti-scene-flow", "disparity and flow, as in KITTI scene flow 2015", "disparity,flow",
+     check_kitti_scene_flow_format, kitti_scene_flow_writer},
+    {"euroc", "poses, as in EuRoC MAV", "", check_euroc_format, euroc_writer},
+    {"tum", "depth and poses of the left camera, as in TUM RGB-D", "", check_tum_format, tum_writer},
+    {"middlebury", "disparity, as in Middlebury 2014", "disparity", check_middlebury_format,
+     middlebury_writer},
+    {"eth3d", "disparity, as in ETH3D's two-view benchmark", "disparity", check_eth3d_format, eth3d_writer},
+    {"sceneflow", "disparity, flow and poses, as in Scene Flow's Monkaa", "disparity,flow",
+     check_sceneflow_format, sceneflow_writer},
 });
 
 }  // namespace
+
+bool is_plain(const DatasetFormat& format) {
+  return format.name == kFormats.front().name;
+}
+
+std::vector<TruthKind> needed_truth(const DatasetFormat& format) {
+  return format.needs.empty() ? std::vector<TruthKind>() : parse_truth(std::string(format.needs));
+}
 
 std::span<const DatasetFormat> dataset_formats() {
   return kFormats;
 }
 
-const DatasetFormat& dataset_format(std::string_view name) {
+const DatasetFormat& dataset_format(std::string_view name, std::string_view option) {
   const auto* const found = std::ranges::find(kFormats, name, &DatasetFormat::name);
   if (found != kFormats.end()) return *found;
   std::vector<std::string_view> names;
   for (const DatasetFormat& format : kFormats) names.push_back(format.name);
   const auto meant = worlds::nearest_word(name, names);
-  throw std::runtime_error(fmt::format("--format: no format is called '{}'{}; there are {}", name,
+  throw std::runtime_error(fmt::format("{}: no format is called '{}'{}; there are {}", option, name,
                                        meant ? fmt::format(", did you mean {}?", *meant) : "",
                                        fmt::join(names, ", ")));
+}
+
+std::vector<const DatasetFormat*> parse_formats(const std::string& text, std::string_view option) {
+  std::vector<const DatasetFormat*> formats;
+  std::istringstream names(text + ",");
+  for (std::string name; std::getline(names, name, ',');) {
+    formats.push_back(&dataset_format(name, option));
+    if (std::ranges::count(formats, formats.back()) > 1)
+      throw std::runtime_error(fmt::format("{}: '{}' stands there twice", option, name));
+  }
+  return formats;
 }
 
 }  // namespace stereobench::harness

@@ -1,10 +1,14 @@
 #include "harness/dataset/formats/rectified_pair.h"
 
-#include <fmt/format.h>
+#include <cmath>
+#include <limits>
 
-#include "harness/io/calibration_file.h"
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 namespace stereobench::harness {
+
+using vision::Side;
 
 std::string projection_row(const vision::StereoRig& rig, double from_left_m) {
   const vision::Intrinsics& camera = rig.intrinsics;
@@ -13,16 +17,45 @@ std::string projection_row(const vision::StereoRig& rig, double from_left_m) {
                      from_left_m == 0.0 ? 0.0 : -f * from_left_m, f, camera.cy_px);
 }
 
-std::string key_without_place(const worlds::Scenario& scenario) {
-  const vision::StereoRig& rig = scenario.rig;
-  if (!(rig.distortion == vision::Distortion{.pixel_aspect = rig.distortion.pixel_aspect}))
-    return "rig.distortion";
-  if (rig.distortion.pixel_aspect != 1.0) return "rig.pixel_aspect";
-  if (!rig.right_turn_rad.isZero(0.0)) return "rig.right_turn_deg";
-  if (calibration_yaml(scenario.believed_rig) != calibration_yaml(rig)) return "believed_rig";
-  if (scenario.shutter.readout_s != 0.0) return "shutter.readout_s";
-  if (scenario.shutter.right_delay_s != 0.0) return "shutter.right_delay_s";
-  return {};
+std::string kitti_projections(const vision::StereoRig& rig, int first) {
+  std::string lines;
+  for (int camera = first; camera < 4; ++camera)
+    lines += fmt::format("P{}: {}\n", camera, projection_row(rig, camera % 2 == 0 ? 0.0 : rig.baseline_m));
+  return lines;
+}
+
+cv::Mat grey_of(const cv::Mat& picture) {
+  cv::Mat grey;
+  cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+cv::Mat disparity_of(DatasetPair& pair, Side side) {
+  return renderer::disparity_px(pair.to_other_camera(side), side);
+}
+
+cv::Mat seen_by_both(DatasetPair& pair, Side side) {
+  constexpr int kThisOneAlone = 128;
+  const renderer::Correspondence& found = pair.to_other_camera(side);
+  cv::Mat mask(found.occlusion.size(), CV_8UC1, cv::Scalar(kThisOneAlone));
+  mask.setTo(255, found.occlusion == static_cast<std::uint8_t>(renderer::Occlusion::kSeen));
+  mask.setTo(0, found.occlusion == static_cast<std::uint8_t>(renderer::Occlusion::kNothing));
+  return mask;
+}
+
+std::string middlebury_calibration(const vision::StereoRig& rig, const cv::Mat& disparity_px) {
+  constexpr double kMm = 1000.0;
+  const vision::Intrinsics& camera = rig.intrinsics;
+  const std::string matrix =
+      fmt::format("[{0} 0 {1}; 0 {0} {2}; 0 0 1]", camera.focal_px, camera.cx_px, camera.cy_px);
+  double least = 0.0, most = 0.0;
+  const cv::Mat there = disparity_px < std::numeric_limits<float>::infinity();
+  if (cv::countNonZero(there) > 0) cv::minMaxLoc(disparity_px, &least, &most, nullptr, nullptr, there);
+  const auto from = static_cast<int>(std::floor(least)), to = static_cast<int>(std::ceil(most));
+  return fmt::format(
+      "cam0={0}\ncam1={0}\ndoffs=0\nbaseline={1}\nwidth={2}\nheight={3}\nndisp={4}\nisint=0\nvmin={5}\n"
+      "vmax={6}\ndyavg=0\ndymax=0\n",
+      matrix, kMm * rig.baseline_m, camera.width_px, camera.height_px, to + 1, from, to);
 }
 
 }  // namespace stereobench::harness

@@ -187,21 +187,40 @@ INSTANTIATE_TEST_SUITE_P(Options, OtherRendering,
                                          OtherOption{"Detector", {"--detector", "true"}, "detector"},
                                          OtherOption{"Set", {"--set", "camera.gain=1.5"}, "set"},
                                          OtherOption{"Truth", {"--truth", "balls"}, "truth"},
-                                         OtherOption{"Format", {"--format", "kitti"}, "format"}),
+                                         OtherOption{"Format", {"--format", "tum"}, "format"}),
                          [](const auto& test) { return test.param.name; });
 
 // Mutations: the default format whatever is asked for; ids claimed of a data set that has none.
 TEST(RenderCommand, WritesTheFormatThatIsAskedFor) {
   const TestFolder scratch;
   const fs::path out = scratch.path() / "out";
-  const Outcome outcome = render_to(out, {"--frames", "1", "--format", "kitti"});
+  const Outcome outcome = render_to(out, {"--frames", "1", "--format", "kitti-stereo"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("1 stereo pairs with disparity and calibration as in KITTI stereo 2015 in "));
+  EXPECT_THAT(outcome.out, HasSubstr("1 stereo pairs with disparity, as in KITTI stereo 2015 in "));
   EXPECT_TRUE(fs::exists(out / "disp_occ_0/000001_10.png"));
   EXPECT_FALSE(fs::exists(out / "left"));
-  EXPECT_EQ(marker_of(out)["format"], "kitti");
-  EXPECT_THAT(render_to(out, {"--frames", "1", "--format", "kitti"}).out, HasSubstr("is left as it is"));
+  EXPECT_EQ(marker_of(out)["format"], "kitti-stereo");
+  EXPECT_THAT(render_to(out, {"--frames", "1", "--format", "kitti-stereo"}).out,
+              HasSubstr("is left as it is"));
+}
+
+// Law: each of several formats is what it is alone. Mutations: files of both in one folder; the truth of the
+// plain one in the identity of the other; what is complete written again.
+TEST(RenderCommand, WritesSeveralFormatsOfOneDrive) {
+  const TestFolder scratch;
+  const fs::path both = scratch.path() / "both", alone = scratch.path() / "alone";
+  const Outcome outcome = render_to(both, {"--frames", "1", "--format", "tum,plain", "--truth", "flow"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("both/tum/"), HasSubstr("both/plain/")));
+  ASSERT_EQ(render_to(alone / "tum", {"--frames", "1", "--format", "tum"}).exit_code, 0);
+  ASSERT_EQ(render_to(alone / "plain", {"--frames", "1", "--truth", "flow"}).exit_code, 0);
+  EXPECT_EQ(files_of(both), files_of(alone));
+  fs::remove(both / "tum/groundtruth.txt");
+  const auto written = fs::last_write_time(both / "plain/frames.csv");
+  EXPECT_THAT(render_to(both, {"--frames", "1", "--format", "tum,plain", "--truth", "flow"}).out,
+              AllOf(HasSubstr("1 stereo pairs"), HasSubstr("plain/ is complete and is left as it is")));
+  EXPECT_EQ(files_of(both), files_of(alone));
+  EXPECT_EQ(fs::last_write_time(both / "plain/frames.csv"), written);
 }
 
 // Mutations: found out after rendering (a folder is there); another exit code.
@@ -210,10 +229,12 @@ TEST(RenderCommand, RefusesFormatsThatThereAreNotOrThatCannotHoldIt) {
   const fs::path out = scratch.path() / "out";
   using Words = std::vector<std::string>;
   for (const auto& [words, complaint] :
-       {std::pair(Words{"--format", "kity"}, "no format is called 'kity', did you mean kitti?; there are"),
-        std::pair(Words{"--format", "kitti", "--set", "rig.right_turn_deg=[0,0.1,0]"},
-                  "--format kitti: has no place for rig.right_turn_deg;"),
-        std::pair(Words{"--format", "kitti", "--truth", "flow"}, "has no place for --truth;")}) {
+       {std::pair(Words{"--format", "tun"}, "no format is called 'tun', did you mean tum?; there are"),
+        std::pair(Words{"--format", "kitti-stereo", "--set", "rig.right_turn_deg=[0,0.1,0]"},
+                  "the format kitti-stereo has no place for rig.right_turn_deg;"),
+        std::pair(Words{"--format", "tum,tum"}, "--format: 'tum' stands there twice"),
+        std::pair(Words{"--format", "tum,eth3d", "--truth", "flow"},
+                  "--truth: tum has a place for what is its own alone; add the format plain")}) {
     const Outcome outcome = render_to(out, words);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr(complaint));

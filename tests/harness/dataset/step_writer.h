@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "harness/dataset/formats/format_registry.h"
-#include "harness/dataset/frame_truth.h"
 #include "harness/dataset/rendered_dataset.h"
+#include "harness/dataset/truth/frame_truth.h"
 #include "tests/test_folder.h"
 
 namespace stereobench::harness {
@@ -35,7 +35,8 @@ class StepWriter {
       : scenario_(scenario),
         renderer_(scenario.world, scenario.rig),
         truth_(scenario, scenario.world, renderer::read_form),
-        writer_(format.make({scenario, scenario.world, 0, {}, request})),
+        drive_(drive_of(scenario, scenario.world, 0, {}, request)),
+        writer_(format.make(drive_)),
         dataset_(folder.path(), {{"seed", 0}}) {}
 
   void write(std::size_t step, const renderer::StereoFrame& seen, double late_s = 0.0) {
@@ -49,17 +50,20 @@ class StepWriter {
                               .late_s = late_s,
                               .renderer = &renderer_};
     truth_.look_at(event);
-    dataset_.write(step, writer_->frame_files(event, truth_));
+    dataset_.write(step, writer_->frame_files(truth_));
   }
   void finish() {
-    const MeasurementLog one_step{.start = {}, .steps = {{.truth = slam::Pose{}}}, .landmarks = {}};
-    dataset_.finish(writer_->drive_files(one_step), {});
+    MeasurementLog log = {.start = scenario_.path.front().pose, .steps = {}, .landmarks = {}};
+    for (const worlds::PathStep& step : scenario_.path)
+      log.steps.push_back({.stamp_ns = step.stamp_ns, .odometry = step.controls, .truth = step.pose});
+    dataset_.finish(writer_->drive_files(log), {});
   }
 
  private:
   const worlds::Scenario& scenario_;
   renderer::Renderer renderer_;
   FrameTruth truth_;
+  DatasetDrive drive_;
   std::unique_ptr<DatasetWriter> writer_;
   RenderedDataset dataset_;
 };

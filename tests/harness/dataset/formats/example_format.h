@@ -17,10 +17,12 @@ namespace stereobench::harness {
 // left/TIME.png and right/TIME.png, named by their time in seconds, and groundtruth.txt.
 class ExampleWriter final : public DatasetWriter {
  public:
-  std::vector<DatasetFile> frame_files(const FrameEvent& event, FrameTruth&) const override {
-    const std::string time = seconds_of(event.stamp_ns);
-    return {picture_file("left/" + time + ".png", event.pair.left),
-            picture_file("right/" + time + ".png", event.pair.right)};
+  explicit ExampleWriter(const DatasetDrive& drive) : drive_(drive) {}
+
+  std::vector<DatasetFile> frame_files(DatasetPair& pair) const override {
+    const std::string time = seconds_of(drive_.steps[pair.step()].stamp_ns);
+    return {camera_file("left/" + time + ".png", pair, vision::Side::kLeft),
+            camera_file("right/" + time + ".png", pair, vision::Side::kRight)};
   }
 
   std::vector<DatasetFile> drive_files(const MeasurementLog& log) const override {
@@ -33,10 +35,15 @@ class ExampleWriter final : public DatasetWriter {
     }
     return {text_file("groundtruth.txt", text)};
   }
+
+ private:
+  const DatasetDrive& drive_;
 };
 
 inline constexpr DatasetFormat kExampleFormat = {
-    "example", "a trajectory", [](const worlds::Scenario&, const TruthRequest&) {},
-    [](const DatasetDrive&) -> std::unique_ptr<DatasetWriter> { return std::make_unique<ExampleWriter>(); }};
+    "example", "a trajectory", "", [](const DatasetDrive&) {},
+    [](const DatasetDrive& drive) -> std::unique_ptr<DatasetWriter> {
+      return std::make_unique<ExampleWriter>(drive);
+    }};
 
 }  // namespace stereobench::harness

@@ -1,0 +1,54 @@
+#include "harness/io/float_picture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "harness/io/text_file.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr int kLongest_px = 1 << 15;
+
+[[noreturn]] void refuse_map(const std::filesystem::path& file, const char* why) {
+  throw std::runtime_error(fmt::format("{}: {}", file.string(), why));
+}
+
+void reverse_bytes(cv::Mat& rows) {
+  for (auto* word = rows.datastart; word != rows.dataend; word += sizeof(float))
+    std::reverse(const_cast<uchar*>(word), const_cast<uchar*>(word) + sizeof(float));
+}
+
+}  // namespace
+
+cv::Mat read_float_picture(const std::filesystem::path& file) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::string bytes = read_text(file);
+  std::istringstream header(bytes.substr(0, std::min<std::size_t>(bytes.size(), 200)));
+  std::string kind;
+  int width = 0, height = 0;
+  double scale = 0.0;
+  header >> kind >> width >> height >> scale;
+  if (!header || (kind != "Pf" && kind != "PF") || scale == 0.0)
+    refuse_map(file, "is no portable float map (PFM)");
+  if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px)
+    refuse_map(file, "has no size that a picture may have");
+  const std::size_t begin = static_cast<std::size_t>(header.tellg()) + 1;
+  cv::Mat rows(height, width, kind == "Pf" ? CV_32FC1 : CV_32FC3);
+  const std::size_t size = rows.total() * rows.elemSize();
+  if (bytes.size() != begin + size) refuse_map(file, "is cut short, or longer than it says");
+  std::memcpy(rows.data, bytes.data() + begin, size);
+  if (scale > 0.0) reverse_bytes(rows);
+  cv::Mat picture;
+  cv::flip(rows, picture, 0);  // the lowest row comes first
+  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);
+  return picture;
+}
+
+}  // namespace stereobench::harness

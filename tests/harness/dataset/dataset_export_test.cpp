@@ -1,0 +1,136 @@
+#include "harness/dataset/dataset_export.h"
+
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "harness/dataset/drive_json.h"
+#include "harness/dataset/seed_render.h"
+#include "tests/harness/dataset/formats/written_drive.h"
+
+namespace stereobench::harness {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::map<std::string, std::string> bytes_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    files[fs::relative(entry.path(), folder).generic_string()] = {std::istreambuf_iterator<char>(stream),
+                                                                  std::istreambuf_iterator<char>()};
+  }
+  return files;
+}
+
+/// A drive of odd numbers, rendered in the format plain, and in another one.
+class RenderedTwice {
+ public:
+  explicit RenderedTwice(const DatasetFormat& format, const std::string& truth = "balls,disparity,flow",
+                         TruthFormat truth_format = TruthFormat::kExact) {
+    const worlds::Scenario& scenario = experiment_.scenario;
+    nlohmann::ordered_json identity = {{"stereobench", STEREOBENCH_VERSION},
+                                       {"seed", 3},
+                                       {kDrive, drive_json(drive_of(scenario, scenario.world, 3))}};
+    RenderTask task = {.experiment = &experiment_,
+                       .seed = 3,
+                       .frames = {},
+                       .truth = {truth.empty() ? std::vector<TruthKind>() : parse_truth(truth), truth_format},
+                       .datasets = {}};
+    nlohmann::ordered_json plain = identity, other = identity;
+    for (const TruthKind kind : task.truth.kinds) plain["truth"].push_back(name_of(kind));
+    if (truth_format == TruthFormat::kKitti) plain["truth_format"] = "kitti";
+    other["format"] = format.name;
+    task.datasets = {{&dataset_formats().front(), folder("plain"), plain},
+                     {&format, folder("rendered"), other}};
+    render_seeds({task}, 1, "");
+  }
+  fs::path folder(const std::string& name) const { return folder_.path() / name; }
+  const TestFolder& files() const { return folder_; }
+
+ private:
+  static worlds::Scenario odd_drive() {
+    worlds::Scenario scenario = tilted_drive();
+    scenario.rig.intrinsics.focal_px = 140.1;
+    scenario.rig.height_m = 0.31;
+    scenario.believed_rig = scenario.rig;
+    for (std::size_t i = 0; i < scenario.path.size(); ++i)
+      scenario.path[i].pose.y_m = 0.1 / 3.0 * static_cast<double>(i);
+    return scenario;
+  }
+  TestFolder folder_;
+  Experiment experiment_ = {.scenario = odd_drive()};
+};
+
+class EveryExport : public testing::TestWithParam<DatasetFormat> {};
+
+// Law: what is exported is what would have been rendered, to the byte, dataset.json and all. Mutations: the
+// right camera's flow for the left one's; numbers of four digits; the time of the step before.
+TEST_P(EveryExport, IsWhatWouldHaveBeenRendered) {
+  const RenderedTwice drive(GetParam());
+  const auto written =
+      export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {});
+  EXPECT_EQ(written.front().pairs, 3);
+  const auto rendered = bytes_in(drive.folder("rendered")), exported = bytes_in(drive.folder("exported"));
+  for (const auto& [name, bytes] : rendered) {
+    ASSERT_TRUE(exported.contains(name)) << name;
+    EXPECT_TRUE(exported.at(name) == bytes) << name;
+  }
+  EXPECT_EQ(rendered.size(), exported.size());
+  EXPECT_TRUE(export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {})
+                  .front()
+                  .was_complete);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryExport,
+                         testing::ValuesIn(dataset_formats().begin() + 1, dataset_formats().end()),
+                         [](const auto& test) {
+                           std::string name(test.param.name);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+std::string complaint_of(const fs::path& folder, const char* format, const fs::path& out) {
+  try {
+    export_dataset(folder, {&dataset_format(format)}, out, [](double) {});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// Mutations: found out after the first pair was written; disparities of 1/256 px taken for exact.
+TEST(DatasetExport, NeedsTheTruthThatTheFormatHas) {
+  const RenderedTwice without(dataset_format("tum"), "");
+  EXPECT_THAT(complaint_of(without.folder("plain"), "middlebury", without.folder("out")),
+              HasSubstr("has no disparity in the format exact; render it with --truth disparity"));
+  EXPECT_FALSE(fs::exists(without.folder("out")));
+  EXPECT_EQ(complaint_of(without.folder("plain"), "euroc", without.folder("out")), "none");
+  const RenderedTwice coarse(dataset_format("tum"), "disparity", TruthFormat::kKitti);
+  EXPECT_THAT(complaint_of(coarse.folder("plain"), "middlebury", coarse.folder("out")),
+              HasSubstr("has no disparity in the format exact; render it with --truth disparity"));
+}
+
+// Mutations: a flipped bit is exported; another format is read as if it were plain.
+TEST(DatasetExport, RefusesWhatIsNotAsItWasRendered) {
+  const RenderedTwice drive(dataset_format("tum"));
+  EXPECT_THAT(complaint_of(drive.folder("rendered"), "euroc", drive.folder("out")),
+              HasSubstr("format: expected none"));
+  EXPECT_THAT(complaint_of(drive.folder("nowhere"), "euroc", drive.folder("out")),
+              HasSubstr("expected a whole data set"));
+  std::string picture = drive.files().read("plain/right/000001.png");
+  picture.back() = static_cast<char>(picture.back() ^ 1);
+  drive.files().write("plain/right/000001.png", picture);
+  EXPECT_THAT(
+      complaint_of(drive.folder("plain"), "euroc", drive.folder("out")),
+      HasSubstr(
+          "1 files are missing or not as they were rendered (the first: right/000001.png); render it again"));
+  EXPECT_FALSE(fs::exists(drive.folder("out")));
+}
+
+}  // namespace
+}  // namespace stereobench::harness
