@@ -15,6 +15,7 @@
 #include "harness/experiment/experiment.h"
 #include "harness/experiment/filter_config.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/text_file.h"
 #include "harness/io/text_table.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
@@ -152,6 +153,17 @@ std::string repetition(const Experiment& experiment, std::uint64_t number,
   return said.dump();
 }
 
+/// The same, kept in a folder for a study that is stopped and goes on: the folder is one study's.
+std::string kept_repetition(const Experiment& experiment, std::uint64_t number,
+                            const std::filesystem::path& keep, const std::function<void(double)>& report) {
+  if (keep.empty()) return repetition(experiment, number, std::filesystem::temp_directory_path(), report);
+  const std::filesystem::path file = keep / fmt::format("repetition_{}.json", number);
+  if (std::filesystem::exists(file)) return read_text(file);
+  std::string said = repetition(experiment, number, keep, report);
+  write_file_atomically(file, said);
+  return said;
+}
+
 /// What came out of one variant over all repetitions.
 struct Tally {
   long repetitions = 0;
@@ -218,7 +230,8 @@ void print(const std::vector<Variant>& variants, const std::vector<Tally>& talli
 }
 
 int run_study(const std::filesystem::path& scenario, const std::string& detector, std::size_t repetitions,
-              int jobs) {
+              int jobs, const std::filesystem::path& keep) {
+  if (!keep.empty()) prepare_output_folder(keep);
   Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
   experiment.detector.command = detector;
   std::vector<Variant> variants = faulty_variants();
@@ -229,7 +242,7 @@ int run_study(const std::filesystem::path& scenario, const std::string& detector
   run_in_order(
       repetitions, jobs,
       [&](std::size_t index, const std::function<void(double)>& report) {
-        return repetition(experiment, index, std::filesystem::temp_directory_path(), report);
+        return kept_repetition(experiment, index, keep, report);
       },
       [&](std::size_t index, const std::string& answer) {
         const auto said = nlohmann::json::parse(answer);
@@ -260,6 +273,9 @@ int main(int argc, char** argv) {
   program.add_option("--detector", detector, "command of a program in place of our detector");
   program.add_option("--repetitions", repetitions, "how often each fault is planted")->capture_default_str();
   program.add_option("--jobs", jobs, "processes at a time")->capture_default_str();
+  std::filesystem::path keep;
+  program.add_option("--keep", keep,
+                     "folder that keeps what is finished, for a study that is stopped and goes on");
   CLI11_PARSE(program, argc, argv);
-  return stereobench::harness::run_study(scenario, detector, repetitions, jobs);
+  return stereobench::harness::run_study(scenario, detector, repetitions, jobs, keep);
 }
