@@ -8,6 +8,7 @@
 #include "harness/dataset/draws_file.h"
 #include "harness/drive/shutter.h"
 #include "harness/logs/measurement_log_writer.h"
+#include "harness/types.h"
 #include "worlds/drive/path.h"
 
 namespace stereobench::harness {
@@ -47,6 +48,14 @@ std::vector<std::size_t> steps_with_pictures(const DatasetDrive& drive) {
   for (std::size_t step = 0; step < drive.steps.size(); ++step)
     if (drive.steps[step].pictures) steps.push_back(step);
   return steps;
+}
+
+double pairs_per_second(const DatasetDrive& drive) {
+  const std::vector<std::size_t> taken = steps_with_pictures(drive);
+  if (taken.size() < 2) return 0.0;
+  const auto whole_ns = drive.steps[taken.back()].stamp_ns - drive.steps[taken.front()].stamp_ns;
+  return static_cast<double>(taken.size() - 1) * static_cast<double>(kSecond_ns) /
+         static_cast<double>(whole_ns);
 }
 
 std::string frames_csv(const DatasetDrive& drive) {

@@ -51,6 +51,9 @@ inline constexpr std::int64_t kEpoch_ns = 1'500'000'000 * std::int64_t{1'000'000
 /// The steps that have pictures, in order.
 std::vector<std::size_t> steps_with_pictures(const DatasetDrive& drive);
 
+/// How many pairs there are a second, on average; 0 for fewer than two.
+double pairs_per_second(const DatasetDrive& drive);
+
 /// A line for each step of a drive: its number and time; whether there are pictures of it; by how much later
 /// than that time the cameras looked; and the robot's true pose when the left one did (its middle row,
 /// halfway through the exposure), and when the right one did. Of a step without pictures, the last seven are

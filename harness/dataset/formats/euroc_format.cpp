@@ -13,13 +13,10 @@ namespace {
 
 using vision::Side;
 
-/// Pictures a second, on average; a line of sensor.yaml where there are two at least.
+/// A line of sensor.yaml; none where there is no rate.
 std::string rate_line(const DatasetDrive& drive) {
-  const std::vector<std::size_t> taken = steps_with_pictures(drive);
-  if (taken.size() < 2) return "";
-  const auto whole_ns = drive.steps[taken.back()].stamp_ns - drive.steps[taken.front()].stamp_ns;
-  return fmt::format("rate_hz: {}\n", static_cast<double>(taken.size() - 1) *
-                                          static_cast<double>(kSecond_ns) / static_cast<double>(whole_ns));
+  const double rate_hz = pairs_per_second(drive);
+  return rate_hz > 0.0 ? fmt::format("rate_hz: {}\n", rate_hz) : "";
 }
 
 /// How a sensor is placed on the robot, as all of the layout's sensor.yaml begin.

@@ -17,6 +17,7 @@
 #include "harness/dataset/formats/plain_format.h"
 #include "harness/dataset/formats/sceneflow_format.h"
 #include "harness/dataset/formats/tum_format.h"
+#include "harness/dataset/formats/vslamlab_format.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -39,6 +40,7 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"eth3d", "disparity, as in ETH3D's two-view benchmark", "disparity", check_eth3d_format, eth3d_writer},
     {"sceneflow", "disparity, flow and poses, as in Scene Flow's Monkaa", "disparity,flow",
      check_sceneflow_format, sceneflow_writer},
+    {"vslamlab", "poses, as VSLAM-LAB has them", "", check_vslamlab_format, vslamlab_writer},
 });
 
 }  // namespace
