@@ -7,7 +7,6 @@
 #include <string>
 
 #include <png.h>
-#include <zlib.h>
 
 #include "renderer/pictures/picture_formats.h"
 
@@ -19,10 +18,8 @@ namespace {
 struct Work {
   PictureBytes input;
   int longest_px = 0;
-  std::vector<std::uint8_t> output;
   cv::Mat picture;
   std::vector<png_bytep> rows;
-  PngPacking packing = PngPacking::kRuns;
   std::string complaint;
   SaidOfLevels said = SaidOfLevels::kNothing;
 
@@ -36,11 +33,6 @@ void take(png_structp png, png_bytep to, std::size_t size) {
   if (size > input.size()) png_error(png, "it is cut short");
   std::copy_n(input.begin(), size, to);
   input = input.subspan(size);
-}
-
-void put(png_structp png, png_bytep from, std::size_t size) {
-  std::vector<std::uint8_t>& output = static_cast<Work*>(png_get_io_ptr(png))->output;
-  output.insert(output.end(), from, from + size);
 }
 
 [[noreturn]] void complain(png_structp png, png_const_charp why) {
@@ -80,26 +72,6 @@ void read_note(png_structp png, png_infop info, Work& work) {
                                                       : SaidOfLevels::kNothing;
 }
 
-void write(png_structp png, png_infop info, Work& work) {
-  const cv::Mat& picture = work.picture;
-  const int colour = picture.channels() == 1   ? PNG_COLOR_TYPE_GRAY
-                     : picture.channels() == 3 ? PNG_COLOR_TYPE_RGB
-                                               : PNG_COLOR_TYPE_RGBA;
-  png_set_write_fn(png, &work, put, nullptr);
-  const bool packed = work.packing == PngPacking::kRuns;
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, packed ? PNG_FILTER_SUB : PNG_FILTER_NONE);
-  png_set_compression_level(png, packed ? Z_BEST_SPEED : Z_NO_COMPRESSION);
-  png_set_compression_strategy(png, Z_RLE);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.cols), static_cast<png_uint_32>(picture.rows),
-               picture.depth() == CV_8U ? 8 : 16, colour, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  png_set_bgr(png);
-  png_set_swap(png);  // 16 bits: PNG has the higher byte first
-  png_write_image(png, work.rows.data());
-  png_write_end(png, info);
-}
-
 /// @return false where libpng has jumped back
 bool runs(void (*function)(png_structp, png_infop, Work&), png_structp png, png_infop info, Work& work) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -131,22 +103,6 @@ SaidOfLevels said_by_png(PictureBytes bytes) {
   Work work{.input = bytes};
   const Reader reader(work);
   return runs(read_note, reader.png, reader.info, work) ? work.said : SaidOfLevels::kNothing;
-}
-
-std::vector<std::uint8_t> encode_png(const cv::Mat& picture, PngPacking packing) {
-  const int channels = picture.channels();
-  const bool suitable = !picture.empty() && (picture.depth() == CV_8U || picture.depth() == CV_16U) &&
-                        (channels == 1 || channels == 3 || channels == 4);
-  if (!suitable)
-    throw std::invalid_argument("encode_png: not a picture of 8 or 16 bits and 1, 3 or 4 channels");
-  Work work{.picture = picture, .packing = packing};
-  work.point_at_rows();
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &work, complain, pass_over);
-  png_infop info = png_create_info_struct(png);
-  const bool written = runs(write, png, info, work);
-  png_destroy_write_struct(&png, &info);
-  if (!written) throw std::runtime_error("cannot be written as PNG: " + work.complaint);
-  return std::move(work.output);
 }
 
 }  // namespace stereobench::renderer

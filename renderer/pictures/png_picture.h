@@ -10,7 +10,7 @@ namespace stereobench::renderer {
 
 /// How hard a PNG is packed.
 enum class PngPacking {
-  kRuns,   ///< runs of equal differences between neighbours: for what is kept
+  kRuns,   ///< differences between neighbours, their runs and frequent ones short: for what is kept
   kStored  ///< not at all: for what is read once. Twice the size, in a fifth of the time
 };
 

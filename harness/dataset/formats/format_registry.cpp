@@ -9,15 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/dataset/formats/eth3d_format.h"
-#include "harness/dataset/formats/euroc_format.h"
-#include "harness/dataset/formats/kitti_odometry_format.h"
-#include "harness/dataset/formats/kitti_stereo_format.h"
-#include "harness/dataset/formats/middlebury_format.h"
+#include "harness/dataset/formats/odometry/euroc_format.h"
+#include "harness/dataset/formats/odometry/kitti_odometry_format.h"
+#include "harness/dataset/formats/odometry/tum_format.h"
+#include "harness/dataset/formats/odometry/vslamlab_format.h"
 #include "harness/dataset/formats/plain_format.h"
-#include "harness/dataset/formats/sceneflow_format.h"
-#include "harness/dataset/formats/tum_format.h"
-#include "harness/dataset/formats/vslamlab_format.h"
+#include "harness/dataset/formats/stereo/eth3d_format.h"
+#include "harness/dataset/formats/stereo/kitti_stereo_format.h"
+#include "harness/dataset/formats/stereo/middlebury_format.h"
+#include "harness/dataset/formats/stereo/sceneflow_format.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {

@@ -242,16 +242,26 @@ TEST(PictureReader, TakesNoBmpAtItsWord) {
   EXPECT_EQ(bmp_with(30, 1), "is a packed BMP, which cannot be read");
 }
 
-// Frames keep their bytes: those of OpenCV's writer, by which they were written before.
-TEST(Png, IsWrittenByteForByteAsOpenCvWritesIt) {
-  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3}) {
-    const cv::Mat picture = random_picture(101, 67, type, 9);
-    File expected;
-    cv::imencode(".png", picture, expected);
-    EXPECT_EQ(encode_png(picture), expected) << cv::typeToString(type);
-  }
+// Mutations: blue first; the lower byte of 16 bits first; differences to the pixel's own channels before.
+TEST(Png, IsReadByOpenCvAsItWasWritten) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3, CV_16UC4})
+    for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 40), cv::Size(40, 1), cv::Size(101, 67)}) {
+      const cv::Mat noise = random_picture(size.width, size.height, type, 9),
+                    flat = cv::Mat::ones(size, type);
+      for (const cv::Mat& picture : {noise, flat})
+        EXPECT_EQ(cv::norm(cv::imdecode(encode_png(picture), cv::IMREAD_UNCHANGED), picture, cv::NORM_INF),
+                  0.0)
+            << cv::typeToString(type) << size;
+    }
   const cv::Mat part = random_picture(101, 67, CV_8UC3, 10)(cv::Rect(5, 6, 20, 30));
   EXPECT_EQ(encode_png(part), encode_png(part.clone())) << "rows that do not follow each other";
+}
+
+// Noise cannot be packed. Mutation: it is all the same, and longer than it was.
+TEST(Png, IsNeverMuchLargerThanItsPixels) {
+  const cv::Mat noise = random_picture(301, 200, CV_16UC3, 11);
+  EXPECT_LT(static_cast<double>(encode_png(noise).size()), 1.01 * 301 * 200 * 6);
+  EXPECT_LT(encode_png(cv::Mat::zeros(200, 301, CV_16UC3)).size(), 3000U);
 }
 
 // Its bytes are those of the pixels, a filter's byte for each row, and less than a hundredth of headers.

@@ -1,11 +1,11 @@
 /// Middlebury's layout, and ETH3D's, which has the same files in other places.
-#include "harness/dataset/formats/middlebury_format.h"
+#include "harness/dataset/formats/stereo/middlebury_format.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "harness/dataset/formats/eth3d_format.h"
+#include "harness/dataset/formats/stereo/eth3d_format.h"
 #include "tests/harness/dataset/formats/written_drive.h"
 
 namespace stereobench::harness {

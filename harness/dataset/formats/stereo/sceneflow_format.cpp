@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/sceneflow_format.h"
+#include "harness/dataset/formats/stereo/sceneflow_format.h"
 
 #include <limits>
 

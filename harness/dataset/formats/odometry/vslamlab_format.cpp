@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/vslamlab_format.h"
+#include "harness/dataset/formats/odometry/vslamlab_format.h"
 
 #include <fmt/format.h>
 

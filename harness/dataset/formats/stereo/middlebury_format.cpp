@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/middlebury_format.h"
+#include "harness/dataset/formats/stereo/middlebury_format.h"
 
 #include <fmt/format.h>
 

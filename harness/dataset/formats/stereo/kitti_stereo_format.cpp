@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/kitti_stereo_format.h"
+#include "harness/dataset/formats/stereo/kitti_stereo_format.h"
 
 #include <algorithm>
 #include <limits>

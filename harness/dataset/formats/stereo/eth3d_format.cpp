@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/eth3d_format.h"
+#include "harness/dataset/formats/stereo/eth3d_format.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/tum_format.h"
+#include "harness/dataset/formats/odometry/tum_format.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/vslamlab_format.h"
+#include "harness/dataset/formats/odometry/vslamlab_format.h"
 
 #include <gmock/gmock.h>
 #include <yaml-cpp/yaml.h>

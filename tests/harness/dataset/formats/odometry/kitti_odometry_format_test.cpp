@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/kitti_odometry_format.h"
+#include "harness/dataset/formats/odometry/kitti_odometry_format.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "harness/dataset/formats/euroc_format.h"
+#include "harness/dataset/formats/odometry/euroc_format.h"
 
 #include <gmock/gmock.h>
 
