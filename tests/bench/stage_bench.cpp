@@ -5,6 +5,7 @@
 
 #include "renderer/backend.h"
 #include "renderer/camera/expose.h"
+#include "renderer/pictures/png_picture.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/textured_scene.h"
 #include "vision/observe.h"
@@ -73,6 +74,18 @@ void observe_pair(benchmark::State& state, const Scene& scene, double noise_sd_l
   state.counters["balls"] = static_cast<double>(balls);
 }
 
+/// As PNG files, in memory.
+void pack_pair(benchmark::State& state, double noise_sd_levels, renderer::PngPacking packing) {
+  Bench bench(scenario_scene("ball_circle"));
+  const auto pair = renderer::expose(bench.frame, {.noise_sd_levels = noise_sd_levels}, 0, 0);
+  std::size_t bytes = 0;
+  bench.run(state, [&] {
+    bytes =
+        renderer::encode_png(pair.left, packing).size() + renderer::encode_png(pair.right, packing).size();
+  });
+  state.counters["bytes"] = static_cast<double>(bytes);
+}
+
 #define STEREOBENCH_STAGE(function, ...) \
   BENCHMARK_CAPTURE(function, __VA_ARGS__)->Unit(benchmark::kMillisecond)->UseManualTime()
 
@@ -90,6 +103,9 @@ STEREOBENCH_STAGE(render_pair_fine, corridor, scenario_scene("corridor"));
 STEREOBENCH_STAGE(expose_pair, noise_2, scenario_scene("ball_circle"), plain_noise());
 STEREOBENCH_STAGE(expose_pair, noise_2_and_vignette, scenario_scene("ball_circle"), noise_and_vignette());
 STEREOBENCH_STAGE(expose_pair, whole_camera, scenario_scene("ball_circle"), whole_camera());
+STEREOBENCH_STAGE(pack_pair, noise_0, 0.0, renderer::PngPacking::kRuns);
+STEREOBENCH_STAGE(pack_pair, noise_2, 2.0, renderer::PngPacking::kRuns);
+STEREOBENCH_STAGE(pack_pair, noise_2_stored, 2.0, renderer::PngPacking::kStored);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_2, eighteen_balls(), 2.0);
 STEREOBENCH_STAGE(observe_pair, eighteen_balls_noise_8, eighteen_balls(), 8.0);
 STEREOBENCH_STAGE(observe_pair, hundred_balls_noise_2, hundred_balls(), 2.0);
