@@ -111,24 +111,28 @@ void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
 void RenderedDataset::write(std::size_t step, const std::vector<DatasetFile>& files) {
   begin(files);
   frames_.insert(step);
+  AtomicFiles written;
   for (const DatasetFile& file : files) {
     names_.insert(file.name);
-    if (!std::filesystem::exists(folder_ / file.name))
-      write_file_atomically(folder_ / file.name, file.bytes());
+    if (!std::filesystem::exists(folder_ / file.name)) written.write(folder_ / file.name, file.bytes());
   }
+  written.move_into_place();
 }
 
 void RenderedDataset::finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur) {
   begin(files);
+  AtomicFiles written;
   for (const DatasetFile& file : files) {
     names_.insert(file.name);
-    write_file_atomically(folder_ / file.name, file.bytes());
+    written.write(folder_ / file.name, file.bytes());
   }
+  written.move_into_place();
   remove_leftovers(folder_);  // of one that was just dying when this one began
   nlohmann::ordered_json marker = identity_;
   marker[kFrames] = frames_;
   marker[kBlur] = blur_json(blur);
   marker[kFiles] = file_list(folder_, names_);
+  sync_file_system(folder_);  // dataset.json says that all of it is there
   write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
   std::filesystem::remove(folder_ / kUnfinished);
 }

@@ -150,13 +150,39 @@ void AtomicFile::append(std::string_view bytes) {
   }
 }
 
-void AtomicFile::move_into_place() {
-  if (fsync(descriptor_) != 0) fail(path_, "cannot be written", errno);
+void AtomicFile::rename_into_place() {
   if (close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot be written", errno);
   if (std::rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
   give_back(place_);
   is_moved_ = true;
+}
+
+void AtomicFile::move_into_place() {
+  if (fsync(descriptor_) != 0) fail(path_, "cannot be written", errno);
+  rename_into_place();
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
+}
+
+void AtomicFiles::write(const fs::path& path, std::string_view bytes) {
+  auto file = std::make_unique<AtomicFile>(path);
+  file->append(bytes);
+  files_.push_back(std::move(file));
+}
+
+void AtomicFiles::move_into_place() {
+  if (!files_.empty() && syncfs(files_.front()->descriptor_) != 0)
+    fail(files_.front()->path_, "cannot be written", errno);
+  for (const auto& file : files_) file->rename_into_place();
+  files_.clear();
+}
+
+void sync_file_system(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(folder, "cannot be opened", errno);
+  const bool is_synced = syncfs(descriptor) == 0;
+  const int error = errno;
+  close(descriptor);
+  if (!is_synced) fail(folder, "cannot be written", error);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stereobench::harness {
 
@@ -14,10 +16,11 @@ namespace stereobench::harness {
 void prepare_output_folder(const std::filesystem::path& folder);
 
 /// A file that is written part by part under a temporary name in the same folder, then synced and renamed: a
-/// program that is killed leaves the old file or the new one, never a part. A process writes few at a time.
+/// program that is killed leaves the old file or the new one, never a part. A process writes kMostAtATime at
+/// most at a time.
 class AtomicFile {
  public:
-  static constexpr std::size_t kMostAtATime = 4;
+  static constexpr std::size_t kMostAtATime = 64;
 
   /// @param path the file to write or to replace
   /// @throws std::runtime_error naming the path and the cause (missing folder, no permission), and so below
@@ -30,12 +33,34 @@ class AtomicFile {
   void move_into_place();
 
  private:
+  friend class AtomicFiles;
+  void rename_into_place();
+
   std::filesystem::path path_;
   std::string name_;
   std::size_t place_ = 0;  ///< among the unfinished files
   int descriptor_ = -1;
   bool is_moved_ = false;
 };
+
+/// Several AtomicFiles that are synced once, together: a sync costs more than writing a file.
+class AtomicFiles {
+ public:
+  /// Writes a whole file under a temporary name.
+  /// @throws std::runtime_error as AtomicFile
+  void write(const std::filesystem::path& path, std::string_view bytes);
+
+  /// Moves all of them into place. After a power cut some may be missing, but none is there in part: whoever
+  /// says that all are there first calls sync_file_system.
+  void move_into_place();
+
+ private:
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+};
+
+/// Makes what was written and moved on a folder's file system survive a power cut.
+/// @throws std::runtime_error naming the folder and the cause
+void sync_file_system(const std::filesystem::path& folder);
 
 /// Writes a whole file as an AtomicFile.
 /// @param path the file to write or to replace

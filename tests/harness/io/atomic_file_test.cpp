@@ -1,5 +1,8 @@
 #include "harness/io/atomic_file.h"
 
+#include <filesystem>
+#include <set>
+
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -51,10 +54,10 @@ TEST(AtomicFile, AReaderOfTheOldFileKeepsIt) {
   EXPECT_EQ(seen, "old");
 }
 
-// Mutation: a place that is not given back, after 4 files.
+// Mutation: a place that is not given back: there are none left after kMostAtATime files.
 TEST(AtomicFile, MayBeOneOfAFew) {
   const TestFolder folder;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 40; ++i) {
     AtomicFile one(folder.path() / "one"), other(folder.path() / "other");
     write_file_atomically(folder.path() / "third", "c");
     one.append("a");
@@ -108,6 +111,31 @@ TEST(AtomicFile, AFullDiskLeavesTheOldFileAndNoPart) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(folder.read("file"), "old");
   EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+// Mutations: each moved when it is written; what is not moved left behind.
+TEST(AtomicFiles, AreThereTogetherOrNotAtAll) {
+  const TestFolder folder;
+  const auto names_in = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      names.insert(entry.path().filename());
+    return names;
+  };
+  {
+    AtomicFiles files;
+    for (const char* name : {"a", "b", "c"}) files.write(folder.path() / name, name);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a"));
+    EXPECT_EQ(names_in().size(), 3U);
+    files.move_into_place();
+    EXPECT_EQ(names_in(), (std::set<std::string>{"a", "b", "c"}));
+    EXPECT_EQ(folder.read("b"), "b");
+    EXPECT_NO_THROW(sync_file_system(folder.path()));
+    files.write(folder.path() / "d", "d");
+    EXPECT_THROW(files.write(folder.path() / "nowhere" / "e", "e"), std::runtime_error);
+  }
+  EXPECT_EQ(names_in(), (std::set<std::string>{"a", "b", "c"}));
+  EXPECT_THROW(sync_file_system(folder.path() / "nowhere"), std::runtime_error);
 }
 
 TEST(OutputFolder, IsCreatedWithItsParentsAndMayExist) {
