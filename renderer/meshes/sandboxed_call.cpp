@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -114,14 +116,25 @@ class Child {
     return count > 0 || (count < 0 && errno == EINTR);
   }
 
-  /// @return whether there is something to read, or the child has ended, before then
-  bool has_news_before(Clock::time_point deadline) const {
+  /// Waits until there is something to read, or the child has ended.
+  /// @return false where it used up its time before
+  bool has_news_before(Clock::time_point deadline, std::chrono::duration<double> of_processor) const {
     for (;;) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-      if (left.count() <= 0) return false;
+      const std::chrono::duration<double> left =
+          std::min<std::chrono::duration<double>>(deadline - Clock::now(), of_processor - processor_time());
+      if (left.count() <= 0.0) return false;
       pollfd polled = {pipe_, POLLIN, 0};
-      if (::poll(&polled, 1, static_cast<int>(left.count())) > 0) return true;
+      const double milliseconds = std::clamp(std::ceil(1e3 * left.count()), 1.0, 1e6);
+      if (::poll(&polled, 1, static_cast<int>(milliseconds)) > 0) return true;
     }
+  }
+
+  /// @return what the child has used of processors; 0 once it has ended
+  std::chrono::duration<double> processor_time() const {
+    clockid_t clock{};
+    timespec used{};
+    if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return {};
+    return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
   }
 
   /// @return how it ended, once it has; it closes its pipe by ending
@@ -141,15 +154,15 @@ class Child {
 }  // namespace
 
 std::string call_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
-  const auto allowed = std::chrono::duration<double>(limits.seconds);
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed);
+  const std::chrono::duration<double> allowed(limits.seconds);
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(kPatience * allowed);
   Child child(work, limits);
   const auto starved = [&] {
     return std::runtime_error(fmt::format("needs more than {} MiB of memory", limits.memory_bytes >> 20U));
   };
   std::string bytes;
   do {
-    if (!child.has_news_before(deadline))
+    if (!child.has_news_before(deadline, allowed))
       throw std::runtime_error(fmt::format("takes longer than {:g} s", limits.seconds));
     if (bytes.size() > limits.memory_bytes) throw starved();
   } while (child.read(bytes));

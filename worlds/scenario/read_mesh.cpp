@@ -115,7 +115,8 @@ const Fields<MeshLimits>& mesh_limit_keys() {
       whole("triangles", 1, 100000000, "Triangles of a file, and of all instances in the world together.")
           .fills(&MeshLimits::triangles),
       whole("file_mib", 1, 65536, "Size of a mesh file, in MiB.").fills(&MeshLimits::file_mib),
-      number("seconds", {1e-3, 3600.0}, "Time to read a file, in seconds.").fills(&MeshLimits::seconds),
+      number("seconds", {1e-3, 3600.0}, "Processor time to read a file, in seconds.")
+          .fills(&MeshLimits::seconds),
       whole("memory_mib", 1, 1048576, "Memory to read a file, in MiB.").fills(&MeshLimits::memory_mib),
       whole("texture_px", 1, 32768, "Longer side of a texture, in pixels.").fills(&MeshLimits::texture_px),
       whole("texture_mib", 1, 512, "All textures of the world together, as they are drawn, in MiB.")
