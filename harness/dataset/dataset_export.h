@@ -14,10 +14,9 @@ namespace stereobench::harness {
 /// are copied as they are.
 /// @param out the folder, or of several formats the one that theirs lie in (folder_of)
 /// @return one for each format
-/// @throws std::runtime_error, one line, when the folder is no finished data set of the format `plain`, or
-/// one
-///   of its files is not as it was rendered; when a format has no place for something of it, or needs truth
-///   that it has not
+/// @throws std::runtime_error, one line, when the folder is no finished data set of the format
+///   `plain`, or one of its files is not as it was rendered; when a format has no place for something of it,
+///   or needs truth that it has not
 std::vector<WrittenDataset> export_dataset(const std::filesystem::path& dataset,
                                            const std::vector<const DatasetFormat*>& formats,
                                            const std::filesystem::path& out,

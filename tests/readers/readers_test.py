@@ -1,9 +1,8 @@
 """Data sets in other people's layouts, read by programs that nobody here wrote, beside the plain one.
 
 usage: readers_test.py STEREOBENCH SOURCE_DIR [OPENCV_SLAM_KITTI]; exits with 77 (skipped) where no reader is there:
-torchvision (Debian's python3-torchvision) and OpenCV's module `datasets`. Mutations that turn it red, each tried:
-disparities of the right camera; KITTI's with 128 levels a pixel; disp_occ_1 left out; masks exchanged; inverse poses;
-P1 with a positive offset.
+torchvision (Debian's python3-torchvision) and OpenCV's module `datasets`. Meant to catch: disparities of the right
+camera; KITTI's with 128 levels a pixel; disp_occ_1 left out; masks exchanged; inverse poses; P1 with a positive offset.
 """
 
 import json
