@@ -67,17 +67,20 @@ TEST(MiddleburyFormat, BoundsTheDisparities) {
 // Law: where both cameras see a point, the other picture's disparity there is the same. Mutations: occluded
 // pixels as seen; masks exchanged.
 TEST(MiddleburyFormat, SaysWhatBothCamerasSee) {
-  const WrittenDrive drive("middlebury");
+  worlds::Scenario under_the_sky = tilted_drive();
+  under_the_sky.world.walls.clear();
+  const WrittenDrive drive("middlebury", under_the_sky);
   const cv::Mat left = drive.picture("000001/disp0.pfm"), right = drive.picture("000001/disp1.pfm");
   for (const bool is_left : {true, false}) {
     const cv::Mat& here = is_left ? left : right;
     const cv::Mat& there = is_left ? right : left;
     const cv::Mat mask = drive.picture(is_left ? "000001/mask0nocc.png" : "000001/mask1nocc.png");
-    int both = 0, alone = 0, differ = 0;
+    int both = 0, alone = 0, nothing = 0, differ = 0;
     for (int v = 0; v < mask.rows; ++v)
       for (int u = 0; u < mask.cols; ++u) {
         const int level = mask.at<std::uint8_t>(v, u);
         ASSERT_EQ(level == 0, !std::isfinite(here.at<float>(v, u)));
+        nothing += level == 0 ? 1 : 0;
         alone += level == 128 ? 1 : 0;
         if (level != 255) continue;
         ++both;
@@ -88,6 +91,7 @@ TEST(MiddleburyFormat, SaysWhatBothCamerasSee) {
       }
     EXPECT_GT(both, 10000) << is_left;
     EXPECT_GT(alone, 100) << is_left;
+    EXPECT_GT(nothing, 1000) << is_left;
     EXPECT_LT(differ, 40) << is_left;  // pixels across an outline
   }
 }
