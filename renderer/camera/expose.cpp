@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace {
 constexpr int kFractionBits = 7;                // shifts are fixed-point numbers, in 1/128 levels
 constexpr double kLargestShift_levels = 255.0;  // clamps every pixel, as any larger shift would
 constexpr double kLargestDefocus_px = 100.0;
-constexpr std::size_t kBlocksAtOnce = 256;
+constexpr std::size_t kLevelsAtOnce = 2048;
+constexpr std::size_t kLanes = 8;  ///< levels that are shifted by one instruction
 
 using Shifts = std::vector<std::int16_t>;
 
@@ -41,33 +43,29 @@ void shift_levels(std::uint8_t* levels, const std::int16_t* shifts) {
   cv::v_pack_u_store(levels, (fixed + cv::v_load(shifts) + half) >> kFractionBits);
 }
 
-/// Shifts a whole number of blocks. Numbers are drawn for many blocks before they are added, because the
-/// processor cannot read eight numbers at once that it has just written one by one.
-void add_noise(std::uint8_t* levels, std::uint64_t first_block, std::size_t blocks, const NoiseBlocks& noise,
+/// Shifts a run of levels. They are drawn, looked up and added one step after another, because the processor
+/// cannot read eight numbers at once that it has just written one by one.
+/// @param first how many levels of the picture come before them
+void add_noise(std::span<std::uint8_t> levels, std::uint64_t first, const NoiseNumbers& noise,
                const Shifts& shifts) {
-  std::array<std::int16_t, kBlocksAtOnce * kNumbersPerBlock> drawn;
-  for (std::size_t i = 0; i < blocks; ++i) {
-    const auto numbers = noise(first_block + i);
-    for (std::size_t j = 0; j < kNumbersPerBlock; ++j) drawn[i * kNumbersPerBlock + j] = shifts[numbers[j]];
-  }
-  for (std::size_t i = 0; i < blocks; ++i) {
-    shift_levels(levels + i * kNumbersPerBlock, &drawn[i * kNumbersPerBlock]);
-  }
+  std::array<std::uint16_t, kLevelsAtOnce> numbers;
+  std::array<std::int16_t, kLevelsAtOnce> drawn{};
+  noise.draw(first, std::span(numbers).first(levels.size()));
+  for (std::size_t i = 0; i < levels.size(); ++i) drawn[i] = shifts[numbers[i]];
+  std::size_t done = 0;
+  for (; done + kLanes <= levels.size(); done += kLanes) shift_levels(&levels[done], &drawn[done]);
+  std::array<std::uint8_t, kLanes> rest{};  // the last levels, filled up
+  const std::span<std::uint8_t> last = levels.subspan(done);
+  std::ranges::copy(last, rest.begin());
+  if (!last.empty()) shift_levels(rest.data(), &drawn[done]);
+  std::copy_n(rest.begin(), last.size(), last.begin());
 }
 
-cv::Mat noisy(const cv::Mat& picture, const Shifts& shifts, const NoiseBlocks& noise) {
+cv::Mat noisy(const cv::Mat& picture, const Shifts& shifts, const NoiseNumbers& noise) {
   cv::Mat result = picture.clone();  // continuous, so that its bytes are one sequence
-  const std::size_t size = result.total() * result.elemSize();
-  const std::size_t whole = size / kNumbersPerBlock;
-  for (std::size_t block = 0; block < whole; block += kBlocksAtOnce) {
-    add_noise(result.ptr() + block * kNumbersPerBlock, block, std::min(kBlocksAtOnce, whole - block), noise,
-              shifts);
-  }
-  std::array<std::uint8_t, kNumbersPerBlock> rest{};  // the last bytes, filled up to a block
-  std::uint8_t* rest_of_picture = result.ptr() + whole * kNumbersPerBlock;
-  std::copy_n(rest_of_picture, size % kNumbersPerBlock, rest.begin());
-  add_noise(rest.data(), whole, 1, noise, shifts);
-  std::copy_n(rest.begin(), size % kNumbersPerBlock, rest_of_picture);
+  const std::span<std::uint8_t> levels(result.ptr(), result.total() * result.elemSize());
+  for (std::size_t first = 0; first < levels.size(); first += kLevelsAtOnce)
+    add_noise(levels.subspan(first, std::min(kLevelsAtOnce, levels.size() - first)), first, noise, shifts);
   return result;
 }
 
@@ -122,7 +120,7 @@ vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& 
   if (sensor.noise_sd_levels == 0.0) return {in_levels(left), in_levels(right)};
   const Shifts shifts = shifts_for(sensor.noise_sd_levels);
   const auto key = [&](std::uint64_t side) {
-    return NoiseBlocks({seed, slam::Stream::kImageNoise, 2 * frame_index + side});
+    return NoiseNumbers({seed, slam::Stream::kImageNoise, 2 * frame_index + side});
   };
   return {noisy(in_levels(left), shifts, key(0)), noisy(in_levels(right), shifts, key(1))};
 }

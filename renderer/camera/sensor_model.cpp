@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "renderer/camera/image_noise.h"
@@ -43,39 +44,70 @@ std::vector<float> half_gaussian(double sd_px) {
   return normalised;
 }
 
-/// The picture blurred along rows, then along columns; beyond the border lies what is at the border.
-/// OpenCV's blur of floats has other bits on other processors.
-cv::Mat blurred(const cv::Mat& light, double sd_px) {
-  const std::vector<float> weights = half_gaussian(sd_px);
-  const int reach = static_cast<int>(weights.size()) - 1;
-  cv::Mat wide;
-  cv::copyMakeBorder(light, wide, reach, reach, reach, reach, cv::BORDER_REPLICATE);
-  wide.convertTo(wide, CV_32FC3);
-  const int width = 3 * light.cols;
-  cv::Mat across(wide.rows, light.cols, CV_32FC3);
-  for (int y = 0; y < wide.rows; ++y) {
-    const float* centre = wide.ptr<float>(y) + 3 * reach;
-    float* sum = across.ptr<float>(y);
-    for (int x = 0; x < width; ++x) sum[x] = weights[0] * centre[x];
-    for (int k = 1; k <= reach; ++k) {
-      const float weight = weights[static_cast<std::size_t>(k)];
-      for (int x = 0; x < width; ++x) sum[x] += weight * (centre[x - 3 * k] + centre[x + 3 * k]);
-    }
-  }
-  cv::Mat both(light.size(), CV_32FC3);
-  for (int y = 0; y < light.rows; ++y) {
-    float* sum = both.ptr<float>(y);
-    const float* centre = across.ptr<float>(y + reach);
-    for (int x = 0; x < width; ++x) sum[x] = weights[0] * centre[x];
-    for (int k = 1; k <= reach; ++k) {
-      const float weight = weights[static_cast<std::size_t>(k)];
-      const float* above = across.ptr<float>(y + reach - k);
-      const float* below = across.ptr<float>(y + reach + k);
-      for (int x = 0; x < width; ++x) sum[x] += weight * (above[x] + below[x]);
-    }
-  }
-  return both;
+/// Adds weighted neighbours on both sides, the nearest ones first.
+/// @param sum of `size` values @param before, after where the neighbours of the first value are
+void add_neighbours(float* sum, const float* before, const float* after, float weight, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) sum[i] += weight * (before[i] + after[i]);
 }
+
+/// Copies a row of a picture, whatever its light is told in.
+void take_row(const cv::Mat& light, int y, float* row) {
+  const int size = 3 * light.cols;
+  if (light.depth() == CV_8U)
+    std::copy_n(light.ptr(y), size, row);
+  else
+    std::copy_n(light.ptr<std::uint16_t>(y), size, row);
+}
+
+/// The rows of a picture out of focus: blurred along rows, then along columns; beyond the border lies what is
+/// at the border. OpenCV's blur of floats has other bits on other processors.
+class Defocus {
+ public:
+  /// @param light outlives it
+  Defocus(const cv::Mat& light, double sd_px)
+      : light_(light),
+        weights_(half_gaussian(sd_px)),
+        reach_(weights_.size() - 1),
+        size_(3 * static_cast<std::size_t>(light.cols)),
+        wide_(size_ + 6 * reach_),
+        across_(2 * reach_ + 1, Row(size_)) {}
+
+  /// @param y each row in turn, from 0
+  void take(int y, Row& row) {
+    const int reach = static_cast<int>(reach_);
+    for (; blurred_ < std::min(y + reach + 1, light_.rows); ++blurred_) blur_across(blurred_);
+    const auto row_at = [&](int at) { return across(std::clamp(at, 0, light_.rows - 1)).data(); };
+    std::transform(row_at(y), row_at(y) + size_, row.begin(),
+                   [&](float light) { return weights_[0] * light; });
+    for (int k = 1; k <= reach; ++k)
+      add_neighbours(row.data(), row_at(y - k), row_at(y + k), weights_[static_cast<std::size_t>(k)], size_);
+  }
+
+ private:
+  /// The rows around the one that is asked for are kept, blurred along themselves.
+  Row& across(int y) { return across_[static_cast<std::size_t>(y) % across_.size()]; }
+
+  void blur_across(int y) {
+    float* const centre = wide_.data() + 3 * reach_;
+    take_row(light_, y, centre);
+    for (std::size_t i = 0; i < 3 * reach_; ++i) {
+      wide_[i] = centre[i % 3];
+      centre[size_ + i] = centre[size_ - 3 + i % 3];
+    }
+    Row& sum = across(y);
+    for (std::size_t i = 0; i < size_; ++i) sum[i] = weights_[0] * centre[i];
+    for (std::size_t k = 1; k <= reach_; ++k)
+      add_neighbours(sum.data(), centre - 3 * k, centre + 3 * k, weights_[k], size_);
+  }
+
+  const cv::Mat& light_;
+  std::vector<float> weights_;
+  std::size_t reach_;
+  std::size_t size_;  ///< of a row
+  Row wide_;          ///< a row with its border
+  std::vector<Row> across_;
+  int blurred_ = 0;  ///< rows along themselves so far
+};
 
 /// Keeps of each pixel's light what the vignette leaves.
 void darken_corners(Row& row, int y, const cv::Size& size, double vignette) {
@@ -89,25 +121,6 @@ void darken_corners(Row& row, int y, const cv::Size& size, double vignette) {
       row[3 * static_cast<std::size_t>(x) + channel] *= kept;
   }
 }
-
-/// Sixteen random bits for each number of a picture, in order.
-class BitStream {
- public:
-  explicit BitStream(const NoiseKey& key) : blocks_(key) {}
-  std::uint16_t next() {
-    if (used_ == kNumbersPerBlock) {
-      numbers_ = blocks_(block_++);
-      used_ = 0;
-    }
-    return numbers_[used_++];
-  }
-
- private:
-  NoiseBlocks blocks_;
-  std::uint64_t block_ = 0;
-  std::array<std::uint16_t, kNumbersPerBlock> numbers_{};
-  std::size_t used_ = kNumbersPerBlock;
-};
 
 /// @return the smallest count whose cumulative Poisson probability exceeds the number's
 float poisson_by_inversion(float expected, std::uint16_t bits) {
@@ -123,22 +136,16 @@ float poisson_by_inversion(float expected, std::uint16_t bits) {
   return static_cast<float>(count);
 }
 
-float shot_noise(float expected, std::uint16_t bits, const std::vector<float>& normal) {
-  if (expected < kFewElectrons) return poisson_by_inversion(expected, bits);
-  const float z = normal[bits];
-  return expected + std::sqrt(expected - 1.0F / 18.0F) * z + (z * z - 1.0F) / 6.0F;
-}
-
 const std::vector<float>& float_quantiles() {
   static const std::vector<float> quantiles(standard_normal_quantiles().begin(),
                                             standard_normal_quantiles().end());
   return quantiles;
 }
 
-/// What one pixel of a camera does, the same for all pixels.
+/// What the pixels of a camera do, row by row, each stage for a whole row.
 class Chip {
  public:
-  Chip(const worlds::CameraSensor& sensor, std::uint64_t seed, std::uint64_t sequence)
+  Chip(const worlds::CameraSensor& sensor, std::uint64_t seed, std::uint64_t sequence, std::size_t row_size)
       : grains_(sensor.full_well_electrons > 0.0),
         // Without a well to fill, electrons are levels.
         electrons_per_level_(grains_ ? static_cast<float>(sensor.full_well_electrons) / kWhite : 1.0F),
@@ -147,34 +154,67 @@ class Chip {
         added_noise_(static_cast<float>(sensor.noise_sd_levels)),
         shot_({seed, slam::Stream::kShotNoise, sequence}),
         read_({seed, slam::Stream::kReadNoise, sequence}),
-        added_({seed, slam::Stream::kImageNoise, sequence}) {
-    for (int channel = 0; channel < 3; ++channel) {
-      gain_bgr_[static_cast<std::size_t>(channel)] =
-          static_cast<float>(sensor.gain * sensor.white_balance_rgb[2 - channel]);
+        added_({seed, slam::Stream::kImageNoise, sequence}),
+        gains_(row_size),
+        bits_(row_size),
+        normal_(row_size) {
+    for (std::size_t i = 0; i < row_size; ++i)
+      gains_[i] = static_cast<float>(sensor.gain * sensor.white_balance_rgb[2 - static_cast<int>(i % 3)]);
+  }
+
+  /// Makes levels, not yet encoded, of a row of light in levels.
+  void develop(Row& row, int y) {
+    for (float& light : row) light = light * exposure_ * electrons_per_level_;
+    if (grains_) {
+      draw(shot_, y);
+      add_shot_noise(row);
+    }
+    if (read_noise_ > 0.0F) {
+      draw(read_, y);
+      add_normal(row, read_noise_);
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = gains_[i] * row[i] / electrons_per_level_;
+    if (added_noise_ > 0.0F) {
+      draw(added_, y);
+      add_normal(row, added_noise_);
     }
   }
 
-  /// @param light in levels
-  /// @return the level it becomes, before encoding
-  float level(float light, std::size_t channel) {
-    float electrons = light * exposure_ * electrons_per_level_;
-    if (grains_) electrons = shot_noise(electrons, shot_.next(), normal_);
-    if (read_noise_ > 0.0F) electrons += read_noise_ * normal_[read_.next()];
-    const float clean = gain_bgr_[channel] * electrons / electrons_per_level_;
-    return added_noise_ > 0.0F ? clean + added_noise_ * normal_[added_.next()] : clean;
+ private:
+  /// Random numbers for a row: 16 bits of a stream for each of its values, and the normal number they stand
+  /// for.
+  void draw(const NoiseNumbers& stream, int y) {
+    stream.draw(static_cast<std::uint64_t>(y) * bits_.size(), bits_);
+    for (std::size_t i = 0; i < bits_.size(); ++i) normal_[i] = quantiles_[bits_[i]];
   }
 
- private:
+  void add_normal(Row& row, float sd) const {
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] += sd * normal_[i];
+  }
+
+  void add_shot_noise(Row& row) {
+    const auto has_few = [](float expected) { return expected < kFewElectrons; };
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const float expected = row[i], z = normal_[i];
+      // Of few electrons, the root is that of a number below 0, perhaps; they are counted below.
+      normal_[i] = expected + std::sqrt(expected - 1.0F / 18.0F) * z + (z * z - 1.0F) / 6.0F;
+    }
+    for (std::size_t i = 0; i < row.size(); ++i)
+      row[i] = has_few(row[i]) ? poisson_by_inversion(row[i], bits_[i]) : normal_[i];
+  }
+
   bool grains_;
   float electrons_per_level_;
   float exposure_;
   float read_noise_;
   float added_noise_;
-  std::array<float, 3> gain_bgr_{};
-  BitStream shot_;
-  BitStream read_;
-  BitStream added_;
-  const std::vector<float>& normal_ = float_quantiles();
+  NoiseNumbers shot_;
+  NoiseNumbers read_;
+  NoiseNumbers added_;
+  Row gains_;  ///< of each value of a row
+  std::vector<std::uint16_t> bits_;
+  Row normal_;
+  const std::vector<float>& quantiles_ = float_quantiles();
 };
 
 double encode(double light, const worlds::CameraSensor& sensor) {
@@ -186,22 +226,6 @@ double encode(double light, const worlds::CameraSensor& sensor) {
 double decode(double stored, const worlds::CameraSensor& sensor) {
   if (sensor.encoding == worlds::Encoding::kGamma) return slam::power(stored, sensor.gamma);
   return stored <= 0.04045 ? stored / 12.92 : slam::power((stored + 0.055) / 1.055, 2.4);
-}
-
-/// One row of a picture in levels, whatever its light is told in.
-void take_row(const cv::Mat& light, int y, float per_level, Row& row) {
-  switch (light.depth()) {
-    case CV_8U:
-      std::copy_n(light.ptr(y), row.size(), row.begin());
-      break;
-    case CV_16U:
-      std::copy_n(light.ptr<std::uint16_t>(y), row.size(), row.begin());
-      break;
-    default:
-      std::copy_n(light.ptr<float>(y), row.size(), row.begin());
-  }
-  if (per_level == 1.0F) return;
-  for (float& level : row) level /= per_level;
 }
 
 /// The stored byte of a level, by table.
@@ -230,17 +254,24 @@ class Encoder {
 
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
                 std::uint64_t sequence) {
-  const cv::Mat focused = sensor.defocus_sd_px == 0.0 ? light : blurred(light, sensor.defocus_sd_px);
+  std::optional<Defocus> defocus;
+  if (sensor.defocus_sd_px > 0.0) defocus.emplace(light, sensor.defocus_sd_px);
   const float per_level = light.depth() == CV_16U ? float{kStepsOfALevel} : 1.0F;
-  Chip chip(sensor, seed, sequence);
+  Row row(3 * static_cast<std::size_t>(light.cols));
+  Chip chip(sensor, seed, sequence, row.size());
   const Encoder encoder(sensor);
   cv::Mat levels(light.size(), CV_8UC3);
-  Row row(3 * static_cast<std::size_t>(light.cols));
   for (int y = 0; y < light.rows; ++y) {
-    take_row(focused, y, per_level, row);
+    if (defocus)
+      defocus->take(y, row);
+    else
+      take_row(light, y, row.data());
+    if (per_level != 1.0F)
+      for (float& level : row) level /= per_level;
     if (sensor.vignette > 0.0) darken_corners(row, y, light.size(), sensor.vignette);
+    chip.develop(row, y);
     std::uint8_t* stored = levels.ptr(y);
-    for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(chip.level(row[i], i % 3));
+    for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(row[i]);
   }
   return levels;
 }
