@@ -1,25 +1,11 @@
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "harness/collection/render_tasks.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/dataset_talk.h"
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
-#include "harness/dataset/drive_json.h"
-#include "harness/dataset/formats/format_registry.h"
-#include "harness/dataset/rendered_dataset.h"
-#include "harness/dataset/seed_render.h"
-#include "harness/experiment/write_experiment.h"
-#include "harness/io/file_list.h"
 #include "harness/process/interruption.h"
-#include "harness/run/provenance.h"
-#include "renderer/backend.h"
-#include "vision/observe.h"
 
 namespace stereobench::harness {
 namespace {
@@ -31,101 +17,25 @@ struct RenderArguments {
   TruthRequest truth;
 };
 
-/// Says which rendering a folder holds, so that an interrupted one is not taken up by another: the scenario's
-/// own text, what was changed of it, the files that it names, what renders, who looks, what was asked for,
-/// and the program's version. The size of balls is what `detect` is told.
-nlohmann::ordered_json identity_of(const RenderArguments& arguments, const Experiment& experiment,
-                                   const FrameChoice& frames) {
-  const worlds::Scenario& scenario = experiment.scenario;
-  const ScenarioArguments& asked = arguments.scenario;
-  std::ostringstream text;
-  text << std::ifstream(asked.scenario, std::ios::binary).rdbuf();
-  const std::string& detector = experiment.detector.command;
-  nlohmann::ordered_json identity = {
-      {"schema", 2},
-      {"stereobench", STEREOBENCH_VERSION},
-      {"seed", nullptr},
-      {"asked_frames", text_of(frames)},
-      {"set", asked.overrides},
-      {"backend", renderer::name_of(asked.backend)},
-      {"detector", detector.empty() ? "stereobench" : detector},
-      {"detector_files_sha256", files_of_command(detector)},
-      {"scenario", text.str()},
-      {"files_sha256", hashes_of_named_files(asked.scenario, asked.overrides)}};
-  identity[kBallSize] = {{"radius_m", scenario.world.ball_radius_m()},
-                         {"radius_sd_m", scenario.world.ball_radius_sd_m}};
-  identity[kDrive] = drive_json(drive_of(scenario, scenario.world, 0));
-  if (scenario.rows_within_px != vision::ObserverSettings{}.rows_within_px)
-    identity[kRowsWithin] = scenario.rows_within_px;
-  return identity;
-}
-
-/// The same of one format's data set.
-nlohmann::ordered_json identity_of(nlohmann::ordered_json identity, const RenderArguments& arguments,
-                                   const DatasetFormat& format, std::uint64_t seed) {
-  identity["seed"] = seed;
-  if (!is_plain(format)) {
-    identity["format"] = format.name;
-    return identity;
-  }
-  for (const TruthKind kind : arguments.truth.kinds) identity["truth"].push_back(name_of(kind));
-  if (arguments.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
-  return identity;
-}
-
-/// Of several formats, each has a folder of its own, and in it each of several seeds.
-std::filesystem::path folder_of(const std::filesystem::path& out, const RenderArguments& arguments,
-                                const DatasetFormat& format, std::uint64_t seed) {
-  const std::filesystem::path folder = folder_of(out, format, arguments.formats);
-  return arguments.scenario.run.seeds.size() > 1 ? folder / fmt::format("seed_{}", seed) : folder;
-}
-
-/// One task a seed.
-std::vector<RenderTask> render_tasks(const RenderArguments& arguments, const Experiment& experiment,
-                                     const std::filesystem::path& out) {
-  const FrameChoice frames = frames_of_drive(arguments.frames, experiment.scenario.path.size());
-  std::vector<std::uint64_t> seeds = arguments.scenario.run.seeds;
-  if (seeds.empty()) seeds = {experiment.seeds.front()};
-  const nlohmann::ordered_json identity = identity_of(arguments, experiment, frames);
-  std::vector<RenderTask> tasks;
-  for (const std::uint64_t seed : seeds) {
-    tasks.push_back({.experiment = &experiment,
-                     .seed = seed,
-                     .frames = frames,
-                     .truth = arguments.truth,
-                     .backend = arguments.scenario.backend,
-                     .datasets = {}});
-    for (const DatasetFormat* format : arguments.formats)
-      tasks.back().datasets.push_back({format, folder_of(out, arguments, *format, seed),
-                                       identity_of(identity, arguments, *format, seed)});
-  }
-  return tasks;
-}
-
-/// Refuses what a format cannot hold, and truth that none of them has a place for.
-void check_formats(const RenderArguments& arguments, const Experiment& experiment) {
-  const worlds::Scenario& scenario = experiment.scenario;
-  const DatasetDrive drive = drive_of(scenario, scenario.world, 0, arguments.frames, arguments.truth);
-  for (const DatasetFormat* format : arguments.formats) format->check(drive);
-  const bool has_plain =
-      std::ranges::any_of(arguments.formats, [](const DatasetFormat* format) { return is_plain(*format); });
-  if (!has_plain && !arguments.truth.kinds.empty())
-    throw std::runtime_error(
-        fmt::format("--truth: {} has a place for what is its own alone; add the format {}",
-                    arguments.formats.front()->name, dataset_formats().front().name));
+RenderRequest request_of(const RenderArguments& arguments) {
+  return {.scenario = arguments.scenario.scenario,
+          .overrides = arguments.scenario.overrides,
+          .backend = arguments.scenario.backend,
+          .formats = arguments.formats,
+          .truth = arguments.truth,
+          .frames = arguments.frames};
 }
 
 int render(const RenderArguments& arguments) {
   const Experiment experiment = read_experiment(arguments.scenario);
   const worlds::Scenario& scenario = experiment.scenario;
   const RunArguments& run = arguments.scenario.run;
-  if (scenario.sensor != worlds::SensorKind::kStereo)
-    throw std::runtime_error(fmt::format(
-        "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
-        arguments.scenario.scenario.string()));
-  check_formats(arguments, experiment);
+  const RenderRequest request = request_of(arguments);
+  check_request(request, experiment);
   const std::filesystem::path out = output_folder(run, scenario.name + "_dataset");
-  const std::vector<RenderTask> tasks = render_tasks(arguments, experiment, out);
+  const std::vector<std::uint64_t> seeds =
+      run.seeds.empty() ? std::vector{experiment.seeds.front()} : run.seeds;
+  const std::vector<RenderTask> tasks = render_tasks(request, experiment, seeds, out, seeds.size() > 1);
   for (const RenderTask& task : tasks) require_room(task.datasets, out);
   warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
   warn_of_missing_textures(scenario, *arguments.scenario.meshes);

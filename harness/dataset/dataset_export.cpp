@@ -26,20 +26,19 @@ CoarseBlur blur_of(const JsonValue& json) {
 
 /// @throws std::runtime_error where a file is not as it was rendered
 Marker read_marker_of(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kFinishedDataset;
+  const std::vector<std::string> changed = changed_files(folder, read_manifest(folder));
+  if (!changed.empty())
+    throw std::runtime_error(
+        fmt::format("{}: {} files are missing or not as they were rendered (the first: {}); "
+                    "render it again",
+                    folder.string(), changed.size(), changed.front()));
+  const std::filesystem::path file = folder / kDatasetJson;
   const std::string text = read_text(file);
   try {
     const nlohmann::json json = parse_line(text);
     const JsonValue whole(json, "");
-    if (!json.contains(kFiles)) whole.refuse("a list of files");
-    const std::vector<std::string> changed = changed_files(folder, json.at(kFiles));
-    if (!changed.empty())
-      throw std::runtime_error(
-          fmt::format("{}: {} files are missing or not as they were rendered (the first: {}); "
-                      "render it again",
-                      folder.string(), changed.size(), changed.front()));
     Marker marker = {.identity = nlohmann::ordered_json::parse(text), .blur = blur_of(whole.at(kBlur))};
-    for (const char* of_one_format : {kFiles, kFrames, kBlur, "truth", "truth_format"})
+    for (const char* of_one_format : {kFrames, kBlur, "truth", "truth_format"})
       marker.identity.erase(of_one_format);
     if (whole.at("stereobench").text() != STEREOBENCH_VERSION)
       marker.identity["exported_by"] = STEREOBENCH_VERSION;

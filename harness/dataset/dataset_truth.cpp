@@ -64,7 +64,7 @@ std::vector<worlds::Ball> balls_in(const fs::path& file) {
 /// What dataset.json says under a key, where there is one.
 void read_finished(const fs::path& folder, const char* key,
                    const std::function<void(const JsonValue&)>& read) {
-  const fs::path marker = folder / kFinishedDataset;
+  const fs::path marker = folder / kDatasetJson;
   if (!fs::exists(marker)) return;
   try {
     const nlohmann::json json = parse_line(read_text(marker));
@@ -94,7 +94,7 @@ std::optional<double> read_rows_within_px(const fs::path& folder) {
 }
 
 DatasetTruth read_dataset_truth(const fs::path& folder) {
-  if (!fs::exists(folder / kFinishedDataset))
+  if (!fs::exists(folder / kDatasetJson))
     throw std::runtime_error(fmt::format(
         "{}: expected a whole data set of `stereobench render` (it has no dataset.json)", folder.string()));
   DatasetTruth truth;

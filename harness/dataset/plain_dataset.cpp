@@ -64,12 +64,13 @@ std::vector<DriveStep> steps_in(const fs::path& file, const MeasurementLog& log)
 }  // namespace
 
 PlainDataset read_plain_dataset(const fs::path& folder) {
-  if (!fs::exists(folder / kFinishedDataset))
-    throw std::runtime_error(
-        fmt::format("{}: expected a whole data set of `stereobench render` (it has no {})", folder.string(),
-                    kFinishedDataset));
+  if (!fs::exists(folder / kManifest))
+    throw std::runtime_error(fmt::format(
+        "{}: expected a whole data set of `stereobench render` (it has no {}: it is not finished, "
+        "or of an older version); render it again",
+        folder.string(), kManifest));
   PlainDataset dataset = {.folder = folder, .drive = {}, .log = {}};
-  read_json_file(folder / kFinishedDataset, [&](const JsonValue& json) { read_marker(json, dataset.drive); });
+  read_json_file(folder / kDatasetJson, [&](const JsonValue& json) { read_marker(json, dataset.drive); });
   dataset.log = read_log(folder, {.odometry_delay_s = 0.0}).log;
   dataset.drive.world = read_balls(folder);
   dataset.drive.steps = steps_in(folder / kFramesFile, dataset.log);

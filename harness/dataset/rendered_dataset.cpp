@@ -1,13 +1,16 @@
 #include "harness/dataset/rendered_dataset.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/card/croissant.h"
+#include "harness/dataset/card/data_card.h"
 #include "harness/io/atomic_file.h"
-#include "harness/io/file_list.h"
+#include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
 #include "harness/json/json_line.h"
 
@@ -17,10 +20,17 @@ namespace {
 /// The folder's marker while frames are still being written.
 constexpr const char* kUnfinished = "dataset.unfinished.json";
 
+/// What every data set has beside the files of its format.
+constexpr std::array kOwnFiles = {kDatasetJson, kUnfinished, kCardFile, kCroissantFile, kManifest};
+
+bool is_own(const std::string& name) {
+  return std::ranges::find(kOwnFiles, name) != kOwnFiles.end();
+}
+
 /// The markers that there are.
 std::vector<std::filesystem::path> markers_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> markers;
-  for (const char* marker : {kFinishedDataset, kUnfinished})
+  for (const char* marker : {kDatasetJson, kUnfinished})
     if (std::filesystem::exists(folder / marker)) markers.push_back(folder / marker);
   return markers;
 }
@@ -36,12 +46,12 @@ nlohmann::json read_marker(const std::filesystem::path& path) {
       fmt::format("{}: is not what `render` writes; choose another folder or remove it", path.string()));
 }
 
-/// Whether files lie in a folder, its markers and what was half written aside.
+/// Whether files lie in a folder, those of every data set and what was half written aside.
 bool holds_files(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) return false;
   const auto is_other = [&](const std::filesystem::directory_entry& entry) {
     return entry.is_regular_file() && entry.path().extension() != ".tmp" &&
-           entry.path() != folder / kFinishedDataset && entry.path() != folder / kUnfinished;
+           !is_own(entry.path().lexically_relative(folder).string());
   };
   return std::ranges::any_of(std::filesystem::recursive_directory_iterator(folder), is_other);
 }
@@ -63,10 +73,10 @@ bool holds_rendering(const std::filesystem::path& folder) {
 }
 
 void require_same_rendering(const std::filesystem::path& folder, const nlohmann::ordered_json& identity) {
-  if (!std::filesystem::exists(folder / kFinishedDataset) && !holds_files(folder)) return;
+  if (!std::filesystem::exists(folder / kManifest) && !holds_files(folder)) return;
   for (const std::filesystem::path& marker : markers_in(folder)) {
     nlohmann::json told = read_marker(marker);
-    for (const char* outcome : {kFiles, kFrames, kBlur}) told.erase(outcome);
+    for (const char* outcome : {kFrames, kBlur, "files"}) told.erase(outcome);  // files: before the manifest
     const auto differing = differing_keys(told, parse_line(identity.dump()));
     if (!differing.empty())
       throw std::runtime_error(
@@ -79,33 +89,26 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered
     : folder_(std::move(folder)), identity_(std::move(identity)) {
   if (std::filesystem::exists(folder_)) prepare_output_folder(folder_);
   require_same_rendering(folder_, identity_);
-  is_finished_ = std::filesystem::exists(folder_ / kFinishedDataset);
-  if (is_finished_) find_spoilt(folder_ / kFinishedDataset);
+  is_finished_ = std::filesystem::exists(folder_ / kManifest);
+  if (is_finished_) spoilt_ = changed_files(folder_, read_manifest(folder_));
   if (std::filesystem::exists(folder_)) remove_leftovers(folder_);
   if (is_complete() || !holds_files(folder_)) std::filesystem::remove(folder_ / kUnfinished);
   if (spoilt_.empty()) return;
   begin({});
-  std::filesystem::remove(folder_ / kFinishedDataset);
+  // The manifest goes after what it finds spoilt: whoever is killed in between finds it again.
   for (const std::string& name : spoilt_) std::filesystem::remove(folder_ / name);
+  for (const char* name : {kManifest, kDatasetJson}) std::filesystem::remove(folder_ / name);
 }
 
 /// Makes the folders of files, and says that there is a data set which is not finished.
 void RenderedDataset::begin(const std::vector<DatasetFile>& files) {
   prepare_output_folder(folder_);
-  for (const DatasetFile& file : files) prepare_output_folder((folder_ / file.name).parent_path());
+  for (const DatasetFile& file : files) {
+    if (is_own(file.name)) throw std::logic_error(fmt::format("{}: is no format's file", file.name));
+    prepare_output_folder((folder_ / file.name).parent_path());
+  }
   if (!std::filesystem::exists(folder_ / kUnfinished))
     write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
-}
-
-void RenderedDataset::find_spoilt(const std::filesystem::path& marker) {
-  const nlohmann::json told = read_marker(marker);
-  try {
-    for (const std::string& name :
-         changed_files(folder_, told.value(kFiles, nlohmann::json(nlohmann::json::object()))))
-      spoilt_.push_back(name);
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", marker.string(), error.what()));
-  }
 }
 
 void RenderedDataset::write(std::size_t step, const std::vector<DatasetFile>& files) {
@@ -131,9 +134,23 @@ void RenderedDataset::finish(const std::vector<DatasetFile>& files, const Coarse
   nlohmann::ordered_json marker = identity_;
   marker[kFrames] = frames_;
   marker[kBlur] = blur_json(blur);
-  marker[kFiles] = file_list(folder_, names_);
-  sync_file_system(folder_);  // dataset.json says that all of it is there
-  write_file_atomically(folder_ / kFinishedDataset, marker.dump(2) + "\n");
+  seal({.folder = folder_, .marker = std::move(marker), .files = hash_files(folder_, names_)});
+}
+
+/// Adds what every data set has, and last of all the manifest.
+void RenderedDataset::seal(const DatasetFacts& facts) {
+  std::vector<std::pair<std::string, std::string>> own = {{kDatasetJson, facts.marker.dump(2) + "\n"},
+                                                          {kCardFile, data_card(facts)}};
+  own.emplace_back(kCroissantFile, croissant_of(facts, own));
+  FileHashes listed = facts.files;
+  AtomicFiles written;
+  for (const auto& [name, text] : own) {
+    written.write(folder_ / name, text);
+    listed[name] = sha256_of(text);
+  }
+  written.move_into_place();
+  sync_file_system(folder_);  // the manifest says that all of it is there
+  write_file_atomically(folder_ / kManifest, manifest_text(listed));
   std::filesystem::remove(folder_ / kUnfinished);
 }
 

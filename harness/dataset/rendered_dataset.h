@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/dataset/card/dataset_facts.h"
 #include "harness/dataset/formats/dataset_writer.h"
 #include "harness/drive/coarse_blur.h"
 
@@ -20,8 +21,9 @@ inline constexpr const char* kFrames = "frames";
 inline constexpr const char* kBlur = "blur";
 
 /// The folder of a data set of any format. Which files it has, the format's DatasetWriter says. Beside them
-/// lies dataset.json, written last: where it is, the folder is complete. It says what was rendered, which
-/// frames there are, how coarse their blur is, and size and SHA-256 of each file.
+/// lie dataset.json (what was rendered, which frames there are, how coarse their blur is), a data card for
+/// people and one for machines (harness/dataset/card/), and the manifest with the SHA-256 of each file, which
+/// is written last: where it is, the folder is complete.
 class RenderedDataset {
  public:
   /// Takes up a folder where one that was interrupted lies. Nothing is created before the first frame is
@@ -42,13 +44,13 @@ class RenderedDataset {
   /// written before `finish`, also where an interrupted rendering goes on.
   void write(std::size_t step, const std::vector<DatasetFile>& files);
 
-  /// Writes the files of the drive, and last of all dataset.json.
+  /// Writes the files of the drive, dataset.json and the cards, and last of all the manifest.
   /// @param blur of all its pictures
   void finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur);
 
  private:
   void begin(const std::vector<DatasetFile>& files);
-  void find_spoilt(const std::filesystem::path& marker);
+  void seal(const DatasetFacts& facts);
 
   std::filesystem::path folder_;
   nlohmann::ordered_json identity_;

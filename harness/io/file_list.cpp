@@ -1,18 +1,21 @@
 #include "harness/io/file_list.h"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
-#include "harness/json/json_line.h"
 
 namespace stereobench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kHashDigits = 64;
+constexpr std::string_view kGap = "  ";  ///< between hash and name, as sha256sum has it
 
 /// Whether a name is a file's place within a folder, in the one form that names it: left_depth/000012.pfm.
 bool is_place_within(const std::string& name) {
@@ -21,55 +24,67 @@ bool is_place_within(const std::string& name) {
          *path.begin() != ".." && *path.begin() != ".";
 }
 
-bool is_as_listed(const fs::path& file, const JsonValue& listed) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 50U;
-  listed.allow({"bytes", "sha256"});
-  const auto bytes = static_cast<std::uintmax_t>(listed.at("bytes").integer(0, kMost));
-  const std::string hash = listed.at("sha256").text();
+bool is_hash(std::string_view text) {
+  return text.size() == kHashDigits &&
+         std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+bool is_as_listed(const fs::path& file, const std::string& hash) {
   std::error_code error;
-  return fs::is_regular_file(file, error) && fs::file_size(file, error) == bytes &&
-         sha256_of_file(file) == hash;
+  return fs::is_regular_file(file, error) && sha256_of_file(file) == hash;
 }
 
 }  // namespace
 
-nlohmann::ordered_json file_list(const fs::path& folder, const std::set<std::string>& names) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::object();
-  for (const std::string& name : names)
-    list[name] = {{"bytes", fs::file_size(folder / name)}, {"sha256", sha256_of_file(folder / name)}};
-  return list;
+FileHashes hash_files(const fs::path& folder, const std::set<std::string>& names) {
+  FileHashes files;
+  for (const std::string& name : names) files[name] = sha256_of_file(folder / name);
+  return files;
 }
 
-std::vector<std::string> changed_files(const fs::path& folder, const nlohmann::json& list) {
-  if (!list.is_object()) JsonValue(list, kFiles).refuse("an object");
-  std::vector<std::string> changed;
-  for (const auto& [name, listed] : list.items()) {
-    const JsonValue value(listed, fmt::format("{}.{}", kFiles, excerpt(name)));
-    if (!is_place_within(name)) value.refuse("the name of a file in the folder");
-    if (!is_as_listed(folder / name, value)) changed.push_back(name);
+std::string manifest_text(const FileHashes& files) {
+  std::string text;
+  for (const auto& [name, hash] : files) text += fmt::format("{}{}{}\n", hash, kGap, name);
+  return text;
+}
+
+FileHashes read_manifest(const fs::path& folder) {
+  const fs::path manifest = folder / kManifest;
+  std::istringstream lines(read_text(manifest));
+  FileHashes files;
+  long number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto refuse = [&](const char* expected) {
+      throw std::runtime_error(fmt::format("{}:{}: expected {}", manifest.string(), number, expected));
+    };
+    const std::string hash = line.substr(0, kHashDigits);
+    if (!is_hash(hash) || line.compare(kHashDigits, kGap.size(), kGap) != 0)
+      refuse("a SHA-256, two spaces and the name of a file");
+    const std::string name = line.substr(kHashDigits + kGap.size());
+    if (!is_place_within(name)) refuse("the name of a file in the folder");
+    if (!files.emplace(name, hash).second) refuse("each file once");
   }
+  return files;
+}
+
+std::vector<std::string> changed_files(const fs::path& folder, const FileHashes& files) {
+  std::vector<std::string> changed;
+  for (const auto& [name, hash] : files)
+    if (!is_as_listed(folder / name, hash)) changed.push_back(name);
   return changed;
 }
 
 void require_as_rendered(const fs::path& folder) {
-  const fs::path marker = folder / kFinishedDataset;
-  if (!fs::exists(marker)) return;
-  try {
-    const nlohmann::json json = parse_line(read_text(marker));
-    const auto list = json.find(kFiles);
-    if (list == json.end()) return;
-    nlohmann::json texts = nlohmann::json::object();
-    for (const auto& [name, listed] : list->items())
-      if (name.find('/') == std::string::npos) texts[name] = listed;
-    const std::vector<std::string> changed = changed_files(folder, texts);
-    if (changed.empty()) return;
-    throw std::runtime_error(fmt::format(
-        "{}: is not as it was rendered; run the same `render` again, which restores it, or remove {} "
-        "to use it as it is",
-        (folder / changed.front()).string(), marker.string()));
-  } catch (const BadLine& error) {
-    throw std::runtime_error(fmt::format("{}: {}", marker.string(), error.what()));
-  }
+  if (!fs::exists(folder / kManifest)) return;
+  FileHashes tables = read_manifest(folder);
+  std::erase_if(tables, [](const auto& file) { return file.first.find('/') != std::string::npos; });
+  const std::vector<std::string> changed = changed_files(folder, tables);
+  if (changed.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{}: is not as it was rendered; run the same `render` again, which restores it, or remove "
+                  "{} to use it as it is",
+                  (folder / changed.front()).string(), (folder / kManifest).string()));
 }
 
 }  // namespace stereobench::harness

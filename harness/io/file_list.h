@@ -2,34 +2,44 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 namespace stereobench::harness {
 
-/// The marker of a finished data set, and its key that lists the files.
-inline constexpr const char* kFinishedDataset = "dataset.json";
+/// What a data set was rendered from.
+inline constexpr const char* kDatasetJson = "dataset.json";
 
 /// Its key that says what size balls are made to.
 inline constexpr const char* kBallSize = "balls";
 /// Where dataset.json says by how many rows vision was told that the rig may be off.
 inline constexpr const char* kRowsWithin = "rows_within_px";
-inline constexpr const char* kFiles = "files";
 
-/// Size and SHA-256 of each file: {"left/000000.png": {"bytes": 90000, "sha256": "..."}, ...}.
-/// @throws std::runtime_error when one cannot be read
-nlohmann::ordered_json file_list(const std::filesystem::path& folder, const std::set<std::string>& names);
+/// The list of all files with their SHA-256, in the form of BagIt (RFC 8493), which `sha256sum -c` reads. It
+/// is written last: where it is, the folder is complete.
+inline constexpr const char* kManifest = "manifest-sha256.txt";
 
-/// The listed files that are missing, or do not hold what they held.
-/// @param list as of file_list
-/// @throws BadLine when it is no such list, or has names that lead out of the folder
-std::vector<std::string> changed_files(const std::filesystem::path& folder, const nlohmann::json& list);
+/// SHA-256 of files, as 64 hexadecimal digits, by their place in a folder: "left/000012.png".
+using FileHashes = std::map<std::string, std::string>;
+
+/// Hashes files of a folder. @throws std::runtime_error when one cannot be read
+FileHashes hash_files(const std::filesystem::path& folder, const std::set<std::string>& names);
+
+/// The manifest: a line for each file, sorted by name.
+std::string manifest_text(const FileHashes& files);
+
+/// Reads a folder's manifest.
+/// @throws std::runtime_error "file:line: what was expected" where it is none, or a name leads out of the
+///   folder
+FileHashes read_manifest(const std::filesystem::path& folder);
+
+/// The files that are missing, or do not hold what they held.
+std::vector<std::string> changed_files(const std::filesystem::path& folder, const FileHashes& files);
 
 /// Checks that log, calibrations and balls of a data set are as they were rendered; its pictures say
-/// themselves when they are cut short. A folder without a list of files is let be.
+/// themselves when they are cut short. A folder without a manifest is let be.
 /// @throws std::runtime_error that names the file and says what to do
 void require_as_rendered(const std::filesystem::path& folder);
 

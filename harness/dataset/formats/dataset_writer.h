@@ -32,7 +32,7 @@ DatasetFile text_file(std::string name, std::string text);
 
 /// A data-set format at work on one drive. It names files and says what is in them. The data set that it is
 /// a format of (rendered_dataset.h) makes folders, writes files whole or not at all, leaves those alone that
-/// are there, and keeps the list of all files in dataset.json.
+/// are there, and lists all files in the manifest.
 class DatasetWriter {
  public:
   virtual ~DatasetWriter() = default;

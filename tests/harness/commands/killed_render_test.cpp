@@ -71,8 +71,8 @@ TEST(KilledRender, LeavesWholeFilesAndIsTakenUpWhereItWas) {
     EXPECT_TRUE(finished.contains(name) && finished.at(name) == bytes) << name;
 }
 
-// Disks lose parts of files after they were written, too. Mutations: dataset.json without sizes and hashes;
-// hashes that `slam` does not look at.
+// Disks lose parts of files after they were written, too. Mutations: a manifest without hashes; hashes that
+// `slam` does not look at.
 TEST(FinishedRender, NoticesFilesThatLostAPart) {
   const TestFolder scratch;
   const auto data = scratch.path() / "data";

@@ -62,7 +62,7 @@ TEST(RenderCommand, SeedsAndFramesAreTheSameInAnyCompany) {
   const auto whole = files_of(all);
   int pictures = 0;
   for (const auto& [name, bytes] : files_of(one / "seed_3")) {
-    if (name == "dataset.json" || name == "observations.csv" || name == "frames.csv") continue;
+    if (name.find('/') == std::string::npos) continue;  // tables and cards are of the frames that there are
     EXPECT_TRUE(whole.contains(name) && whole.at(name) == bytes) << name;
     pictures += name.starts_with("left/") ? 1 : 0;
   }

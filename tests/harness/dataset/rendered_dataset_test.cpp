@@ -1,5 +1,7 @@
 #include "harness/dataset/rendered_dataset.h"
 
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
@@ -91,7 +93,7 @@ TEST(RenderedDataset, TakesUpWhatWasInterruptedAndLeavesItsFramesAlone) {
   write_step(again, 0, "second");  // another text, to see which one is kept
   EXPECT_EQ(folder.read("left/0.png"), "left first");
   EXPECT_EQ(folder.read("deep/er/depth_0.pfm"), "depth second");
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "manifest-sha256.txt"));
   finish(again);
   const auto marker = nlohmann::json::parse(folder.read("dataset.json"));
   EXPECT_EQ(marker["seed"], 1);
@@ -119,23 +121,24 @@ TEST(RenderedDataset, FindsWhatIsNotAsItWasWritten) {
   };
   RenderedDataset first(folder.path(), kOne);
   write_all(first);
-  const std::string marker = folder.read("dataset.json");
-  EXPECT_EQ(files_in(folder.path()).size(), 7U);
+  const std::string manifest = folder.read("manifest-sha256.txt");
+  EXPECT_EQ(files_in(folder.path()).size(), 10U);
   EXPECT_TRUE(RenderedDataset(folder.path(), kOne).spoilt().empty());
   for (const std::string& name : files_in(folder.path())) {
-    if (name == "dataset.json") continue;
+    if (name == "manifest-sha256.txt") continue;
     const std::string bytes = folder.read(name);
     std::string flipped = bytes;
     flipped.back() = static_cast<char>(flipped.back() ^ 1);
     for (const std::string& spoilt : {bytes.substr(0, bytes.size() / 2), flipped, std::string()}) {
+      if (name == "dataset.json" && !spoilt.empty()) continue;  // it no longer says what was rendered
       folder.write(name, spoilt);
       if (spoilt.empty()) std::filesystem::remove(folder.path() / name);
       RenderedDataset again(folder.path(), kOne);
       EXPECT_EQ(again.spoilt(), std::vector<std::string>{name});
-      EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.json"));
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "manifest-sha256.txt"));
       write_all(again);
       EXPECT_EQ(folder.read(name), bytes) << name;
-      EXPECT_EQ(folder.read("dataset.json"), marker) << name;
+      EXPECT_EQ(folder.read("manifest-sha256.txt"), manifest) << name;
     }
   }
 }
@@ -149,16 +152,62 @@ TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
   folder.write("notes.csv", "mine");
   folder.write("left/notes.png", "mine");
   finish(dataset);
-  EXPECT_THAT(folder.read("dataset.json"), testing::Not(HasSubstr("notes")));
-  const std::string whole = folder.read("dataset.json");
+  const std::string whole = folder.read("manifest-sha256.txt");
+  EXPECT_THAT(whole, testing::Not(HasSubstr("notes")));
+  const std::string hash(64, 'a');
   for (const char* victim : {"../victim", "left/../../victim", "/victim", "left/", ".", ""}) {
-    auto marker = nlohmann::json::parse(whole);
-    marker["files"][victim] = {{"bytes", 1}, {"sha256", ""}};
-    folder.write("dataset.json", marker.dump());
+    folder.write("manifest-sha256.txt", whole + hash + "  " + victim + "\n");
     EXPECT_THAT([&] { RenderedDataset(folder.path(), kOne); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("expected the name of a file in the folder")))
         << victim;
   }
+}
+
+// Mutation: any name taken.
+TEST(RenderedDataset, TakesNoFileOfAFormatForItsOwn) {
+  const TestFolder folder;
+  for (const char* name : {"dataset.json", "README.md", "croissant.json", "manifest-sha256.txt"}) {
+    RenderedDataset dataset(folder.path(), kOne);
+    EXPECT_THAT([&] { dataset.write(0, {text_file(name, "mine")}); },
+                ThrowsMessage<std::logic_error>(HasSubstr("is no format's file")));
+  }
+}
+
+// Whoever is killed right before the manifest has nothing that says it is whole. Mutation: the manifest
+// written with the other files, in the order of names.
+TEST(RenderedDataset, IsNotFinishedWithoutAManifest) {
+  const TestFolder folder;
+  const auto write_all = [](RenderedDataset& dataset) {
+    write_step(dataset, 0, "first");
+    finish(dataset);
+  };
+  RenderedDataset first(folder.path(), kOne);
+  write_all(first);
+  const std::string manifest = folder.read("manifest-sha256.txt");
+  std::filesystem::remove(folder.path() / "manifest-sha256.txt");
+  RenderedDataset again(folder.path(), kOne);
+  EXPECT_FALSE(again.is_complete());
+  write_all(again);
+  EXPECT_EQ(folder.read("manifest-sha256.txt"), manifest);
+}
+
+// Law: the manifest is what `sha256sum -c` alone checks, of every file but itself. Mutations: one space; the
+// cards left out of it.
+TEST(RenderedDataset, HasAManifestThatSha256sumChecks) {
+  const TestFolder folder;
+  RenderedDataset dataset(folder.path(), kOne);
+  write_step(dataset, 0, "first");
+  finish(dataset);
+  const std::string check =
+      "cd '" + folder.path().string() + "' && sha256sum --strict -c manifest-sha256.txt > checked 2>&1";
+  ASSERT_EQ(std::system(check.c_str()), 0) << folder.read("checked");
+  const std::string checked = folder.read("checked");
+  for (const std::string& name : files_in(folder.path()))
+    if (name != "checked" && name != "manifest-sha256.txt") {
+      EXPECT_THAT(checked, HasSubstr(name + ": OK\n"));
+    }
+  folder.write("README.md", "another");
+  EXPECT_NE(std::system(check.c_str()), 0);
 }
 
 // Mutations: no check of the identity; none while the data set is unfinished.

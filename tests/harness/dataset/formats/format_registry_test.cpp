@@ -59,8 +59,8 @@ class EveryFormat : public testing::TestWithParam<DatasetFormat> {
 TEST_P(EveryFormat, WritesADriveAndListsAllOfIt) {
   EXPECT_EQ(render().pairs, 3);
   const nlohmann::json told = marker();
-  std::set<std::string> listed = {"dataset.json"}, there;
-  for (const auto& [name, facts] : told.at("files").items()) listed.insert(name);
+  std::set<std::string> listed = {"manifest-sha256.txt"}, there;
+  for (const auto& [name, hash] : read_manifest(place_)) listed.insert(name);
   for (const auto& [name, bytes] : files()) {
     there.insert(name);
     EXPECT_FALSE(bytes.empty()) << name;
@@ -95,7 +95,7 @@ TEST_P(EveryFormat, GoesOnAfterAnInterruption) {
   render();
   const std::map<std::string, std::string> whole = files();
   folder_.write("data/dataset.unfinished.json", R"({"seed": 0})");
-  fs::remove(place_ / "dataset.json");
+  fs::remove(place_ / "manifest-sha256.txt");
   fs::path first_picture;
   for (const auto& [name, bytes] : whole)
     if (!name.ends_with(".png")) {
@@ -109,13 +109,13 @@ TEST_P(EveryFormat, GoesOnAfterAnInterruption) {
   EXPECT_EQ(fs::last_write_time(first_picture), written);
 }
 
-// Mutation: names of a format that dataset.json takes for no files of its own.
+// Mutation: names of a format that the manifest takes for no files of its own.
 TEST_P(EveryFormat, NoticesASpoiltFileOfEachFolder) {
   render();
   const std::map<std::string, std::string> whole = files();
   std::map<fs::path, std::string> of_folder;
   for (const auto& [name, bytes] : whole)
-    if (name != "dataset.json") of_folder[fs::path(name).parent_path()] = name;
+    if (!name.starts_with("manifest") && name != "dataset.json") of_folder[fs::path(name).parent_path()] = name;
   for (const auto& [parent, name] : of_folder) {
     std::string spoilt = whole.at(name);
     spoilt.back() = static_cast<char>(spoilt.back() ^ 1);
