@@ -64,14 +64,15 @@ int run_command_line(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
-      "crashed, 5 a suite's baseline is missing or of other inputs; --strict: 3 inconclusive, 6 a metric "
-      "got\n"
-      "better.\n"
+      "crashed, 5 a suite's baseline is missing or of other inputs, or shards contradict each other;\n"
+      "--strict: 3 inconclusive, 6 a metric got better.\n"
       "Start with: stereobench run assets/scenarios/ball_circle.yaml");
   Action action;
   add_run_command(program, action);
   add_render_command(program, action);
   add_export_command(program, action);
+  add_dataset_command(program, action);
+  add_merge_command(program, action);
   add_slam_command(program, action);
   add_compare_command(program, action);
   add_test_command(program, action);

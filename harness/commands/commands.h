@@ -16,6 +16,7 @@ enum ExitCode : int {
   kInconclusive = 3,  ///< with --strict: more seeds are needed
   kRunCrashed = 4,    ///< a worker process died, or a detector failed
   kNoBaseline = 5,    ///< a suite's baseline is missing, or was made of other inputs or pixels
+  kConflict = 5,      ///< `merge`: two shards have a file with different bytes
   kImproved = 6,      ///< with --strict: a metric is better than before
 };
 
@@ -26,6 +27,8 @@ using Action = std::function<int()>;
 void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
 void add_export_command(CLI::App& program, Action& action);
+void add_dataset_command(CLI::App& program, Action& action);
+void add_merge_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_test_command(CLI::App& program, Action& action);

@@ -1,0 +1,89 @@
+#include "harness/collection/collection_plan.h"
+
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/experiment/experiment.h"
+#include "renderer/surfaces/mesh_cache.h"
+#include "worlds/yaml/excerpt.h"
+
+namespace stereobench::harness {
+namespace {
+
+constexpr std::size_t kMostShards = 1'000'000;
+
+/// What is rendered of a variation.
+RenderRequest request_of(const Collection& collection, const DriveGroup& drives, const Variation& variation,
+                         renderer::Backend backend) {
+  RenderRequest request = {.scenario = drives.scenario,
+                           .overrides = drives.set,
+                           .backend = backend,
+                           .formats = collection.formats,
+                           .truth = collection.truth,
+                           .frames = drives.frames};
+  request.overrides.insert(request.overrides.end(), variation.set.begin(), variation.set.end());
+  return request;
+}
+
+void add_drives(const DriveGroup& drives, const Variation& variation, const RenderRequest& request,
+                const std::filesystem::path& out, CollectionPlan& plan) {
+  const Experiment& experiment = *plan.experiments.back();
+  for (const Split split : kSplits) {
+    const std::filesystem::path folder = out / name_of(split) / folder_name(drives, variation);
+    const auto& seeds = drives.seeds_of.at(static_cast<std::size_t>(split));
+    for (RenderTask& task : render_tasks(request, experiment, seeds, folder, true)) {
+      for (const WantedDataset& wanted : task.datasets)
+        plan.record.datasets.push_back(
+            {.folder = wanted.folder.lexically_relative(out).generic_string(),
+             .split = std::string(name_of(split)),
+             .name = drives.name,
+             .variation = variation.name,
+             .format = std::string(wanted.format->name),
+             .scenario = experiment.scenario.name,
+             .seed = task.seed,
+             .identity_sha256 = identity_hash(nlohmann::json::parse(wanted.identity.dump()))});
+      plan.drives.push_back(std::move(task));
+    }
+  }
+}
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+CollectionPlan plan_collection(const Collection& collection, renderer::Backend backend,
+                               const std::filesystem::path& out) {
+  renderer::MeshCache meshes;
+  CollectionPlan plan;
+  plan.record = {
+      .name = collection.name, .version = STEREOBENCH_VERSION, .about = collection.about, .datasets = {}};
+  for (const DriveGroup& drives : collection.drives)
+    for (const Variation& variation : drives.variations) {
+      const RenderRequest request = request_of(collection, drives, variation, backend);
+      plan.experiments.push_back(std::make_unique<const Experiment>(
+          read_experiment(request.scenario, request.overrides, meshes.occluders())));
+      check_request(request, *plan.experiments.back());
+      add_drives(drives, variation, request, out, plan);
+    }
+  return plan;
+}
+
+Shard parse_shard(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  const auto number = whole_number(text.substr(0, slash));
+  const auto count = slash == std::string_view::npos ? std::nullopt : whole_number(text.substr(slash + 1));
+  if (!number || !count || *number < 1 || *number > *count || *count > kMostShards)
+    throw std::runtime_error(fmt::format(
+        "--shard: expected one of several parts, as 1/3, 2/3 or 3/3 (got '{}')", worlds::excerpt(text)));
+  return {*number, *count};
+}
+
+}  // namespace stereobench::harness

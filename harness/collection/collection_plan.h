@@ -1,0 +1,41 @@
+/// What is to be rendered for a collection: a task for each drive.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "harness/collection/collection.h"
+#include "harness/collection/collection_record.h"
+#include "harness/collection/render_tasks.h"
+
+namespace stereobench::harness {
+
+struct CollectionPlan {
+  std::vector<std::unique_ptr<const Experiment>> experiments;  ///< tasks refer to them
+  std::vector<RenderTask> drives;                              ///< in the order of the file
+  CollectionRecord record;
+};
+
+/// Reads all scenarios, and checks everything that can be checked before something is rendered. The data sets
+/// of a drive lie in SPLIT/NAME/seed_N, as `render --seeds` writes them to SPLIT/NAME; those of a variation
+/// in SPLIT/NAME-VARIATION/seed_N.
+/// @param out the collection's folder
+/// @throws std::runtime_error, one line
+CollectionPlan plan_collection(const Collection& collection, renderer::Backend backend,
+                               const std::filesystem::path& out);
+
+/// A part of the drives: every `count`-th one.
+struct Shard {
+  std::size_t number = 1;  ///< from 1
+  std::size_t count = 1;
+
+  bool has(std::size_t drive) const { return drive % count == number - 1; }
+};
+
+/// Reads "2/3": the second of three.
+/// @throws std::runtime_error, one line that begins with "--shard: ", for anything else
+Shard parse_shard(std::string_view text);
+
+}  // namespace stereobench::harness
