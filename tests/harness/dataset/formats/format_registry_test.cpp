@@ -115,7 +115,8 @@ TEST_P(EveryFormat, NoticesASpoiltFileOfEachFolder) {
   const std::map<std::string, std::string> whole = files();
   std::map<fs::path, std::string> of_folder;
   for (const auto& [name, bytes] : whole)
-    if (!name.starts_with("manifest") && name != "dataset.json") of_folder[fs::path(name).parent_path()] = name;
+    if (!name.starts_with("manifest") && name != "dataset.json")
+      of_folder[fs::path(name).parent_path()] = name;
   for (const auto& [parent, name] : of_folder) {
     std::string spoilt = whole.at(name);
     spoilt.back() = static_cast<char>(spoilt.back() ^ 1);
