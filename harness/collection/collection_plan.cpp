@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "harness/experiment/experiment.h"
-#include "renderer/surfaces/mesh_cache.h"
 #include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
@@ -61,15 +60,15 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 
 CollectionPlan plan_collection(const Collection& collection, renderer::Backend backend,
                                const std::filesystem::path& out) {
-  renderer::MeshCache meshes;
   CollectionPlan plan;
+  plan.meshes = std::make_shared<renderer::MeshCache>();
   plan.record = {
       .name = collection.name, .version = STEREOBENCH_VERSION, .about = collection.about, .datasets = {}};
   for (const DriveGroup& drives : collection.drives)
     for (const Variation& variation : drives.variations) {
       const RenderRequest request = request_of(collection, drives, variation, backend);
       plan.experiments.push_back(std::make_unique<const Experiment>(
-          read_experiment(request.scenario, request.overrides, meshes.occluders())));
+          read_experiment(request.scenario, request.overrides, plan.meshes->occluders())));
       check_request(request, *plan.experiments.back());
       add_drives(drives, variation, request, out, plan);
     }

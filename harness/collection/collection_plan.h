@@ -9,6 +9,7 @@
 #include "harness/collection/collection.h"
 #include "harness/collection/collection_record.h"
 #include "harness/collection/render_tasks.h"
+#include "renderer/surfaces/mesh_cache.h"
 
 namespace stereobench::harness {
 
@@ -16,6 +17,7 @@ struct CollectionPlan {
   std::vector<std::unique_ptr<const Experiment>> experiments;  ///< tasks refer to them
   std::vector<RenderTask> drives;                              ///< in the order of the file
   CollectionRecord record;
+  std::shared_ptr<renderer::MeshCache> meshes;  ///< what was read of mesh files
 };
 
 /// Reads all scenarios, and checks everything that can be checked before something is rendered. The data sets

@@ -35,6 +35,15 @@ std::vector<RenderTask> drives_of(const CollectionPlan& plan, const Shard& shard
   return drives;
 }
 
+/// Says what may be wrong with the scenarios, as `render` does.
+void warn_of_scenarios(const CollectionPlan& plan) {
+  for (const auto& experiment : plan.experiments) {
+    const worlds::Scenario& scenario = experiment->scenario;
+    warn_of_crossings(worlds::crossings(scenario.path, worlds::feet_of(scenario.world.walls)));
+    warn_of_missing_textures(scenario, *plan.meshes);
+  }
+}
+
 void say_what_would_be_done(const Collection& collection, const std::vector<RenderTask>& drives) {
   for (const RenderTask& drive : drives)
     for (const WantedDataset& wanted : drive.datasets)
@@ -61,6 +70,7 @@ int make_dataset(const DatasetArguments& arguments) {
   const CollectionPlan plan = plan_collection(collection, arguments.backend, out);
   const std::vector<RenderTask> drives = drives_of(plan, arguments.shard);
   for (const RenderTask& drive : drives) require_room(drive.datasets, out);
+  warn_of_scenarios(plan);
   if (arguments.dry_run) {
     say_what_would_be_done(collection, drives);
     return kPassed;

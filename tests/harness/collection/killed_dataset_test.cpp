@@ -130,5 +130,18 @@ TEST(FullDisk, IsOneLineAndGoesOnWithRoom) {
   EXPECT_TRUE(files_below(out) == expected);
 }
 
+// A link does not lead to another file system. Mutations: that is an error; copies that nobody writes.
+TEST(MergedOntoAnotherDisk, IsCopied) {
+  const TestFolder scratch;
+  const fs::path file = write_collection(scratch), disk = scratch.path() / "disk";
+  const auto expected = whole_collection(scratch, file);
+  SmallDisk other(disk);
+  if (!other.mount() || !other.resize(1U << 27U)) GTEST_SKIP() << "no file system can be mounted here";
+  const Outcome outcome =
+      run_stereobench({"merge", (scratch.path() / "whole").string(), "--out", (disk / "merged").string()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(files_below(disk / "merged") == expected);
+}
+
 }  // namespace
 }  // namespace stereobench::harness
