@@ -195,7 +195,7 @@ using World = std::pair<std::filesystem::path, std::uint64_t>;
 void claim_worlds(const YamlValue& entry, const DriveGroup& drives, std::map<World, Split>& split_of) {
   for (const Split split : kSplits)
     for (const std::uint64_t seed : drives.seeds_of.at(static_cast<std::size_t>(split))) {
-      const auto claimed = split_of.emplace(World(drives.scenario.lexically_normal(), seed), split).first;
+      const auto claimed = split_of.emplace(World(drives.scenario, seed), split).first;
       if (claimed->second != split)
         YamlMap(entry, drive_keys())
             .at("seeds")

@@ -24,10 +24,10 @@ struct Share {
   std::size_t pairs = 0;
 };
 
-std::string shares_text(const std::vector<CatalogueLine>& lines) {
+std::string shares_text(const std::vector<IndexLine>& lines) {
   std::map<std::pair<std::string, std::string>, Share> shares;  // by folder: "train/ball_circle"
   std::vector<std::pair<std::string, std::string>> order;
-  for (const CatalogueLine& line : lines) {
+  for (const IndexLine& line : lines) {
     const CollectionEntry& entry = *line.entry;
     const auto key = std::pair(fmt::format("{}/{}{}{}", entry.split, entry.name,
                                            entry.variation.empty() ? "" : "-", entry.variation),
@@ -93,7 +93,7 @@ std::string id_of(const std::string& glob) {
 
 }  // namespace
 
-std::string collection_card(const CollectionRecord& record, const std::vector<CatalogueLine>& lines) {
+std::string collection_card(const CollectionRecord& record, const std::vector<IndexLine>& lines) {
   std::string about = record.about.description.empty() ? "" : record.about.description + "\n\n";
   if (!record.about.creator.empty()) about += fmt::format("Made by {}.\n\n", record.about.creator);
   return fmt::format(

@@ -14,13 +14,13 @@ namespace stereobench::harness {
 inline constexpr const char* kIndexHeader = "folder,split,name,variation,format,scenario,seed,pairs";
 
 /// A data set in the index.
-struct CatalogueLine {
+struct IndexLine {
   const CollectionEntry* entry = nullptr;
   std::size_t pairs = 0;
 };
 
 /// @return Markdown, which has no path, time or host of the machine
-std::string collection_card(const CollectionRecord& record, const std::vector<CatalogueLine>& lines);
+std::string collection_card(const CollectionRecord& record, const std::vector<IndexLine>& lines);
 
 /// @param files of all data sets
 /// @param own what the collection adds to them, with their texts

@@ -35,9 +35,9 @@ void refuse_strangers(const fs::path& folder, const CollectionRecord& record) {
                       (folder / before.folder).string(), record.name));
 }
 
-std::string index_csv(const std::vector<CatalogueLine>& lines) {
+std::string index_csv(const std::vector<IndexLine>& lines) {
   std::string csv = std::string(kIndexHeader) + "\n";
-  for (const CatalogueLine& line : lines) {
+  for (const IndexLine& line : lines) {
     const CollectionEntry& entry = *line.entry;
     csv += fmt::format("{},{},{},{},{},{},{},{}\n", entry.folder, entry.split, entry.name, entry.variation,
                        entry.format, entry.scenario, entry.seed, line.pairs);
@@ -80,7 +80,7 @@ std::vector<std::string> missing_entries(const fs::path& folder, const Collectio
 
 CollectionTotals finish_collection(const fs::path& folder, const CollectionRecord& record) {
   FileHashes files;
-  std::vector<CatalogueLine> lines;
+  std::vector<IndexLine> lines;
   CollectionTotals totals;
   for (const CollectionEntry& entry : record.datasets) {
     const FinishedEntry finished = finished_entry(folder, entry).value();

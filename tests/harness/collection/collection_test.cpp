@@ -31,7 +31,7 @@ class WrittenCollection {
   std::filesystem::path file_;
 };
 
-// Mutations: seeds of val for those of test; the scenario's path as of the working directory.
+// Mutation: seeds of train and test exchanged.
 TEST(CollectionFile, IsReadWhole) {
   const WrittenCollection written(R"(dataset: trial
 about: {licence: CC0-1.0, published: 2026-01-31}
@@ -69,7 +69,6 @@ drives:
 }
 
 // Law: no world, that is a scenario with a seed, is in two splits, whatever its variations and groups.
-// Mutations: compared within a group alone; by the scenario's text as it is written.
 TEST(CollectionFile, HasEachWorldInOneSplit) {
   EXPECT_THAT(
       WrittenCollection("dataset: a\ndrives:\n"
@@ -115,7 +114,7 @@ TEST(CollectionFile, SaysWhatIsWrongWhere) {
   }
 }
 
-// Law: the shards of any count have each drive once. Mutations: counted from 0; a shard of each n-th block.
+// Law: the shards of any count have each drive once.
 TEST(Shard, HasEachDriveOnce) {
   for (const std::size_t count : {1U, 2U, 3U, 7U})
     for (std::size_t drive = 0; drive < 20; ++drive) {

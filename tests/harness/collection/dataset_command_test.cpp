@@ -57,7 +57,7 @@ TEST_F(WholeCollection, IsListedToTheLastFile) {
               HasSubstr("\ntest/circle-noisy/tum/seed_7,test,circle,noisy,tum,ball_circle,7,4\n"));
 }
 
-// Mutations: file sets of one split alone; the licence of the program.
+// Mutation: file sets of `train` alone.
 TEST_F(WholeCollection, DescribesItself) {
   const std::string card = bytes_of(place("whole") / "README.md");
   EXPECT_THAT(card, HasSubstr("# small\n\nA test.\n"));
@@ -78,8 +78,7 @@ TEST_F(WholeCollection, DescribesItself) {
     }
 }
 
-// Law: a drive of a collection is, to the byte, what `render` writes of that seed alone. Mutation: seeds
-// counted anew in each split.
+// Law: a drive of a collection is, to the byte, what `render` writes of that seed alone.
 TEST_F(WholeCollection, HasTheDrivesThatRenderWrites) {
   const fs::path alone = place("alone");
   ASSERT_EQ(run_stereobench({"render", scenario_path("ball_circle"), "--set", "rig.width_px=160", "--set",
@@ -95,7 +94,7 @@ TEST_F(WholeCollection, HasTheDrivesThatRenderWrites) {
 }
 
 // Law: however the drives are split over machines, the joined folder is the one in one piece, to the byte;
-// and joining again changes nothing. Mutations: parts by seed number; a manifest in the order of the shards.
+// and joining again changes nothing.
 TEST_F(WholeCollection, IsTheSameInPartsAndJoined) {
   for (const char* part : {"1/3", "2/3", "3/3"}) {
     const Outcome outcome = dataset(std::string("part_") + part[0], {"--shard", part, "--jobs", "2"});
@@ -132,7 +131,7 @@ void render_otherwise(const fs::path& dataset, const std::string& name) {
   std::ofstream(dataset / "manifest-sha256.txt", std::ios::binary) << manifest;
 }
 
-// Mutations: the first shard wins; exit code 2.
+// Mutation: hashes not compared.
 TEST_F(WholeCollection, IsNotJoinedWhereShardsContradictEachOther) {
   fs::copy(place("whole"), place("other"), fs::copy_options::recursive);
   const std::string dataset = "train/circle-good/plain/seed_1";
@@ -156,7 +155,7 @@ TEST_F(WholeCollection, IsNotJoinedFromSpoiltFiles) {
   EXPECT_FALSE(fs::exists(place("from_spoilt") / "manifest-sha256.txt"));
 }
 
-// Mutations: finished drives rendered or at least written again; a spoilt file that nobody notices.
+// What is finished is not written again; what is missing or spoilt is.
 TEST_F(WholeCollection, IsTakenUpAndLeftAsItIs) {
   fs::copy(place("whole"), place("again"), fs::copy_options::recursive);
   fs::remove_all(place("again") / "test/circle-good");
@@ -174,7 +173,7 @@ TEST_F(WholeCollection, IsTakenUpAndLeftAsItIs) {
     }
 }
 
-// Mutations: drives that are gone from the file left lying; another collection's folder taken up.
+// Mutation: drives that are gone from the file left lying.
 TEST_F(WholeCollection, RefusesWhatItHasNot) {
   fs::copy(place("whole"), place("old"), fs::copy_options::recursive);
   std::string text = bytes_of(file_);
@@ -187,7 +186,7 @@ TEST_F(WholeCollection, RefusesWhatItHasNot) {
   EXPECT_TRUE(sha256sum_agrees(place("whole")));
 }
 
-// Mutation: folders made before the scenarios are read.
+// Nothing is made before all scenarios are read.
 TEST_F(WholeCollection, ChecksEverythingFirst) {
   const Outcome dry = dataset("dry", {"--dry-run", "--shard", "2/6"});
   EXPECT_EQ(dry.exit_code, 0);

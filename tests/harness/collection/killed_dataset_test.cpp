@@ -46,9 +46,7 @@ void expect_whole_files(const fs::path& folder, const std::map<std::string, std:
 }
 
 // Killed at random times, with two processes at work: what has a final name is whole, no file is lost, and in
-// the end there is the same folder as of an undisturbed run, with nothing left over. Mutations: pictures
-// written under their own names; the collection's manifest written first; what a dead process left behind
-// let be.
+// the end there is the same folder as of an undisturbed run, with nothing left over.
 TEST(KilledDataset, EndsInTheSameFolder) {
   const TestFolder scratch;
   const fs::path file = write_collection(scratch), broken = scratch.path() / "broken";
@@ -98,7 +96,7 @@ class SmallDisk {
 };
 
 // The disk is full again and again, a little later each time: one line, exit code 2, no file in part; with
-// room it goes on, to the same folder. Mutations: a write's error let be; the temporary file left behind.
+// room it goes on, to the same folder. Mutation: a write's error let be.
 TEST(FullDisk, IsOneLineAndGoesOnWithRoom) {
   const TestFolder scratch;
   const fs::path file = write_collection(scratch), disk = scratch.path() / "disk";
@@ -130,7 +128,7 @@ TEST(FullDisk, IsOneLineAndGoesOnWithRoom) {
   EXPECT_TRUE(files_below(out) == expected);
 }
 
-// A link does not lead to another file system. Mutations: that is an error; copies that nobody writes.
+// A link does not lead to another file system. Mutation: copies that nobody writes.
 TEST(MergedOntoAnotherDisk, IsCopied) {
   const TestFolder scratch;
   const fs::path file = write_collection(scratch), disk = scratch.path() / "disk";

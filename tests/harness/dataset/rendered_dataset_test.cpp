@@ -163,7 +163,7 @@ TEST(RenderedDataset, ListsAndRemovesItsOwnFilesAlone) {
   }
 }
 
-// Mutation: any name taken.
+// A format's file would be written over, or taken for the data set's own.
 TEST(RenderedDataset, TakesNoFileOfAFormatForItsOwn) {
   const TestFolder folder;
   for (const char* name : {"dataset.json", "README.md", "croissant.json", "manifest-sha256.txt"}) {
@@ -173,8 +173,7 @@ TEST(RenderedDataset, TakesNoFileOfAFormatForItsOwn) {
   }
 }
 
-// Whoever is killed right before the manifest has nothing that says it is whole. Mutation: the manifest
-// written with the other files, in the order of names.
+// Whoever is killed right before the manifest has nothing that says it is whole.
 TEST(RenderedDataset, IsNotFinishedWithoutAManifest) {
   const TestFolder folder;
   const auto write_all = [](RenderedDataset& dataset) {
@@ -191,8 +190,7 @@ TEST(RenderedDataset, IsNotFinishedWithoutAManifest) {
   EXPECT_EQ(folder.read("manifest-sha256.txt"), manifest);
 }
 
-// Law: the manifest is what `sha256sum -c` alone checks, of every file but itself. Mutations: one space; the
-// cards left out of it.
+// Law: the manifest is what `sha256sum -c` alone checks, of every file but itself.
 TEST(RenderedDataset, HasAManifestThatSha256sumChecks) {
   const TestFolder folder;
   RenderedDataset dataset(folder.path(), kOne);

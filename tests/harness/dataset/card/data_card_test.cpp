@@ -48,8 +48,7 @@ bool fits(const std::string& glob, const std::string& name) {
   return std::regex_match(name, std::regex(std::regex_replace(escaped, std::regex(R"(\*)"), "[^/]*")));
 }
 
-// Law: whoever adds a format says what each of its files holds (format_layout.cpp). Mutation: a row of the
-// table left out.
+// Law: whoever adds a format says what each of its files holds (format_layout.cpp).
 TEST_P(CardOfEveryFormat, SaysWhatEachFileHolds) {
   for (const auto& [name, hash] : read_manifest(place_)) {
     const bool is_own = name == "dataset.json" || name == "README.md" || name == "croissant.json";
@@ -59,8 +58,7 @@ TEST_P(CardOfEveryFormat, SaysWhatEachFileHolds) {
 }
 
 // Law: each file is in Croissant's distribution once, itself or as one of a set; hashes are those of the
-// manifest, and records name files that there are. Mutations: sets of the first folder alone; the hash of the
-// card left out; records of a table that is not there.
+// manifest, and records name files that there are.
 TEST_P(CardOfEveryFormat, ListsEachFileInCroissant) {
   const nlohmann::json told = croissant();
   std::map<std::string, std::string> objects;
@@ -86,7 +84,7 @@ TEST_P(CardOfEveryFormat, ListsEachFileInCroissant) {
     }
 }
 
-// Mutations: no seed; nothing quoted; the folder's own path.
+// Whoever reads the card can make the same; it tells nothing of the machine.
 TEST_P(CardOfEveryFormat, SaysHowItWasMadeAndNotWhere) {
   const std::string card = folder_.read("data/README.md");
   EXPECT_THAT(card, HasSubstr("# room, seed 4\n\n3 stereo pairs of one drive"));
@@ -107,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, CardOfEveryFormat,
                            return name;
                          });
 
-// What the specification asks for, and nothing that nobody said. Mutations: another version of it; a date.
+// What the specification asks for, and nothing that nobody said.
 TEST(Croissant, HasWhatTheSpecificationAsksFor) {
   const auto told =
       nlohmann::json::parse(croissant_text({.name = "a",
@@ -130,7 +128,7 @@ TEST(Croissant, HasWhatTheSpecificationAsksFor) {
   for (const char* key : {"creator", "url", "datePublished"}) EXPECT_FALSE(silent.contains(key)) << key;
 }
 
-// Mutation: every column a float.
+// Columns have types by their names.
 TEST(Croissant, KnowsWhatColumnsHold) {
   const nlohmann::json records = table_records("frames.csv", "step,t_s,filename,landmark_id");
   std::vector<std::string> types;
