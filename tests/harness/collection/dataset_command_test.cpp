@@ -40,8 +40,7 @@ class WholeCollection : public testing::Test {
   static inline Outcome outcome_;
 };
 
-// Mutations: a data set without its own manifest in the list; drives of one format alone; splits by
-// variation.
+// Mutation: the manifests of data sets left out of the list.
 TEST_F(WholeCollection, IsListedToTheLastFile) {
   EXPECT_THAT(outcome_.out, HasSubstr("small: 12 data sets with 48 stereo pairs in "));
   EXPECT_TRUE(sha256sum_agrees(place("whole")));
