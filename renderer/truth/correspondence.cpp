@@ -27,11 +27,17 @@ bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, 
   return scene.normal(primitive, point.in_world).dot(line.direction) > 0.0;
 }
 
+/// Another look, and where from.
+struct OtherLook {
+  const IdBuffer& ids;
+  Eigen::Vector3d camera_m;  ///< optical centre, world frame
+};
+
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own primitive, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const PrimitivePoint& point) {
-  const Eigen::Vector3d camera_m = ids.view.centre_in_world();
-  const Ray line{camera_m, point.in_world - camera_m};
+bool is_hidden(const SceneGeometry& scene, const OtherLook& look, const PrimitivePoint& point) {
+  const IdBuffer& ids = look.ids;
+  const Ray line{look.camera_m, point.in_world - look.camera_m};
   const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;
   if (!(in_camera.z() > kNear_m)) return false;
   const std::array<int, 4> around = primitives_around(ids.primitive, shown_at(ids.view, in_camera));
@@ -47,7 +53,7 @@ bool is_hidden(const SceneGeometry& scene, const IdBuffer& ids, const PrimitiveP
 class Follower {
  public:
   Follower(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to)
-      : scene_(scene), from_(from), to_(to), lines_(from.view) {
+      : scene_(scene), from_(from), to_(to), look_{to, to.view.centre_in_world()}, lines_(from.view) {
     if (!(to.view.lens == vision::Distortion{}))
       field_ = vision::directions_seen(to.view.lens, to.view.intrinsics);
   }
@@ -64,7 +70,7 @@ class Follower {
     const Eigen::Vector2f shift = (there - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
     if (!vision::is_inside(to_.view.intrinsics, there)) return Occlusion::kOutside;
-    return is_hidden(scene_, to_, {primitive, seen.on_primitive}) ? Occlusion::kHidden : Occlusion::kSeen;
+    return is_hidden(scene_, look_, {primitive, seen.on_primitive}) ? Occlusion::kHidden : Occlusion::kSeen;
   }
 
  private:
@@ -76,6 +82,7 @@ class Follower {
   const SceneGeometry& scene_;
   const IdBuffer& from_;
   const IdBuffer& to_;
+  OtherLook look_;
   PixelRays lines_;
   std::optional<Eigen::AlignedBox2d> field_;  // of the other camera, where it has a lens
 };
@@ -87,11 +94,11 @@ Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, cons
   Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)), cv::Mat(size, CV_8UC1)};
   const Follower follower(scene, from, to);
   for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      const Occlusion occlusion =
-          follower.follow(from.primitive.at<int>(v, u), u, v, result.shift_px.at<cv::Vec2f>(v, u));
-      result.occlusion.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(occlusion);
-    }
+    const int* primitives = from.primitive.ptr<int>(v);
+    auto* shifts_px = result.shift_px.ptr<cv::Vec2f>(v);
+    std::uint8_t* occlusions = result.occlusion.ptr(v);
+    for (int u = 0; u < size.width; ++u)
+      occlusions[u] = static_cast<std::uint8_t>(follower.follow(primitives[u], u, v, shifts_px[u]));
   }
   return result;
 }

@@ -13,16 +13,19 @@ class PixelRays {
  public:
   explicit PixelRays(const CameraView& view)
       : view_(view),
+        is_straight_(view.lens == vision::Distortion{}),
         camera_m_(view.centre_in_world()),
         world_from_camera_(view.camera_from_world.linear().transpose()) {}
 
   /// @param u,v (0, 0) is the centre of the top-left pixel
   Ray operator()(double u, double v) const {
-    return {camera_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
+    if (!is_straight_) return {camera_m_, world_from_camera_ * line_of_sight(view_, {u, v})};
+    return {camera_m_, world_from_camera_ * vision::pixel_ray(view_.intrinsics, {u, v})};
   }
 
  private:
   CameraView view_;
+  bool is_straight_;  ///< asked once: it takes as long as the ray
   Eigen::Vector3d camera_m_;
   Eigen::Matrix3d world_from_camera_;
 };
