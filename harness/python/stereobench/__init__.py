@@ -1,0 +1,1 @@
+"""Python modules of stereobench, a stereo simulation testbench."""
