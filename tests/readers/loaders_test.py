@@ -1,6 +1,9 @@
 """The loaders of Python, stereobench.datasets, against the files as OpenCV and numpy read them, and against geometry.
 
 usage: loaders_test.py STEREOBENCH SOURCE_DIR; exits with 77 (skipped) where cv2 or numpy is missing.
+Mutations that turn it red, each tried: rows of a PFM from the bottom; x and y of flow exchanged, exact or KITTI's; the
+camera's pose inverse; the right camera with the pose of the left one; tables read when the data set is opened; no check
+of sizes, none of SHA-256; seeds in the order of their folders' names.
 """
 
 import json
@@ -79,8 +82,6 @@ def listed_as_it_is(copy, name):
 
 
 class Arrays(unittest.TestCase):
-    """Mutations that turn this red, each tried: rows of a PFM from the bottom; the x and y of flow exchanged."""
-
     def test_are_what_opencv_reads(self):
         wanted = {"picture": ("", "png", np.uint8), "ids": ("_id", "png", np.uint8), "depth_m": ("_depth", "pfm", np.float32),
                   "range_m": ("_range", "pfm", np.float32), "normals": ("_normal", "pfm", np.float32),
@@ -125,8 +126,6 @@ class Arrays(unittest.TestCase):
 
 
 class Geometry(unittest.TestCase):
-    """Mutations that turn this red, each tried: the pose inverse; the right camera with the pose of the left one."""
-
     def test_rays_of_a_balls_pixels_meet_the_ball(self):
         for name in ("exact", "late"):
             dataset = datasets.open_dataset(folder / name)

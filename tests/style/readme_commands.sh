@@ -5,6 +5,8 @@
 # order, in a temporary folder that has ROOT's assets: a new one for each document, so that a page works by itself.
 # `scripts/...` and `.ci/run` install and build, so they must only exist and be executable. Any other command than those
 # listed below is a breach: it would not be checked.
+# The ```python blocks of a page that imports `stereobench` are one script, which runs after its commands in the same
+# folder. Without Debian's python3-opencv it does not.
 set -euo pipefail
 root=$(cd "$1" && pwd)
 program=$2
@@ -45,6 +47,21 @@ try() {
   esac
 }
 
+python_blocks() {
+  awk '/^ *```/ { inside = !inside && $0 ~ /^ *```python *$/; next } inside' "$root/$document"
+}
+
+try_python() {
+  grep -q '^from stereobench ' <<<"$(python_blocks)" || return 0
+  if ! /usr/bin/python3 -c 'import cv2, numpy' 2>/dev/null; then
+    echo "$document: python blocks are not run without python3-opencv"
+    return 0
+  fi
+  echo "+ python blocks of $document"
+  python_blocks | PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$root/harness/python" /usr/bin/python3 - ||
+    breach "its python blocks fail"
+}
+
 check() {
   document=$1
   local count=0 command
@@ -53,6 +70,7 @@ check() {
     count=$((count + 1))
     try "$command"
   done < <(commands)
+  try_python
   [ "$count" -gt 0 ] || [ "$document" != README.md ] || breach "no command in a \`\`\`sh block"
 }
 

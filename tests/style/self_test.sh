@@ -78,6 +78,14 @@ clean_repository && sed -i 's/run a/run c/' README.md && expect red readme "a co
 clean_repository && sed -i 's/^scripts\/demo.sh/frobnicate/' README.md && expect red readme "a command nobody checks"
 clean_repository && sed -i 's/run a/run c/' docs/guide/first.md && expect red readme "a command of the guide that fails"
 clean_repository && sed -i 's/^stereobench/frobnicate/' docs/guide/first.md && expect red readme "one nobody checks"
+if /usr/bin/python3 -c 'import cv2, numpy' 2>/dev/null; then
+  python_page() { # a page whose last block of Python is $1
+    clean_repository && mkdir -p harness/python/stereobench && touch harness/python/stereobench/__init__.py
+    printf '```python\nfrom stereobench import __file__\nx = 1\n```\n\n```python\n%s\n```\n' "$1" >>docs/guide/first.md
+  }
+  python_page 'import os; assert x == 1 and os.path.isdir("done")' && expect green readme "Python after the commands"
+  python_page 'assert x == 2' && expect red readme "Python of the guide that fails"
+fi
 clean_repository && rm -r docs && expect green readme "no guide"
 clean_repository && rm README.md && expect red readme "no README"
 clean_repository && printf 'text\n' >README.md && expect red readme "no commands"
