@@ -17,7 +17,7 @@ LEVELS_PER_PX = 256
 BLOCK_PX = 5
 DISPARITIES = 128
 LIMITS_PX = (1, 3)
-FLAT_LEVELS = 4  # standard deviation within a block: twice the noise of the scenario
+FLAT_LEVELS = 4  # standard deviation within a block
 
 
 def matcher():
@@ -49,13 +49,14 @@ def contrast(picture):
 
 
 def examine(folder, name):
-    """One row a pixel that has truth: error in px (nan for nothing), disparity, whether occluded, contrast."""
+    """One row a pixel that has truth: error in px (nan for nothing), disparity, whether occluded, contrast, column."""
     left, right = (cv2.imread(str(folder / camera / name)) for camera in ("image_2", "image_3"))
     truth = read_disparity(folder / "disp_occ_0" / name)
     seen_by_both = np.isfinite(read_disparity(folder / "disp_noc_0" / name))
     there = np.isfinite(truth)
     error = estimate(left, right) - truth
-    return np.column_stack([values[there] for values in (error, truth, ~seen_by_both, contrast(left))])
+    column = np.broadcast_to(np.arange(truth.shape[1]), truth.shape)
+    return np.column_stack([values[there] for values in (error, truth, ~seen_by_both, contrast(left), column)])
 
 
 def line(title, error, of):
@@ -69,16 +70,64 @@ def line(title, error, of):
 
 
 def table(rows):
-    error, disparity, occluded, texture = rows.T
-    occluded = occluded > 0
-    steps = np.concatenate([[0], np.quantile(disparity[~occluded], (0.25, 0.5, 0.75)), [np.inf]])
-    print("| pixels | share | given | bad > 1 px | bad > 3 px | > 1 px of given | > 3 px of given | mean of good [px] | sd of good [px] |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    print(line("all", error, error.size))
-    print(line("not occluded", error[~occluded], error.size))
+    error, disparity, occluded, texture, column = rows.T
+    both = (occluded == 0) & (column >= DISPARITIES)
+    steps = [0, *np.quantile(disparity[both], (0.25, 0.5, 0.75)), np.inf]
+    parts = {"all": np.full(error.size, True), "not occluded": occluded == 0,
+             f"these, from column {DISPARITIES} on": both}
     for low, high in zip(steps, steps[1:]):
-        part = ~occluded & (disparity >= low) & (disparity < high)
-        print(line(f"these, disparity {low:.0f} .. {high:.0f} px", error[part], error.size))
-    left_border = ~occluded & (texture < FLAT_LEVELS)
-    print(line(f"these, contrast below {FLAT_LEVELS} levels", error[left_border], error.size))
-    print(line(f"these, contrast above {FLAT_LEVELS} levels", error[~occluded & (texture >= FLAT_LEVELS)], error.size))
+        parts[f"of these, disparity {low:.0f} to {high:.0f} px"] = both & (disparity >= low) & (disparity < high)
+    parts[f"of these, contrast below {FLAT_LEVELS} levels"] = both & (texture < FLAT_LEVELS)
+    parts[f"of these, contrast from {FLAT_LEVELS} levels on"] = both & (texture >= FLAT_LEVELS)
+    print("| pixels | share | given | bad > 1 px | bad > 3 px | > 1 px of given | > 3 px of given | mean of good [px] | "
+          "sd of good [px] |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for title, part in parts.items():
+        print(line(title, error[part], error.size))
+
+
+def residual_shift(left, right, disparity):
+    """How far the right picture is from the left one along the row, after it was shifted by the truth: the sums of
+    Lucas and Kanade, gradient times difference and gradient squared."""
+    left, right = (cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY).astype(np.float32) for picture in (left, right))
+    at = np.arange(left.shape[1]) - disparity
+    shifted = np.array([np.interp(np.nan_to_num(x), np.arange(left.shape[1]), row) for x, row in zip(at, right)])
+    gradient = (np.gradient(left, axis=1) + np.gradient(shifted, axis=1)) / 2
+    inside = cv2.erode(np.isfinite(disparity).astype(np.uint8), np.ones((5, 5))) > 0
+    return np.array([(gradient * (left - shifted))[inside].sum(), (gradient**2)[inside].sum()])
+
+
+def picture_of(folder, name):
+    """Left picture and truth above, estimate and error below; the error is white from 3 px on, blue where none is given."""
+    left, right = (cv2.imread(str(folder / camera / name)) for camera in ("image_2", "image_3"))
+    truth, found = read_disparity(folder / "disp_occ_0" / name), estimate(left, right)
+
+    def coloured(disparity):
+        levels = np.nan_to_num(np.clip(disparity * 255 / DISPARITIES, 0, 255)).astype(np.uint8)
+        return np.where(np.isfinite(disparity)[..., None], cv2.applyColorMap(levels, cv2.COLORMAP_TURBO), 0)
+
+    error = cv2.cvtColor(np.nan_to_num(np.clip(np.abs(found - truth) * 85, 0, 255)).astype(np.uint8), cv2.COLOR_GRAY2BGR)
+    error[~np.isfinite(found)] = (120, 0, 0)
+    whole = np.vstack([np.hstack([left, coloured(truth)]), np.hstack([coloured(found), error])]).astype(np.uint8)
+    return cv2.resize(whole, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+
+
+def main():
+    options = argparse.ArgumentParser(description="OpenCV's semi-global matcher against the truth")
+    options.add_argument("folder", type=pathlib.Path, help="a folder in KITTI's stereo layout")
+    options.add_argument("--picture", type=pathlib.Path, help="PNG file for the first pair with truth, estimate, error")
+    asked = options.parse_args()
+    cv2.setNumThreads(1)
+    names = sorted(path.name for path in (asked.folder / "image_2").glob("*_10.png"))
+    table(np.vstack([examine(asked.folder, name) for name in names]))
+    sums = np.zeros(2)
+    for name in names:
+        pair = (cv2.imread(str(asked.folder / camera / name)) for camera in ("image_2", "image_3"))
+        sums += residual_shift(*pair, read_disparity(asked.folder / "disp_noc_0" / name))
+    print(f"shift between the pictures that the truth leaves: {sums[0] / sums[1]:+.4f} px")
+    if asked.picture:
+        cv2.imwrite(str(asked.picture), picture_of(asked.folder, names[0]))
+
+
+if __name__ == "__main__":
+    main()

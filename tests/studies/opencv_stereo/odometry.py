@@ -1,6 +1,6 @@
 """A simple stereo odometry of OpenCV's parts on a data set in KITTI's odometry layout. It knows nothing of stereobench.
 
-usage: odometry.py KITTI_ODOMETRY [LENGTH_M ...]
+usage: odometry.py KITTI_ODOMETRY [--fast-threshold LEVELS]
 
 ORB keypoints of the left picture are matched to the right one along the row, triangulated, matched to the next left
 picture, and give its pose by solvePnPRansac. There is no map, no window and no loop closure: errors add up. Prints
@@ -8,13 +8,14 @@ KITTI's errors: over all parts of the drive that have a length, the difference o
 rotation in degrees a metre.
 """
 
+import argparse
 import pathlib
-import sys
 
 import cv2
 import numpy as np
 
 FEATURES = 2000
+TURN_RAD = 0.002  # a step that turns by more is in a corner
 ROW_PX = 2
 RATIO = 0.8  # Lowe's test
 REPROJECTION_PX = 1.0
@@ -80,10 +81,10 @@ def motion(before, now, camera):
     return np.linalg.inv(now_from_before), len(inliers)
 
 
-def drive(folder):
+def drive(folder, fast_threshold):
     """Estimated poses, the numbers of inliers, and the steps without an estimate (which repeat the motion before)."""
     projections = read_projections(folder)
-    orb = cv2.ORB_create(nfeatures=FEATURES)
+    orb = cv2.ORB_create(nfeatures=FEATURES, fastThreshold=fast_threshold)
     poses, inliers, lost, last, before = [np.eye(4)], [], [], np.eye(4), None
     for path in sorted((folder / "sequences/00/image_0").iterdir()):
         left = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
@@ -115,26 +116,45 @@ def part_errors(truth, estimate, length_m):
     return np.array(errors).reshape(-1, 2)
 
 
-def main():
-    cv2.setNumThreads(1)
-    cv2.setRNGSeed(1)
-    folder = pathlib.Path(sys.argv[1])
-    truth = read_poses(folder)
-    estimate, inliers, lost = drive(folder)
+def print_parts(truth, estimate):
     print("| length [m] | parts | translation [%] | rotation [deg/m] |")
     print("|---|---|---|---|")
-    errors = {length: part_errors(truth, estimate, length) for length in map(float, sys.argv[2:] or LENGTHS_M)}
+    errors = {length: part_errors(truth, estimate, length) for length in LENGTHS_M}
+    errors["all"] = np.concatenate(list(errors.values()))
     for length, of_length in errors.items():
         if len(of_length):
-            print(f"| {length:g} | {len(of_length)} | {of_length[:, 0].mean():.2f} | {of_length[:, 1].mean():.4f} |")
-    every = np.concatenate(list(errors.values()))
-    print(f"| all | {len(every)} | {every[:, 0].mean():.2f} | {every[:, 1].mean():.4f} |")
-    path_m = np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1)
-    step_m = np.linalg.norm(np.diff(estimate[:, :3, 3], axis=0), axis=1)
+            print(f"| {length} | {len(of_length)} | {of_length[:, 0].mean():.2f} | {of_length[:, 1].mean():.4f} |")
+
+
+def print_steps(truth, estimate, inliers):
+    """Errors of single steps, straight on and in corners: a bias along the axis would be one of scale."""
+    wanted, found = (np.linalg.inv(poses[:-1]) @ poses[1:] for poses in (truth, estimate))
+    error = np.linalg.inv(wanted) @ found
+    turn_rad = np.arccos(np.clip((np.trace(wanted[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1))
+    off_rad = np.arccos(np.clip((np.trace(error[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1))
+    print("| steps | number | inliers, median | forward, mean [mm] | shift, rms [mm] | turn, rms [deg] |")
+    print("|---|---|---|---|---|---|")
+    for title, part in (("straight on", turn_rad <= TURN_RAD), ("in corners", turn_rad > TURN_RAD)):
+        shift_mm = 1e3 * error[part, :3, 3]
+        print(f"| {title} | {part.sum()} | {np.median(inliers[part]):.0f} | {shift_mm[:, 2].mean():+.2f} | "
+              f"{np.sqrt((shift_mm**2).sum(axis=1).mean()):.1f} | {np.degrees(np.sqrt((off_rad[part]**2).mean())):.3f} |")
+
+
+def main():
+    options = argparse.ArgumentParser(description="stereo odometry of OpenCV's parts")
+    options.add_argument("folder", type=pathlib.Path, help="a folder in KITTI's odometry layout")
+    options.add_argument("--fast-threshold", type=int, default=20, help="of ORB's corners, in levels (OpenCV's: 20)")
+    asked = options.parse_args()
+    cv2.setNumThreads(1)
+    cv2.setRNGSeed(1)
+    truth = read_poses(asked.folder)
+    estimate, inliers, lost = drive(asked.folder, asked.fast_threshold)
+    print_parts(truth, estimate)
+    print_steps(truth, estimate, inliers)
+    path_m = np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1).sum()
     end_m = np.linalg.norm(estimate[-1, :3, 3] - truth[-1, :3, 3])
-    print(f"{len(truth)} frames, {path_m.sum():.1f} m; at the end {end_m:.2f} m off ({100 * end_m / path_m.sum():.2f} %); "
-          f"length of the estimate over that of the path {step_m.sum() / path_m.sum():.4f}; inliers: median "
-          f"{np.median(inliers):.0f}, least {inliers.min()}; {len(lost)} steps without an estimate")
+    print(f"{len(truth)} frames, {path_m:.1f} m; {end_m:.2f} m off at the end ({end_m / path_m:.2%}); "
+          f"{len(lost)} steps without an estimate")
 
 
 if __name__ == "__main__":
