@@ -116,28 +116,42 @@ def part_errors(truth, estimate, length_m):
     return np.array(errors).reshape(-1, 2)
 
 
-def print_parts(truth, estimate):
-    print("| length [m] | parts | translation [%] | rotation [deg/m] |")
-    print("|---|---|---|---|")
+def print_parts(title, truth, estimate):
     errors = {length: part_errors(truth, estimate, length) for length in LENGTHS_M}
     errors["all"] = np.concatenate(list(errors.values()))
+    print(f"| {title}: length [m] | parts | translation [%] | rotation [deg/m] |")
+    print("|---|---|---|---|")
     for length, of_length in errors.items():
         if len(of_length):
             print(f"| {length} | {len(of_length)} | {of_length[:, 0].mean():.2f} | {of_length[:, 1].mean():.4f} |")
 
 
+def steps(poses):
+    """The transform from each frame but the first to the one before."""
+    return np.linalg.inv(poses[:-1]) @ poses[1:]
+
+
+def angle_rad(transforms):
+    return np.arccos(np.clip((np.trace(transforms[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1))
+
+
+def with_true_corners(truth, estimate):
+    """The estimate with the true motion of steps in corners: what straight stretches alone add up to."""
+    poses, corner = [np.eye(4)], angle_rad(steps(truth)) > TURN_RAD
+    for wanted, found, turns in zip(steps(truth), steps(estimate), corner):
+        poses.append(poses[-1] @ (wanted if turns else found))
+    return np.array(poses)
+
+
 def print_steps(truth, estimate, inliers):
-    """Errors of single steps, straight on and in corners: a bias along the axis would be one of scale."""
-    wanted, found = (np.linalg.inv(poses[:-1]) @ poses[1:] for poses in (truth, estimate))
-    error = np.linalg.inv(wanted) @ found
-    turn_rad = np.arccos(np.clip((np.trace(wanted[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1))
-    off_rad = np.arccos(np.clip((np.trace(error[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1))
+    """Errors of single steps, straight on and in corners. A bias along the axis would be one of scale."""
+    error, corner = np.linalg.inv(steps(truth)) @ steps(estimate), angle_rad(steps(truth)) > TURN_RAD
     print("| steps | number | inliers, median | forward, mean [mm] | shift, rms [mm] | turn, rms [deg] |")
     print("|---|---|---|---|---|---|")
-    for title, part in (("straight on", turn_rad <= TURN_RAD), ("in corners", turn_rad > TURN_RAD)):
-        shift_mm = 1e3 * error[part, :3, 3]
+    for title, part in (("straight on", ~corner), ("in corners", corner)):
+        shift_mm, off_deg = 1e3 * error[part, :3, 3], np.degrees(angle_rad(error[part]))
         print(f"| {title} | {part.sum()} | {np.median(inliers[part]):.0f} | {shift_mm[:, 2].mean():+.2f} | "
-              f"{np.sqrt((shift_mm**2).sum(axis=1).mean()):.1f} | {np.degrees(np.sqrt((off_rad[part]**2).mean())):.3f} |")
+              f"{np.sqrt((shift_mm**2).sum(axis=1).mean()):.1f} | {np.sqrt((off_deg**2).mean()):.3f} |")
 
 
 def main():
@@ -149,7 +163,8 @@ def main():
     cv2.setRNGSeed(1)
     truth = read_poses(asked.folder)
     estimate, inliers, lost = drive(asked.folder, asked.fast_threshold)
-    print_parts(truth, estimate)
+    print_parts("estimate", truth, estimate)
+    print_parts("true corners", truth, with_true_corners(truth, estimate))
     print_steps(truth, estimate, inliers)
     path_m = np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1).sum()
     end_m = np.linalg.norm(estimate[-1, :3, 3] - truth[-1, :3, 3])
