@@ -6,7 +6,7 @@
     for frame in dataset:
         print(frame.step, frame.t_s, frame.left.picture.shape, frame.left.depth_m.max())
 
-Files are opened when their values are asked for. `open_dataset` itself reads dataset.json alone. PNG files and
+Files are opened when their values are asked for. `open_dataset` itself reads dataset.json and the manifest alone. PNG files and
 calibrations are read by OpenCV (Debian's python3-opencv). docs/guide/python_loaders.md shows everything.
 """
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from .calibration import Calibration, read_calibration
 from .errors import DatasetError
-from .files import LIST, Files
+from .files import ABOUT, Files
 from .frame import Frame
 from .tables import read_table
 
@@ -27,7 +27,7 @@ class Dataset(collections.abc.Sequence):
     """
 
     def __init__(self, folder: str | os.PathLike):
-        """Opens a folder with a dataset.json, and reads no other file. Raises DatasetError."""
+        """Opens a finished folder: reads dataset.json and the manifest, no other file. Raises DatasetError."""
         self.folder = pathlib.Path(folder)
         self.files = Files(self.folder)
         self.steps: tuple[int, ...] = tuple(self.files.about["frames"])  #: the steps that have pictures
@@ -53,7 +53,7 @@ class Dataset(collections.abc.Sequence):
     def at_step(self, step: int) -> Frame:
         """The frame of a step of the drive, counted from 0. Raises DatasetError where the step has no pictures."""
         if step not in self.steps:
-            raise DatasetError(f"{self.folder}: step {step} has no pictures, expected a step that {LIST} lists in frames")
+            raise DatasetError(f"{self.folder}: step {step} has no pictures, expected a step that {ABOUT} lists in frames")
         return Frame(self, step)
 
     @property
