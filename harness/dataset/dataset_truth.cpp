@@ -51,6 +51,8 @@ std::vector<worlds::Ball> balls_in(const fs::path& file) {
       refuse(table, row, 0, fmt::format("expected {}", balls.size()));
     worlds::Ball ball;
     ball.colour = whole_number_in(table, row, 1, 0);
+    ball.paint_rgb =
+        Eigen::Vector3d(number_in(table, row, 2), number_in(table, row, 3), number_in(table, row, 4)) / 255.0;
     ball.centre_m = {number_in(table, row, 5), number_in(table, row, 6), number_in(table, row, 7)};
     ball.radius_m = number_in(table, row, 8);
     if (!(ball.radius_m > 0.0)) refuse(table, row, 8, "expected a positive radius");

@@ -9,6 +9,7 @@
 #include "harness/dataset/dataset_truth.h"
 #include "harness/dataset/drive_json.h"
 #include "harness/dataset/formats/plain_format.h"
+#include "harness/dataset/truth/ball_lines.h"
 #include "harness/io/file_list.h"
 #include "harness/io/float_picture.h"
 #include "harness/io/json_file.h"
@@ -80,7 +81,8 @@ PlainDataset read_plain_dataset(const fs::path& folder) {
 
 void require_exact_truth(const PlainDataset& dataset, TruthKind kind) {
   const TruthRequest& has = dataset.drive.truth;
-  if (std::ranges::count(has.kinds, kind) == 0 || has.format != TruthFormat::kExact)
+  const bool is_exact = has.format == TruthFormat::kExact || kind == TruthKind::kBalls;
+  if (std::ranges::count(has.kinds, kind) == 0 || !is_exact)
     throw std::runtime_error(fmt::format("{}: has no {} in the format exact; render it with --truth {}",
                                          dataset.folder.string(), name_of(kind), name_of(kind)));
 }
@@ -122,15 +124,13 @@ cv::Mat PlainPair::depth_m(Side side) {
 }
 
 const renderer::PixelTruth& PlainPair::pixels(Side) {
-  refuse_to_read("surfaces, ranges and normals");
+  throw std::runtime_error(
+      fmt::format("{}: surfaces, ranges and normals are not read from data sets", dataset_.folder.string()));
 }
 
-std::vector<renderer::BallTruth> PlainPair::balls(Side) {
-  refuse_to_read("outlines of balls");
-}
-
-void PlainPair::refuse_to_read(const char* what) const {
-  throw std::runtime_error(fmt::format("{}: {} are not read from data sets", dataset_.folder.string(), what));
+std::vector<renderer::BallTruth> PlainPair::balls(Side side) {
+  const fs::path lines = truth_file(side, TruthKind::kBalls, ".jsonl");
+  return parse_ball_lines(read_text(lines), dataset_.drive.world.balls.size(), lines.string());
 }
 
 const Correspondence& PlainPair::to_other_camera(Side side) {

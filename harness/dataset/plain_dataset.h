@@ -23,11 +23,11 @@ struct PlainDataset {
 ///   file is missing or not as `render` writes it
 PlainDataset read_plain_dataset(const std::filesystem::path& folder);
 
-/// Makes sure that a set has truth of a kind, exactly.
+/// Makes sure that a set has truth of a kind, exactly. Balls are exact with each --truth-format.
 /// @throws std::runtime_error, one line that says how to render it
 void require_exact_truth(const PlainDataset& dataset, TruthKind kind);
 
-/// A stereo pair of it: pictures, identities, depth, disparity and flow.
+/// A stereo pair of it: pictures, identities, depth, balls, disparity and flow.
 /// All but step and file_of throw std::runtime_error, one line, for what is missing, broken, or not read.
 class PlainPair final : public DatasetPair {
  public:
@@ -48,7 +48,6 @@ class PlainPair final : public DatasetPair {
   std::filesystem::path file(vision::Side side, std::string_view kind, std::string_view extension) const;
   /// @throws std::runtime_error as require_exact_truth
   std::filesystem::path truth_file(vision::Side side, TruthKind kind, std::string_view extension) const;
-  [[noreturn]] void refuse_to_read(const char* what) const;
   renderer::Correspondence with_occlusion(vision::Side side, TruthKind kind,
                                           const std::vector<cv::Mat>& shift_px) const;
   cv::Mat sized(const std::filesystem::path& file, cv::Mat picture, int type) const;
