@@ -14,6 +14,7 @@
 #include "harness/dataset/formats/odometry/tum_format.h"
 #include "harness/dataset/formats/odometry/vslamlab_format.h"
 #include "harness/dataset/formats/plain_format.h"
+#include "harness/dataset/formats/scene/colmap_format.h"
 #include "harness/dataset/formats/stereo/eth3d_format.h"
 #include "harness/dataset/formats/stereo/kitti_stereo_format.h"
 #include "harness/dataset/formats/stereo/middlebury_format.h"
@@ -41,6 +42,7 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"sceneflow", "disparity, flow and poses, as in Scene Flow's Monkaa", "disparity,flow",
      check_sceneflow_format, sceneflow_writer},
     {"vslamlab", "poses, as VSLAM-LAB has them", "", check_vslamlab_format, vslamlab_writer},
+    {"colmap", "poses and ball centres, as a model of COLMAP", "", check_colmap_format, colmap_writer},
 });
 
 }  // namespace
