@@ -1,12 +1,15 @@
 """Data sets in other people's layouts, read by programs that nobody here wrote, beside the plain one.
 
 usage: readers_test.py STEREOBENCH SOURCE_DIR [OPENCV_SLAM_KITTI]; exits with 77 (skipped) where no reader is there:
-torchvision (Debian's python3-torchvision) and OpenCV's module `datasets`. Meant to catch: disparities of the right
+torchvision (Debian's python3-torchvision), OpenCV's module `datasets`, and COLMAP (Debian's colmap). Meant to catch: disparities of the right
 camera; KITTI's with 128 levels a pixel; disp_occ_1 left out; masks exchanged; inverse poses; P1 with a positive offset.
 """
 
 import json
+import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,7 +27,8 @@ except ImportError:
 STEREOBENCH, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 KITTI_READER = sys.argv[3] if len(sys.argv) > 3 else None
 SKIPPED = 77
-FORMATS = ["kitti-odometry", "kitti-stereo", "kitti-stereo-2012", "middlebury", "eth3d", "sceneflow"]
+COLMAP = shutil.which("colmap")
+FORMATS = ["kitti-odometry", "kitti-stereo", "kitti-stereo-2012", "middlebury", "eth3d", "sceneflow", "colmap"]
 
 
 def setUpModule():
@@ -125,8 +129,30 @@ class OpencvSlamKitti(unittest.TestCase):
             self.assertTrue(np.allclose(np.reshape(pose, (3, 4)), (np.linalg.inv(first) @ camera)[:3], atol=1e-9))
 
 
+@unittest.skipIf(COLMAP is None, "no colmap")
+class Colmap(unittest.TestCase):
+    """Bundle adjustment of the truth, with intrinsics held, begins at 1e-13 px (COLMAP 3.8); 1e-4 is allowed. Meant to
+    catch: poses from the camera to the world; places half a pixel off in one file alone; the centres of outlines."""
+
+    def adjust(self, name, *options):
+        out = folder / name
+        out.mkdir()
+        text = subprocess.run(
+            [COLMAP, "bundle_adjuster", "--input_path", folder / "colmap/sparse/0", "--output_path", out,
+             "--BundleAdjustment.refine_focal_length", "0", "--BundleAdjustment.refine_principal_point", "0",
+             "--BundleAdjustment.refine_extra_params", "0", *options],
+            check=True, capture_output=True, text=True, env={**os.environ, "QT_QPA_PLATFORM": "offscreen"})
+        return text.stdout + text.stderr
+
+    def test_starts_at_the_truth(self):
+        report = self.adjust("adjusted")
+        residuals = int(re.search(r"Residuals : (\d+)", report).group(1))
+        self.assertGreaterEqual(residuals, 2 * 2 * len(steps()))  # two numbers of a ball in each picture
+        self.assertLessEqual(float(re.search(r"Initial cost : (\S+)", report).group(1)), 1e-4)
+
+
 if __name__ == "__main__":
-    if torchvision is None and KITTI_READER is None:
+    if torchvision is None and KITTI_READER is None and COLMAP is None:
         print("no reader is installed: skipped")
         sys.exit(SKIPPED)
     unittest.main(argv=sys.argv[:1], warnings="ignore")
