@@ -31,6 +31,24 @@ Eigen::Matrix2d shape_of(const vision::OutlineEllipse& ellipse) {
   return b * Eigen::Matrix2d::Identity() + (a - b) * major * major.transpose();
 }
 
+/// Calls a function with the pixels of each row whose centres lie within an outline.
+template <class Take>
+void for_runs_within(const vision::OutlineEllipse& outline, const Take& take) {
+  const Eigen::Matrix2d shape = shape_of(outline);
+  const double reach = outline.half_extent_px().y();
+  const WholeNumbers rows = whole_numbers(outline.centre_px.y() - reach, outline.centre_px.y() + reach);
+  for (int row = rows.first; row < rows.first + rows.count; ++row) {
+    const double dy = row - outline.centre_px.y();
+    const double lean = -shape(0, 1) * dy;
+    const double spare = lean * lean - shape(0, 0) * (shape(1, 1) * dy * dy - 1.0);
+    if (spare < 0.0) continue;
+    const double middle = outline.centre_px.x() + lean / shape(0, 0);
+    const double half = std::sqrt(spare) / shape(0, 0);
+    const WholeNumbers columns = whole_numbers(middle - half, middle + half);
+    take(cv::Rect(columns.first, row, columns.count, 1));
+  }
+}
+
 BallTruth truth_of(const worlds::Ball& ball, const Eigen::Vector3d& in_camera,
                    const vision::Intrinsics& camera) {
   BallTruth truth;
@@ -65,21 +83,15 @@ std::array<PixelSet, 256> pixels_by_id(const cv::Mat& ball_id) {
 }
 
 PixelSet pixels_within(const vision::OutlineEllipse& outline) {
-  const Eigen::Matrix2d shape = shape_of(outline);
-  const double reach = outline.half_extent_px().y();
-  const WholeNumbers rows = whole_numbers(outline.centre_px.y() - reach, outline.centre_px.y() + reach);
   PixelSet set;
-  for (int row = rows.first; row < rows.first + rows.count; ++row) {
-    const double dy = row - outline.centre_px.y();
-    const double lean = -shape(0, 1) * dy;
-    const double spare = lean * lean - shape(0, 0) * (shape(1, 1) * dy * dy - 1.0);
-    if (spare < 0.0) continue;
-    const double middle = outline.centre_px.x() + lean / shape(0, 0);
-    const double half = std::sqrt(spare) / shape(0, 0);
-    const WholeNumbers columns = whole_numbers(middle - half, middle + half);
-    add(set, {columns.first, row, columns.count, 1});
-  }
+  for_runs_within(outline, [&](const cv::Rect& run) { add(set, run); });
   return set;
+}
+
+cv::Mat mask_within(const vision::OutlineEllipse& outline, const cv::Size& size) {
+  cv::Mat mask = cv::Mat::zeros(size, CV_8UC1);
+  for_runs_within(outline, [&](const cv::Rect& run) { mask(run & cv::Rect({0, 0}, size)).setTo(255); });
+  return mask;
 }
 
 std::vector<BallTruth> ball_truths(const worlds::World& world, const CameraView& view,

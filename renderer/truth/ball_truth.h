@@ -22,6 +22,9 @@ std::array<PixelSet, 256> pixels_by_id(const cv::Mat& ball_id);
 /// The pixels whose centres lie within an outline, also those outside of the picture.
 PixelSet pixels_within(const vision::OutlineEllipse& outline);
 
+/// The same pixels as a picture: CV_8UC1, 255 within the outline.
+cv::Mat mask_within(const vision::OutlineEllipse& outline, const cv::Size& size);
+
 /// A ball as a camera sees it. The names of counts and boxes are those of BOP, the benchmark for 6D object
 /// poses.
 struct BallTruth {

@@ -12,10 +12,14 @@ void FormatLimits::refuse(std::string_view key) const {
   throw std::runtime_error(fmt::format("the format {} has no place for {}; it holds {}", format, key, holds));
 }
 
-void FormatLimits::require_rectified(const DatasetDrive& drive) const {
+void FormatLimits::require_undistorted(const DatasetDrive& drive) const {
   const vision::Distortion& lens = drive.rig.distortion;
   if (!(lens == vision::Distortion{.pixel_aspect = lens.pixel_aspect})) refuse("rig.distortion");
   if (lens.pixel_aspect != 1.0) refuse("rig.pixel_aspect");
+}
+
+void FormatLimits::require_rectified(const DatasetDrive& drive) const {
+  require_undistorted(drive);
   if (!drive.rig.right_turn_rad.isZero(0.0)) refuse("rig.right_turn_deg");
 }
 

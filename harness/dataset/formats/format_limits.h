@@ -15,6 +15,9 @@ struct FormatLimits {
   /// @throws std::runtime_error, one line that names the scenario's key
   [[noreturn]] void refuse(std::string_view key) const;
 
+  /// Refuses lenses, and pixels that are not square.
+  void require_undistorted(const DatasetDrive& drive) const;
+
   /// Refuses a rig that is not rectified.
   void require_rectified(const DatasetDrive& drive) const;
 

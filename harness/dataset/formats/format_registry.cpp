@@ -14,7 +14,10 @@
 #include "harness/dataset/formats/odometry/tum_format.h"
 #include "harness/dataset/formats/odometry/vslamlab_format.h"
 #include "harness/dataset/formats/plain_format.h"
+#include "harness/dataset/formats/scene/bop_format.h"
+#include "harness/dataset/formats/scene/coco_format.h"
 #include "harness/dataset/formats/scene/colmap_format.h"
+#include "harness/dataset/formats/scene/nerfstudio_format.h"
 #include "harness/dataset/formats/stereo/eth3d_format.h"
 #include "harness/dataset/formats/stereo/kitti_stereo_format.h"
 #include "harness/dataset/formats/stereo/middlebury_format.h"
@@ -43,6 +46,10 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
      check_sceneflow_format, sceneflow_writer},
     {"vslamlab", "poses, as VSLAM-LAB has them", "", check_vslamlab_format, vslamlab_writer},
     {"colmap", "poses and ball centres, as a model of COLMAP", "", check_colmap_format, colmap_writer},
+    {"coco", "boxes and masks of balls, as in COCO", "balls", check_coco_format, coco_writer},
+    {"bop", "6-D poses, masks and depth, as in BOP", "balls", check_bop_format, bop_writer},
+    {"nerfstudio", "poses and depth, as Nerfstudio reads them", "", check_nerfstudio_format,
+     nerfstudio_writer},
 });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/dataset/truth/bop_numbers.h"
 #include "harness/json/json_line.h"
 #include "renderer/surfaces/primitives.h"
 #include "worlds/generate/paint.h"
@@ -16,28 +17,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json box_json(const cv::Rect& box) {
-  if (box.empty()) return {-1, -1, -1, -1};
-  return {box.x, box.y, box.width, box.height};
-}
-
 Json line(const worlds::World& world, const renderer::BallTruth& truth) {
   const Eigen::Vector3d& centre = truth.centre_in_camera_m;
   const vision::OutlineEllipse& outline = truth.outline;
-  return {{"ball_id", truth.ball},
-          {"colour", world.balls[static_cast<std::size_t>(truth.ball)].colour},
-          {"centre_in_camera_m", {centre.x(), centre.y(), centre.z()}},
-          {"centre_px", {truth.centre_px.x(), truth.centre_px.y()}},
-          {"outline",
-           {{"centre_px", {outline.centre_px.x(), outline.centre_px.y()}},
-            {"semi_axes_px", {outline.semi_major_px, outline.semi_minor_px}},
-            {"angle_rad", outline.angle_rad}}},
-          {"px_count_all", truth.px_count_all},
-          {"px_count_visib", truth.px_count_visib},
-          {"visib_fract", truth.visib_fract},
-          {"bbox_obj", box_json(truth.bbox_obj)},
-          {"bbox_visib", box_json(truth.bbox_visib)},
-          {"truncated", truth.truncated}};
+  Json json = {{"ball_id", truth.ball},
+               {"colour", world.balls[static_cast<std::size_t>(truth.ball)].colour},
+               {"centre_in_camera_m", {centre.x(), centre.y(), centre.z()}},
+               {"centre_px", {truth.centre_px.x(), truth.centre_px.y()}},
+               {"outline",
+                {{"centre_px", {outline.centre_px.x(), outline.centre_px.y()}},
+                 {"semi_axes_px", {outline.semi_major_px, outline.semi_minor_px}},
+                 {"angle_rad", outline.angle_rad}}}};
+  json.update(bop_numbers(truth));
+  json["truncated"] = truth.truncated;
+  return json;
 }
 
 constexpr double kMost = std::numeric_limits<double>::max();
