@@ -1,8 +1,10 @@
 #include "harness/dataset/formats/scene/bop_format.h"
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/harness/dataset/formats/written_drive.h"
 
@@ -22,12 +24,12 @@ worlds::Scenario occluded_drive() {
 
 Eigen::Matrix3d matrix_in(const nlohmann::json& json) {
   Eigen::Matrix3d matrix;
-  for (int i = 0; i < 9; ++i) matrix(i / 3, i % 3) = json.at(static_cast<std::size_t>(i));
+  for (int i = 0; i < 9; ++i) matrix(i / 3, i % 3) = json.at(static_cast<std::size_t>(i)).get<double>();
   return matrix;
 }
 
 Eigen::Vector3d vector_in(const nlohmann::json& json) {
-  return {json.at(0), json.at(1), json.at(2)};
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
 std::string scene_of(Side side) {
