@@ -36,6 +36,7 @@ constexpr std::string_view kKittiCalib = "3 x 4 projections of the cameras, row 
 constexpr std::string_view kCamToCam = "size, lens, place and projection of the cameras";
 constexpr std::string_view kPosesTum =
     "true pose of the left camera in the world: time, place, turn (x y z w)";
+constexpr std::string_view kDepthMm = "planar Z: 16-bit, mm; 0: nothing, or beyond 65.5 m";
 constexpr std::string_view kBothSee = "255: both cameras see it, 128: this one alone, 0: nothing";
 
 constexpr auto kLayout = std::to_array<LayoutEntry>({
@@ -159,6 +160,33 @@ constexpr auto kLayout = std::to_array<LayoutEntry>({
     {"vslamlab", "rgb.csv", "time (ns) and path of both pictures of each pair"},
     {"vslamlab", "groundtruth.csv", kPosesTum},
     {"vslamlab", "calibration.yaml", "both cameras: intrinsics, lens (radtan5), size, rate, T_BS"},
+    {"colmap", "images/left/*.png", kLeft},
+    {"colmap", "images/right/*.png", kRight},
+    {"colmap", "sparse/0/cameras.txt", "lens of each camera; the first pixel's centre is (0.5, 0.5)"},
+    {"colmap", "sparse/0/images.txt",
+     "camera_from_world of each picture, and the ball centres that it shows"},
+    {"colmap", "sparse/0/points3D.txt", "ball centres in the world, m, and which pictures show them"},
+    {"coco", "images/left/*.png", kLeft},
+    {"coco", "images/right/*.png", kRight},
+    {"coco", "annotations/*.json",
+     "the balls that each picture shows: boxes, areas, masks (RLE), BOP's numbers"},
+    {"bop", "test_left/*/rgb/*.png", kLeft},
+    {"bop", "test_right/*/rgb/*.png", kRight},
+    {"bop", "test_*/*/depth/*.png", "planar Z: 16-bit, level / 5 mm; 0: nothing, or beyond 13.1 m"},
+    {"bop", "test_*/*/mask/*.png", "255: within the ball's outline, hidden or not"},
+    {"bop", "test_*/*/mask_visib/*.png", "255: shows the ball"},
+    {"bop", "test_*/*/scene_camera.json",
+     "camera of each picture: K, place in the world (mm), scale of depth"},
+    {"bop", "test_*/*/scene_gt.json", "pose of each ball in the camera, mm"},
+    {"bop", "test_*/*/scene_gt_info.json", "boxes, counts of pixels and visibility of each ball"},
+    {"bop", "camera.json", "the cameras, and the levels of depth"},
+    {"bop", "models/*.ply", "a ball as a mesh, mm"},
+    {"bop", "models/models_info.json", "diameter, box (mm) and symmetries of each object"},
+    {"nerfstudio", "images/left/*.png", kLeft},
+    {"nerfstudio", "images/right/*.png", kRight},
+    {"nerfstudio", "depth/left/*.png", kDepthMm},
+    {"nerfstudio", "depth/right/*.png", kDepthMm},
+    {"nerfstudio", "transforms.json", "the camera, and world_from_camera of each picture; y up, z backward"},
 });
 
 }  // namespace
