@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "renderer/pictures/picture_reader.h"
+#include "renderer/pictures/png_picture.h"
 
 namespace stereobench::harness {
 namespace {
@@ -20,16 +21,26 @@ namespace fs = std::filesystem;
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-}  // namespace
-
-cv::Mat read_levels(const fs::path& file) {
+/// A file's picture. @param decode of its bytes
+template <class Decode>
+cv::Mat decoded(const fs::path& file, const Decode& decode) {
   if (!fs::exists(file)) refuse(file, "no such file");
   if (fs::is_directory(file)) refuse(file, "expected a picture (got a folder)");
   try {
-    return renderer::decode_picture(renderer::picture_bytes(file));
+    return decode(renderer::picture_bytes(file));
   } catch (const std::runtime_error& error) {
     refuse(file, error.what());
   }
+}
+
+}  // namespace
+
+cv::Mat read_levels(const fs::path& file) {
+  return decoded(file, [](renderer::PictureBytes bytes) { return renderer::decode_picture(bytes); });
+}
+
+cv::Mat read_exact_png(const fs::path& file) {
+  return decoded(file, [](renderer::PictureBytes bytes) { return renderer::decode_exact_png(bytes); });
 }
 
 cv::Mat read_picture(const fs::path& file) {

@@ -16,7 +16,12 @@ namespace stereobench::harness {
 /// @throws std::runtime_error, one line, for a file that is missing, no picture, or cut short
 cv::Mat read_levels(const std::filesystem::path& file);
 
-/// The same, which has to have colours.
+/// Reads a PNG with all its bits, for what is measured in levels.
+/// @return CV_8UC1, CV_8UC3, CV_16UC1 or CV_16UC3 (blue first)
+/// @throws std::runtime_error as read_levels does
+cv::Mat read_exact_png(const std::filesystem::path& file);
+
+/// Reads a picture as read_levels does, which has to have colours.
 /// @return CV_8UC3, BGR
 /// @throws std::runtime_error, one line, as read_levels does, and without colour
 cv::Mat read_picture(const std::filesystem::path& file);

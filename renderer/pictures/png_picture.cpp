@@ -18,6 +18,7 @@ namespace {
 struct Work {
   PictureBytes input;
   int longest_px = 0;
+  bool keeps_16_bits = false;
   cv::Mat picture;
   std::vector<png_bytep> rows;
   std::string complaint;
@@ -47,12 +48,17 @@ void read(png_structp png, png_infop info, Work& work) {
   png_read_info(png, info);
   check_size(png_get_image_width(png, info), png_get_image_height(png, info), work.longest_px);
   png_set_expand(png);
-  png_set_scale_16(png);
+  if (work.keeps_16_bits)
+    png_set_swap(png);  // PNG has the higher byte first
+  else
+    png_set_scale_16(png);
   png_set_strip_alpha(png);
   png_set_bgr(png);
   png_read_update_info(png, info);
+  const int depth = png_get_bit_depth(png, info) == 16 ? CV_16U : CV_8U;
   work.picture.create(static_cast<int>(png_get_image_height(png, info)),
-                      static_cast<int>(png_get_image_width(png, info)), CV_8UC(png_get_channels(png, info)));
+                      static_cast<int>(png_get_image_width(png, info)),
+                      CV_MAKETYPE(depth, png_get_channels(png, info)));
   work.point_at_rows();
   png_read_image(png, work.rows.data());
   png_read_end(png, nullptr);
@@ -94,6 +100,13 @@ struct Reader {
 
 cv::Mat decode_png(PictureBytes bytes, int longest_px) {
   Work work{.input = bytes, .longest_px = longest_px};
+  const Reader reader(work);
+  if (!runs(read, reader.png, reader.info, work)) refuse_broken(work.complaint);
+  return work.picture;
+}
+
+cv::Mat decode_exact_png(PictureBytes bytes, int longest_px) {
+  Work work{.input = bytes, .longest_px = longest_px, .keeps_16_bits = true};
   const Reader reader(work);
   if (!runs(read, reader.png, reader.info, work)) refuse_broken(work.complaint);
   return work.picture;

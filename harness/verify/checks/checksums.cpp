@@ -1,0 +1,89 @@
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "harness/io/file_list.h"
+#include "harness/io/json_file.h"
+#include "harness/io/sha256.h"
+#include "harness/verify/checks/checks.h"
+
+namespace stereobench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kManifest = "manifest-sha256.txt";
+
+Fault changed_file(const fs::path& folder, const std::string& name, const char* list) {
+  if (!fs::exists(folder / name)) return {name, "", fmt::format("missing file: {} lists it", list)};
+  return {name, "", fmt::format("checksum: its bytes are not those that {} lists (a flipped bit, or edited)", list)};
+}
+
+void check_marker(const fs::path& folder, ChecksumResult& result) {
+  if (!fs::exists(folder / kFinishedDataset)) {
+    result.cannot.push_back(fmt::format("bytes of files: there is no {}", kFinishedDataset));
+    return;
+  }
+  try {
+    const nlohmann::json json = parse_line(read_text(folder / kFinishedDataset));
+    const auto list = json.find(kFiles);
+    if (list == json.end()) return;
+    for (const std::string& name : changed_files(folder, *list))
+      result.faults.push_back(changed_file(folder, name, kFinishedDataset));
+    result.files += list->size();
+  } catch (const std::runtime_error& error) {
+    result.faults.push_back({kFinishedDataset, "", error.what()});
+  }
+}
+
+/// A name as BagIt has it: line ends and % are written as %0A, %0D, %25.
+std::string bag_name(std::string name) {
+  for (const auto& [code, letter] : {std::pair("%0A", "\n"), std::pair("%0D", "\r"), std::pair("%25", "%")})
+    for (std::size_t at = name.find(code); at != std::string::npos; at = name.find(code, at + 1))
+      name.replace(at, 3, letter);
+  return name;
+}
+
+void check_manifest(const fs::path& folder, ChecksumResult& result) {
+  if (!fs::exists(folder / kManifest)) return;
+  std::istringstream lines(read_text(folder / kManifest));
+  long number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    constexpr std::size_t kDigits = 64;
+    const std::size_t name_at = line.find_first_not_of(" \t*", kDigits);
+    const bool is_line = line.size() > kDigits && name_at != std::string::npos &&
+                         line.find_first_not_of("0123456789abcdefABCDEF") >= kDigits;
+    if (!is_line) {
+      result.faults.push_back(
+          {kManifest, "", fmt::format("line {}: expected 64 hexadecimal digits and the name of a file", number)});
+      continue;
+    }
+    const std::string name = bag_name(line.substr(name_at));
+    const fs::path place = fs::path(name).lexically_normal();
+    if (place.is_absolute() || *place.begin() == "..") {
+      result.faults.push_back({kManifest, "", fmt::format("line {}: expected a file in the folder", number)});
+      continue;
+    }
+    std::string wanted = line.substr(0, kDigits);
+    for (char& digit : wanted)
+      if (digit >= 'A' && digit <= 'F') digit = static_cast<char>(digit - 'A' + 'a');
+    if (!fs::is_regular_file(folder / place) || sha256_of_file(folder / place) != wanted)
+      result.faults.push_back(changed_file(folder, name, kManifest));
+    ++result.files;
+  }
+}
+
+}  // namespace
+
+ChecksumResult check_checksums(const fs::path& folder) {
+  ChecksumResult result;
+  check_marker(folder, result);
+  check_manifest(folder, result);
+  return result;
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,29 @@
+#include "harness/verify/dataset_view.h"
+
+#include "vision/camera/distortion.h"
+
+namespace stereobench::harness {
+
+const ChannelFile* find_channel(const ViewFrame& frame, vision::Side side, Channel channel) {
+  const auto& channels = frame.channels[index_of(side)];
+  const auto found = channels.find(channel);
+  return found == channels.end() ? nullptr : &found->second;
+}
+
+std::optional<Eigen::Vector3d> ray_of(const ViewCamera& camera, const Eigen::Vector2d& pixel_px) {
+  const vision::Intrinsics& pinhole = camera.pinhole;
+  const Eigen::Vector2d place = (pixel_px - Eigen::Vector2d(pinhole.cx_px, pinhole.cy_px)) / pinhole.focal_px;
+  const std::optional<Eigen::Vector2d> direction = vision::undistort(camera.lens, place);
+  if (!direction) return std::nullopt;
+  return Eigen::Vector3d(direction->x(), direction->y(), 1.0);
+}
+
+std::optional<Eigen::Vector2d> pixel_of(const ViewCamera& camera, const Eigen::Vector3d& point_m) {
+  if (!(point_m.z() > 0.0)) return std::nullopt;
+  const vision::Intrinsics& pinhole = camera.pinhole;
+  const Eigen::Vector2d direction = point_m.head<2>() / point_m.z();
+  return pinhole.focal_px * vision::distort(camera.lens, direction) +
+         Eigen::Vector2d(pinhole.cx_px, pinhole.cy_px);
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,305 @@
+#include "harness/verify/geometry/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace stereobench::harness {
+namespace {
+
+constexpr int kMostCauses = 3;
+constexpr double kMeasuredScale_px = 0.5, kExactScale_px = 0.05;
+/// Of corners: a median that random errors of corners do not have.
+constexpr double kGross_px = 1.5;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The links of one kind under some claims.
+struct KindResiduals {
+  std::vector<double> length_px;
+  std::vector<double> in_tolerances;  ///< the same, divided by what rounding may do
+};
+
+using Residuals = std::map<LinkKind, KindResiduals>;
+
+Residuals residuals_of(const Claims& claims, const std::vector<Link>& links) {
+  Residuals all;
+  for (const Link& link : links) {
+    const auto residual = residual_px(claims, link);
+    if (!residual) continue;
+    KindResiduals& kind = all[link.kind];
+    kind.length_px.push_back(residual->norm());
+    kind.in_tolerances.push_back(residual->norm() / link.tolerance_px);
+  }
+  return all;
+}
+
+bool is_bad(LinkKind kind, const KindResiduals& residuals) {
+  if (is_measured(kind)) return median(residuals.length_px) > kGross_px;
+  return median(residuals.in_tolerances) > 1.0;
+}
+
+/// How much all kinds disagree; each counts as much, however many links it has.
+double disagreement(const Residuals& residuals) {
+  double sum = 0.0;
+  for (const auto& [kind, of_kind] : residuals) {
+    double of_links = 0.0;
+    for (const double px : of_kind.length_px) of_links += px;
+    sum += of_links / static_cast<double>(of_kind.length_px.size()) /
+           (is_measured(kind) ? kMeasuredScale_px : kExactScale_px);
+  }
+  return sum;
+}
+
+/// How a residual changes with the amount of a hypothesis, link by link.
+struct Slope {
+  double at = 0.0;  ///< the residual along the slope, px
+  double by = 0.0;  ///< px for one unit of the amount
+};
+
+std::vector<Slope> slopes_of(const Claims& claims, const Hypothesis& cause, double amount,
+                             const std::vector<Link>& links) {
+  Claims here = claims, there = claims;
+  cause.undo(here, amount);
+  cause.undo(there, amount + cause.first_step);
+  std::vector<Slope> slopes;
+  for (const Link& link : links) {
+    const auto at = residual_px(here, link), then = residual_px(there, link);
+    if (!at || !then || at->norm() >= kMostResidual_px) continue;
+    const Eigen::Vector2d by = (*then - *at) / cause.first_step;
+    const double scale = is_measured(link.kind) ? kMeasuredScale_px : kExactScale_px;
+    if (by.norm() > 1e-9) slopes.push_back({at->dot(by.normalized()) / scale, by.norm() / scale});
+  }
+  return slopes;
+}
+
+/// An amount, and how well links know it.
+struct Amount {
+  double value = 0.0;
+  double sd = 0.0;
+};
+
+/// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on it.
+Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links) {
+  constexpr int kRounds = 3;
+  Amount amount;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Slope> slopes = slopes_of(claims, cause, amount.value, links);
+    if (slopes.empty()) return {};
+    std::ranges::sort(slopes, {}, [](const Slope& slope) { return -slope.at / slope.by; });
+    double whole = 0.0, squares = 0.0, below = 0.0;
+    for (const Slope& slope : slopes) whole += slope.by, squares += slope.by * slope.by;
+    double step = 0.0;
+    for (const Slope& slope : slopes) {
+      below += slope.by;
+      step = -slope.at / slope.by;
+      if (below >= 0.5 * whole) break;
+    }
+    amount.value += step;
+    std::vector<double> scatter;
+    for (const Slope& slope : slopes) scatter.push_back(std::abs(slope.at + step * slope.by));
+    constexpr double kSdOfMedian = 1.2533, kSdOfMad = 1.4826;
+    amount.sd = kSdOfMedian * kSdOfMad * median(scatter) / std::sqrt(squares);
+  }
+  return amount;
+}
+
+/// What is left of the disagreement when a cause is undone.
+struct Explanation {
+  const Hypothesis* cause = nullptr;
+  Amount amount;
+  Claims claims;
+  double left = 0.0;
+};
+
+std::string text_of(const Explanation& explanation) {
+  const Hypothesis& cause = *explanation.cause;
+  if (!cause.has_amount) return cause.cause;
+  const double scale = cause.shown_scale;
+  return fmt::format(fmt::runtime(cause.cause),
+                     fmt::format("{:.3g} {}", scale * explanation.amount.value, cause.unit));
+}
+
+std::string file_of(const DatasetView& view, Suspect suspect) {
+  switch (suspect) {
+    case Suspect::kCalibration:
+      return view.calibration_file;
+    case Suspect::kPoses:
+      return view.poses_file;
+    case Suspect::kDepth:
+      return view.depth_file;
+    case Suspect::kPictures:
+      return view.pictures_file;
+  }
+  return {};
+}
+
+/// Whether a hypothesis says something that the format can be wrong in.
+bool applies(const DatasetView& view, const Hypothesis& cause) {
+  if (file_of(view, cause.suspect).empty()) return false;
+  return view.poses_are_of_camera || !cause.needs_poses_of_camera;
+}
+
+/// The cause that leaves the least; of those that leave about as little, the one that is listed first.
+std::optional<Explanation> best_explanation(const DatasetView& view, const Claims& claims,
+                                            const std::vector<Link>& links, double now,
+                                            const std::vector<Hypothesis>& causes) {
+  const std::size_t kinds = residuals_of(claims, links).size();
+  std::vector<Explanation> all;
+  for (const Hypothesis& cause : causes) {
+    if (!applies(view, cause)) continue;
+    Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
+    if (cause.has_amount) one.amount = fitted(claims, cause, links);
+    if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
+    cause.undo(one.claims, one.amount.value);
+    const Residuals left = residuals_of(one.claims, links);
+    if (left.size() < kinds) continue;
+    one.left = disagreement(left);
+    all.push_back(std::move(one));
+  }
+  if (all.empty()) return std::nullopt;
+  constexpr double kAboutAsLittle = 1.15, kHalf = 0.5, kNoise = 0.02;
+  const double least = std::ranges::min_element(all, {}, &Explanation::left)->left;
+  for (Explanation& one : all)
+    if (one.left <= kAboutAsLittle * least + kNoise && one.left < kHalf * now) return std::move(one);
+  return std::nullopt;
+}
+
+std::string measured(const Residuals& before, const Residuals& after) {
+  std::string text;
+  for (const auto& [kind, residuals] : before) {
+    if (!is_bad(kind, residuals) || !after.contains(kind)) continue;
+    text += fmt::format("{}{}: {:.3g} px off, {:.2g} px without it, over {} points",
+                        text.empty() ? "" : "; ", name_of(kind), median(residuals.length_px),
+                        median(after.at(kind).length_px), residuals.length_px.size());
+  }
+  return text;
+}
+
+/// Faults of the whole set. @return the claims without those that were explained
+Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vector<Fault>& faults) {
+  const std::vector<Hypothesis> causes = known_hypotheses();
+  Claims claims = claims_of(view);
+  for (int round = 0; round < kMostCauses; ++round) {
+    const Residuals before = residuals_of(claims, links);
+    const bool is_fine =
+        std::ranges::none_of(before, [](const auto& kind) { return is_bad(kind.first, kind.second); });
+    if (is_fine) break;
+    const auto best = best_explanation(view, claims, links, disagreement(before), causes);
+    if (!best) {
+      for (const auto& [kind, residuals] : before)
+        if (is_bad(kind, residuals))
+          faults.push_back({view.calibration_file.empty() ? view.poses_file : view.calibration_file, "",
+                            fmt::format("{}: {:.3g} px off in the middle of {} points; no single cause that is "
+                                        "known explains it",
+                                        name_of(kind), median(residuals.length_px),
+                                        residuals.length_px.size())});
+      break;
+    }
+    faults.push_back({file_of(view, best->cause->suspect), "",
+                      fmt::format("{} ({})", text_of(*best),
+                                  measured(before, residuals_of(best->claims, links)))});
+    claims = best->claims;
+  }
+  return claims;
+}
+
+/// What corners say of amounts that are too small to be seen in any one of them.
+void find_small_amounts(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
+                        std::vector<Fault>& faults) {
+  constexpr double kSure = 8.0, kGain = 0.97;
+  constexpr std::size_t kLeast = 60;
+  std::vector<Link> corners;
+  for (const Link& link : links) {
+    const auto residual = is_measured(link.kind) ? residual_px(claims, link) : std::nullopt;
+    if (residual && residual->norm() < kGross_px) corners.push_back(link);
+  }
+  if (corners.size() < kLeast) return;
+  const double now = disagreement(residuals_of(claims, corners));
+  std::optional<Explanation> best;
+  const std::vector<Hypothesis> causes = known_hypotheses();
+  for (const Hypothesis& cause : causes) {
+    if (!cause.has_amount || !applies(view, cause)) continue;
+    Explanation one = {.cause = &cause, .amount = fitted(claims, cause, corners), .claims = claims};
+    const double value = std::abs(one.amount.value);
+    if (value < cause.least || value < kSure * one.amount.sd) continue;
+    cause.undo(one.claims, one.amount.value);
+    one.left = disagreement(residuals_of(one.claims, corners));
+    if (one.left < kGain * now && (!best || one.left < best->left)) best = std::move(one);
+  }
+  if (!best) return;
+  faults.push_back({file_of(view, best->cause->suspect), "",
+                    fmt::format("{} (sd {:.2g} {}, from {} corners of pictures: their mean error shrinks by {:.0f} %)",
+                                text_of(*best), best->cause->shown_scale * best->amount.sd, best->cause->unit,
+                                corners.size(), 100.0 * (1.0 - best->left / now))});
+}
+
+std::string file_of(const DatasetView& view, const Link& link) {
+  const ViewFrame& frame = view.frames[link.from];
+  const auto file = [&](Channel channel) {
+    const ChannelFile* found = find_channel(frame, link.from_side, channel);
+    return found == nullptr ? std::string() : found->file;
+  };
+  switch (link.kind) {
+    case LinkKind::kDisparityDepth:
+    case LinkKind::kRightDepth:
+      return file(Channel::kDisparity);
+    case LinkKind::kFlow:
+      return file(Channel::kFlow);
+    case LinkKind::kNextDisparity:
+      return file(Channel::kNextDisparity);
+    case LinkKind::kBallSurface:
+      return file(Channel::kDepth);
+    case LinkKind::kBallCentre:
+      return frame.balls[index_of(link.to_side)]->file;
+    case LinkKind::kStereoPictures:
+    case LinkKind::kEpipolar:
+    case LinkKind::kNextPictures:
+      return file(Channel::kPicture);
+  }
+  return {};
+}
+
+/// Frames that are off alone: half of a frame's links of a kind.
+void find_single_frames(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
+                        std::vector<Fault>& faults) {
+  constexpr std::size_t kFewestExact = 1, kFewestMeasured = 8;
+  constexpr double kGrossAlone_px = 3.0;
+  std::map<std::tuple<std::size_t, vision::Side, LinkKind>, std::vector<const Link*>> groups;
+  for (const Link& link : links) groups[{link.from, link.from_side, link.kind}].push_back(&link);
+  const Residuals all = residuals_of(claims, links);
+  for (const auto& [key, group] : groups) {
+    const LinkKind kind = std::get<LinkKind>(key);
+    if (!all.contains(kind) || is_bad(kind, all.at(kind))) continue;
+    std::vector<double> px, tolerances;
+    for (const Link* link : group)
+      if (const auto residual = residual_px(claims, *link)) {
+        px.push_back(residual->norm());
+        tolerances.push_back(residual->norm() / link->tolerance_px);
+      }
+    if (px.size() < (is_measured(kind) ? kFewestMeasured : kFewestExact)) continue;
+    if (is_measured(kind) ? median(px) <= kGrossAlone_px : median(tolerances) <= 1.0) continue;
+    faults.push_back({file_of(view, *group.front()), view.frames[std::get<0>(key)].name,
+                      fmt::format("{}: {:.3g} px off in the middle of {} points, where other frames agree",
+                                  name_of(kind), median(px), px.size())});
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> diagnose(const DatasetView& view, const std::vector<Link>& links) {
+  std::vector<Fault> faults;
+  const Claims claims = explain(view, links, faults);
+  find_single_frames(view, claims, links, faults);
+  if (faults.empty()) find_small_amounts(view, claims, links, faults);
+  return faults;
+}
+
+}  // namespace stereobench::harness

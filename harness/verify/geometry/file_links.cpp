@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/verify/geometry/frame_links.h"
+
+namespace stereobench::harness {
+namespace {
+
+using Eigen::Vector2d;
+using vision::Side;
+
+/// What values that we call exact may be off: matches behind a lens are worked out to 0.001 px, and a place in
+/// a picture of some thousand pixels as 32-bit float to 0.0002 px.
+constexpr double kExact_px = 0.002;
+
+/// Pixels of a grid that covers a picture, about as many as asked for.
+std::vector<cv::Point> grid(const cv::Size& size, std::size_t most) {
+  const double step = std::max(1.0, std::sqrt(size.area() / static_cast<double>(most)));
+  std::vector<cv::Point> points;
+  for (double v = step / 2; v < size.height; v += step)
+    for (double u = step / 2; u < size.width; u += step)
+      points.emplace_back(static_cast<int>(u), static_cast<int>(v));
+  return points;
+}
+
+double step_of(const ViewFrame& frame, Side side, Channel channel) {
+  const ChannelFile* file = find_channel(frame, side, channel);
+  return file == nullptr ? 0.0 : file->step;
+}
+
+/// The relative error that rounding makes of a link's depth.
+double depth_error(const ViewFrame& frame, const Link& link) {
+  if (const auto depth_m = link.depth_m[kNow])
+    return 0.5 * step_of(frame, link.from_side, Channel::kDepth) / *depth_m;
+  if (const auto mate_px = link.mate_px[kNow]) {
+    const double disparity_px = std::max(1e-3, std::abs(link.from_px.x() - mate_px->x()));
+    return 0.5 * step_of(frame, link.from_side, Channel::kDisparity) / disparity_px;
+  }
+  return 0.0;
+}
+
+/// What poses of so many decimals may be off in the picture.
+double pose_error_px(const DatasetView& view, const ViewFrame& frame, const Link& link) {
+  constexpr double kTwoPoses = 2.0, kNearest_m = 0.5;
+  const double depth_m = std::max(kNearest_m, link.depth_m[kNow].value_or(1.0));
+  return kTwoPoses * frame.cameras[0].pinhole.focal_px *
+         (view.place_precision_m / depth_m + 2.0 * view.turn_precision);
+}
+
+/// A link from a pixel whose point a file knows. @return whether it does
+bool begin(const Neighbourhood& frames, Side side, const cv::Point& pixel, Link& link) {
+  link.from = link.to = frames.now->index;
+  link.from_side = link.to_side = side;
+  link.from_px = {pixel.x, pixel.y};
+  set_source(frames, side, link.from_px, link);
+  return link.depth_m[kNow] || link.mate_px[kNow];
+}
+
+void add_disparities(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
+                     std::vector<Link>& links) {
+  const cv::Mat& disparity = frames.now->disparity_px[index_of(side)];
+  if (disparity.empty() || frames.now->depth_m[index_of(side)].empty()) return;
+  const ViewFrame& frame = view.frames[frames.now->index];
+  const bool is_left = side == Side::kLeft;
+  for (const cv::Point& pixel : grid(disparity.size(), most)) {
+    Link link = {.kind = is_left ? LinkKind::kDisparityDepth : LinkKind::kRightDepth};
+    const double px = disparity.at<float>(pixel);
+    if (!std::isfinite(px) || !begin(frames, side, pixel, link) || !link.depth_m[kNow]) continue;
+    link.to_side = is_left ? Side::kRight : Side::kLeft;
+    link.to_px = {is_left ? pixel.x - px : pixel.x + px, pixel.y};
+    link.tolerance_px = kExact_px + 0.5 * step_of(frame, side, Channel::kDisparity) +
+                        std::abs(px) * depth_error(frame, link);
+    links.push_back(link);
+  }
+}
+
+void add_flow(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
+              std::vector<Link>& links) {
+  const cv::Mat& flow = frames.now->flow_px[index_of(side)];
+  const ViewFrame& frame = view.frames[frames.now->index];
+  if (flow.empty() || !frame.next_follows || frames.now->index + 1 >= view.frames.size()) return;
+  for (const cv::Point& pixel : grid(flow.size(), most)) {
+    Link link = {.kind = LinkKind::kFlow};
+    const cv::Vec2f shift = flow.at<cv::Vec2f>(pixel);
+    if (!std::isfinite(shift[0]) || !begin(frames, side, pixel, link)) continue;
+    link.to = frames.now->index + 1;
+    link.to_px = link.from_px + Vector2d(shift[0], shift[1]);
+    link.tolerance_px = kExact_px + step_of(frame, side, Channel::kFlow) +
+                        cv::norm(shift) * depth_error(frame, link) + pose_error_px(view, frame, link);
+    links.push_back(link);
+  }
+}
+
+void add_next_disparity(const DatasetView& view, const Neighbourhood& frames, std::size_t most,
+                        std::vector<Link>& links) {
+  const cv::Mat& next = frames.now->next_disparity_px;
+  const ViewFrame& frame = view.frames[frames.now->index];
+  if (next.empty() || !frame.next_follows || frames.now->index + 1 >= view.frames.size()) return;
+  for (const cv::Point& pixel : grid(next.size(), most)) {
+    Link link = {.kind = LinkKind::kNextDisparity};
+    const double px = next.at<float>(pixel);
+    if (!std::isfinite(px) || !begin(frames, Side::kLeft, pixel, link)) continue;
+    link.to = frames.now->index + 1;
+    link.to_px = {px, 0.0};
+    link.tolerance_px = kExact_px + 0.5 * step_of(frame, Side::kLeft, Channel::kNextDisparity) +
+                        px * depth_error(frame, link) + pose_error_px(view, frame, link);
+    links.push_back(link);
+  }
+}
+
+void add_ball_surfaces(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
+                       std::vector<Link>& links) {
+  const cv::Mat& ids = frames.now->ball_id[index_of(side)];
+  if (ids.empty() || frames.now->depth_m[index_of(side)].empty() || view.rows_look_apart) return;
+  const ViewFrame& frame = view.frames[frames.now->index];
+  std::vector<cv::Point> pixels;
+  cv::findNonZero(ids, pixels);
+  const std::size_t stride = std::max<std::size_t>(1, pixels.size() / most);
+  for (std::size_t i = 0; i < pixels.size(); i += stride) {
+    Link link = {.kind = LinkKind::kBallSurface};
+    const int ball = ids.at<std::uint8_t>(pixels[i]) - 1;
+    if (ball >= static_cast<int>(view.balls.size()) || !begin(frames, side, pixels[i], link)) continue;
+    link.ball = ball;
+    link.tolerance_px = kExact_px + frame.cameras[0].pinhole.focal_px * depth_error(frame, link) +
+                        pose_error_px(view, frame, link);
+    links.push_back(link);
+  }
+}
+
+void add_ball_centres(const DatasetView& view, const Neighbourhood& frames, Side side,
+                      std::vector<Link>& links) {
+  const ViewFrame& frame = view.frames[frames.now->index];
+  const auto& file = frame.balls[index_of(side)];
+  if (!file) return;
+  for (const ViewBallTruth& truth : file->balls) {
+    if (truth.ball < 0 || truth.ball >= static_cast<int>(view.balls.size())) continue;
+    Link link = {.kind = LinkKind::kBallCentre, .from = frames.now->index, .to = frames.now->index};
+    link.from_side = link.to_side = side;
+    link.ball = truth.ball;
+    link.to_px = truth.centre_px;
+    link.tolerance_px = kExact_px + pose_error_px(view, frame, link);
+    links.push_back(link);
+  }
+}
+
+std::optional<double> value_at(const cv::Mat& picture, const Vector2d& pixel_px) {
+  const cv::Point pixel(static_cast<int>(std::lround(pixel_px.x())), static_cast<int>(std::lround(pixel_px.y())));
+  if (picture.empty() || !cv::Rect({}, picture.size()).contains(pixel)) return std::nullopt;
+  const double value = picture.at<float>(pixel);
+  return std::isfinite(value) && value != 0.0 ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+void set_source(const Neighbourhood& frames, Side side, const Vector2d& pixel_px, Link& link) {
+  const std::array all = {frames.now, frames.before, frames.after};
+  for (const std::size_t instant : {kNow, kBefore, kAfter}) {
+    if (all[instant] == nullptr) continue;
+    link.depth_m[instant] = value_at(all[instant]->depth_m[index_of(side)], pixel_px);
+    const auto disparity_px = value_at(all[instant]->disparity_px[index_of(side)], pixel_px);
+    if (!link.depth_m[instant] && disparity_px)
+      link.mate_px[instant] =
+          pixel_px - Vector2d(side == Side::kLeft ? *disparity_px : -*disparity_px, 0.0);
+  }
+}
+
+void add_file_links(const DatasetView& view, const Neighbourhood& frames, std::size_t most,
+                    std::vector<Link>& links) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    add_disparities(view, frames, side, most, links);
+    add_flow(view, frames, side, most, links);
+    add_ball_surfaces(view, frames, side, most, links);
+    add_ball_centres(view, frames, side, links);
+  }
+  add_next_disparity(view, frames, most, links);
+}
+
+}  // namespace stereobench::harness

@@ -1,0 +1,133 @@
+#include "harness/verify/readers/reader_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "harness/verify/readers/channel_files.h"
+
+namespace stereobench::harness {
+
+namespace fs = std::filesystem;
+
+void read_or_blame(DatasetView& view, const std::string& file, const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    // The message begins with the file's path, which the fault names already.
+    std::string what = error.what();
+    const std::string path = (view.folder / file).string();
+    if (what.starts_with(path)) what.erase(0, path.size());
+    if (what.starts_with(": ")) what.erase(0, 2);
+    view.faults.push_back({file, "", what});
+  }
+}
+
+std::set<std::string> stems_in(const fs::path& folder, const std::string& ending) {
+  std::set<std::string> stems;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && name.ends_with(ending))
+      stems.insert(name.substr(0, name.size() - ending.size()));
+  }
+  return stems;
+}
+
+void add_channel(DatasetView& view, ViewFrame& frame, vision::Side side, Channel channel, const std::string& file,
+                 double step) {
+  const fs::path path = view.folder / file;
+  if (!fs::exists(path)) return;
+  frame.channels[index_of(side)][channel] = {
+      file, step, [path, channel, step] { return read_channel(path, channel, step); }};
+}
+
+std::set<std::string> complete_frames(DatasetView& view, const std::vector<std::string>& folders,
+                                      const std::string& ending) {
+  std::set<std::string> all;
+  std::vector<std::pair<std::string, std::set<std::string>>> there;
+  for (const std::string& folder : folders) {
+    there.emplace_back(folder, stems_in(view.folder / folder, ending));
+    if (there.back().second.empty()) there.pop_back();
+  }
+  for (const auto& [folder, stems] : there) all.insert(stems.begin(), stems.end());
+  for (const auto& [folder, stems] : there)
+    for (const std::string& stem : all)
+      if (!stems.contains(stem)) {
+        const auto other = std::ranges::find_if(there, [&](const auto& one) { return one.second.contains(stem); });
+        view.faults.push_back({fmt::format("{}/{}{}", folder, stem, ending), stem,
+                               fmt::format("missing frame: there is {}/{}{}", other->first, stem, ending)});
+      }
+  return all;
+}
+
+Eigen::Matrix4d matrix_in(const NumberTable& table, const TableRow& row, std::size_t column, std::size_t count) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (std::size_t i = 0; i < count; ++i)
+    matrix(static_cast<int>(i / 4), static_cast<int>(i % 4)) = number_in(table, row, column + i);
+  return matrix;
+}
+
+ViewPose pose_in(const NumberTable& table, const TableRow& row, std::size_t column, bool w_is_first) {
+  std::array<double, 7> at{};
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] = number_in(table, row, column + i);
+  const Eigen::Quaterniond turn = w_is_first ? Eigen::Quaterniond(at[3], at[4], at[5], at[6])
+                                             : Eigen::Quaterniond(at[6], at[3], at[4], at[5]);
+  ViewPose pose = {.file = {}, .line = row.line, .stamp_ns = {}};
+  pose.quaternion_norm = turn.norm();
+  if (pose.quaternion_norm > 0.0) pose.matrix.topLeftCorner<3, 3>() = turn.normalized().toRotationMatrix();
+  pose.matrix.topRightCorner<3, 1>() << at[0], at[1], at[2];
+  return pose;
+}
+
+double precision_of(const NumberTable& table, std::size_t first_column, std::size_t count) {
+  int decimals = 0;
+  for (const TableRow& row : table.rows)
+    for (std::size_t i = first_column; i < first_column + count; ++i) {
+      const std::string& cell = row.cells[i];
+      const std::size_t exponent = cell.find_first_of("eE"), point = cell.find('.');
+      if (point == std::string::npos) continue;
+      const std::size_t end = std::min(exponent, cell.size());
+      int places = static_cast<int>(end - point) - 1;
+      if (exponent != std::string::npos) places -= std::atoi(cell.c_str() + exponent + 1);
+      decimals = std::max(decimals, places);
+    }
+  double unit = 0.5;
+  for (int i = 0; i < decimals; ++i) unit /= 10.0;
+  return decimals == 0 ? 0.0 : unit;
+}
+
+std::optional<Eigen::Isometry3d> pose_at(const std::vector<ViewPose>& poses, std::int64_t stamp_ns) {
+  constexpr std::int64_t kLongestGap_ns = 250'000'000;
+  const auto after = std::ranges::find_if(
+      poses, [&](const ViewPose& pose) { return pose.stamp_ns && *pose.stamp_ns >= stamp_ns; });
+  if (after == poses.end()) return std::nullopt;
+  if (*after->stamp_ns == stamp_ns) return as_rigid(after->matrix);
+  if (after == poses.begin()) return std::nullopt;
+  const ViewPose& from = *(after - 1);
+  if (!from.stamp_ns || *after->stamp_ns - *from.stamp_ns > kLongestGap_ns) return std::nullopt;
+  const double share = static_cast<double>(stamp_ns - *from.stamp_ns) /
+                       static_cast<double>(*after->stamp_ns - *from.stamp_ns);
+  const Eigen::Isometry3d first = as_rigid(from.matrix), last = as_rigid(after->matrix);
+  Eigen::Isometry3d between = Eigen::Isometry3d::Identity();
+  between.linear() = Eigen::Quaterniond(first.linear())
+                         .slerp(share, Eigen::Quaterniond(last.linear()))
+                         .toRotationMatrix();
+  between.translation() = (1.0 - share) * first.translation() + share * last.translation();
+  return between;
+}
+
+Eigen::Isometry3d as_rigid(const Eigen::Matrix4d& matrix) {
+  Eigen::Isometry3d pose;
+  pose.matrix() = matrix;
+  return pose;
+}
+
+std::string place_of(const ViewPose& pose) {
+  return fmt::format("{}:{}", pose.file, pose.line);
+}
+
+}  // namespace stereobench::harness
