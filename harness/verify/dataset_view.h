@@ -73,6 +73,7 @@ struct ViewFrame {
   std::array<ViewCamera, 2> cameras;
   std::array<std::map<Channel, ChannelFile>, 2> channels;
   std::array<std::optional<BallsFile>, 2> balls;
+  bool drive_goes_on = true;  ///< the frame that is listed next is of the same drive
   bool next_follows = true;  ///< flow and disparities of the next frame lead to the frame that is listed next
 };
 
@@ -96,6 +97,7 @@ struct DatasetView {
   std::vector<ViewFrame> frames;
   std::vector<ViewPose> poses;  ///< all of the files of poses
   std::vector<ViewBall> balls;
+  bool has_calibration = true;       ///< without it nothing is said of geometry
   bool poses_are_of_camera = true;   ///< of the left one, not of a body that carries both
   double place_precision_m = 0.0;    ///< of the poses, by the decimals of their numbers
   double turn_precision = 0.0;       ///< likewise, rad

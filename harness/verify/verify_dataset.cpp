@@ -73,8 +73,10 @@ std::vector<Link> walk(const DatasetView& view, std::vector<Fault>& faults,
     on_progress(static_cast<double>(i) / static_cast<double>(count));
     after = i + 1 < count ? load(view, i + 1, faults) : nullptr;
     const Neighbourhood frames = {before.get(), now.get(), after.get()};
-    add_file_links(view, frames, points, links);
-    add_picture_links(view, frames, corners, links);
+    if (view.has_calibration) {
+      add_file_links(view, frames, points, links);
+      add_picture_links(view, frames, corners, links);
+    }
     before = std::move(now);
     now = std::move(after);
   }

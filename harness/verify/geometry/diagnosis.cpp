@@ -116,6 +116,7 @@ struct Explanation {
   const Hypothesis* cause = nullptr;
   Amount amount;
   Claims claims;
+  int mended = 0;  ///< kinds of links that agree then
   double left = 0.0;
 };
 
@@ -147,11 +148,32 @@ bool applies(const DatasetView& view, const Hypothesis& cause) {
   return view.poses_are_of_camera || !cause.needs_poses_of_camera;
 }
 
-/// The cause that leaves the least; of those that leave about as little, the one that is listed first.
+/// Whether a kind that was bad is as it should be, or nearly: other causes may be left.
+bool is_mended(LinkKind kind, const KindResiduals& before, const KindResiduals& after) {
+  constexpr double kNearly = 0.2;
+  return !is_bad(kind, after) || median(after.length_px) < kNearly * median(before.length_px);
+}
+
+/// How many kinds a hypothesis mends. @return 0 for one that spoils another kind, or says nothing of it
+int mended_by(const Residuals& before, const Residuals& after) {
+  int mended = 0;
+  for (const auto& [kind, residuals] : before) {
+    const auto left = after.find(kind);
+    if (left == after.end()) return 0;
+    if (!is_bad(kind, residuals)) {
+      if (is_bad(kind, left->second)) return 0;
+    } else if (is_mended(kind, residuals, left->second)) {
+      ++mended;
+    }
+  }
+  return mended;
+}
+
+/// The cause that mends the most kinds and leaves the least; of those that leave about as little, the one that is
+/// listed first.
 std::optional<Explanation> best_explanation(const DatasetView& view, const Claims& claims,
-                                            const std::vector<Link>& links, double now,
+                                            const std::vector<Link>& links, const Residuals& before,
                                             const std::vector<Hypothesis>& causes) {
-  const std::size_t kinds = residuals_of(claims, links).size();
   std::vector<Explanation> all;
   for (const Hypothesis& cause : causes) {
     if (!applies(view, cause)) continue;
@@ -160,16 +182,18 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
     if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
     cause.undo(one.claims, one.amount.value);
     const Residuals left = residuals_of(one.claims, links);
-    if (left.size() < kinds) continue;
+    one.mended = mended_by(before, left);
     one.left = disagreement(left);
-    all.push_back(std::move(one));
+    if (one.mended > 0) all.push_back(std::move(one));
   }
   if (all.empty()) return std::nullopt;
-  constexpr double kAboutAsLittle = 1.15, kHalf = 0.5, kNoise = 0.02;
+  constexpr double kAboutAsLittle = 1.15, kNoise = 0.02;
+  const int most = std::ranges::max_element(all, {}, &Explanation::mended)->mended;
+  std::erase_if(all, [&](const Explanation& one) { return one.mended < most; });
   const double least = std::ranges::min_element(all, {}, &Explanation::left)->left;
-  for (Explanation& one : all)
-    if (one.left <= kAboutAsLittle * least + kNoise && one.left < kHalf * now) return std::move(one);
-  return std::nullopt;
+  const auto best = std::ranges::find_if(
+      all, [&](const Explanation& one) { return one.left <= kAboutAsLittle * least + kNoise; });
+  return std::move(*best);
 }
 
 std::string measured(const Residuals& before, const Residuals& after) {
@@ -183,6 +207,16 @@ std::string measured(const Residuals& before, const Residuals& after) {
   return text;
 }
 
+/// What files say of each other and no cause explains. Corners that were not found again prove nothing.
+void add_unexplained(const DatasetView& view, const Residuals& residuals, std::vector<Fault>& faults) {
+  for (const auto& [kind, of_kind] : residuals)
+    if (is_bad(kind, of_kind) && !is_measured(kind))
+      faults.push_back({view.calibration_file.empty() ? view.poses_file : view.calibration_file, "",
+                        fmt::format("{}: {:.3g} px off in the middle of {} points; no single cause that is known "
+                                    "explains it",
+                                    name_of(kind), median(of_kind.length_px), of_kind.length_px.size())});
+}
+
 /// Faults of the whole set. @return the claims without those that were explained
 Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vector<Fault>& faults) {
   const std::vector<Hypothesis> causes = known_hypotheses();
@@ -192,15 +226,9 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
     const bool is_fine =
         std::ranges::none_of(before, [](const auto& kind) { return is_bad(kind.first, kind.second); });
     if (is_fine) break;
-    const auto best = best_explanation(view, claims, links, disagreement(before), causes);
+    const auto best = best_explanation(view, claims, links, before, causes);
     if (!best) {
-      for (const auto& [kind, residuals] : before)
-        if (is_bad(kind, residuals))
-          faults.push_back({view.calibration_file.empty() ? view.poses_file : view.calibration_file, "",
-                            fmt::format("{}: {:.3g} px off in the middle of {} points; no single cause that is "
-                                        "known explains it",
-                                        name_of(kind), median(residuals.length_px),
-                                        residuals.length_px.size())});
+      add_unexplained(view, before, faults);
       break;
     }
     faults.push_back({file_of(view, best->cause->suspect), "",

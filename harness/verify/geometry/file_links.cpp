@@ -74,11 +74,17 @@ void add_disparities(const DatasetView& view, const Neighbourhood& frames, Side 
   }
 }
 
+/// Whether what leads to the next frame can be held against poses.
+bool leads_to_next(const DatasetView& view, const ViewFrame& frame, std::size_t index) {
+  return frame.next_follows && frame.drive_goes_on && index + 1 < view.frames.size() &&
+         frame.world_from_body[0] && view.frames[index + 1].world_from_body[0];
+}
+
 void add_flow(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
               std::vector<Link>& links) {
   const cv::Mat& flow = frames.now->flow_px[index_of(side)];
   const ViewFrame& frame = view.frames[frames.now->index];
-  if (flow.empty() || !frame.next_follows || frames.now->index + 1 >= view.frames.size()) return;
+  if (flow.empty() || !leads_to_next(view, frame, frames.now->index)) return;
   for (const cv::Point& pixel : grid(flow.size(), most)) {
     Link link = {.kind = LinkKind::kFlow};
     const cv::Vec2f shift = flow.at<cv::Vec2f>(pixel);
@@ -95,7 +101,7 @@ void add_next_disparity(const DatasetView& view, const Neighbourhood& frames, st
                         std::vector<Link>& links) {
   const cv::Mat& next = frames.now->next_disparity_px;
   const ViewFrame& frame = view.frames[frames.now->index];
-  if (next.empty() || !frame.next_follows || frames.now->index + 1 >= view.frames.size()) return;
+  if (next.empty() || !leads_to_next(view, frame, frames.now->index)) return;
   for (const cv::Point& pixel : grid(next.size(), most)) {
     Link link = {.kind = LinkKind::kNextDisparity};
     const double px = next.at<float>(pixel);

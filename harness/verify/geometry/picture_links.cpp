@@ -134,14 +134,14 @@ void add_picture_links(const DatasetView& view, const Neighbourhood& frames, std
   if (now.picture[0].empty()) return;
   const cv::Mat left = grey(now.picture[0]);
   const bool is_pair = !now.picture[1].empty();
-  const bool goes_on = frames.after != nullptr && !frames.after->picture[0].empty() &&
+  const bool goes_on = frames.after != nullptr && view.frames[now.index].drive_goes_on && !frames.after->picture[0].empty() &&
                        frames.after->picture[0].size() == now.picture[0].size() &&
                        view.frames[now.index].world_from_body[0] &&
                        view.frames[frames.after->index].world_from_body[0];
   const cv::Mat right = is_pair ? grey(now.picture[1]) : cv::Mat();
   const cv::Mat next = goes_on ? grey(frames.after->picture[0]) : cv::Mat();
-  constexpr int kPart = 5;
-  const cv::Size reach(left.cols / kPart, left.rows / kPart);
+  constexpr int kAcross = 4, kDown = 6;
+  const cv::Size reach(left.cols / kAcross, left.rows / kDown);
   for (const cv::Point& corner : corners_in(left, most)) {
     Link link = {.from = now.index, .to = now.index, .from_px = {corner.x, corner.y}};
     link.tolerance_px = kUsual_px;

@@ -8,7 +8,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/verify/readers/euroc_reader.h"
+#include "harness/verify/readers/kitti_readers.h"
 #include "harness/verify/readers/plain_reader.h"
+#include "harness/verify/readers/stereo_readers.h"
+#include "harness/verify/readers/tum_reader.h"
+#include "harness/verify/readers/vslamlab_reader.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -24,8 +29,17 @@ std::vector<std::string_view> known_formats() {
 
 std::span<const DatasetReader> dataset_readers() {
   static constexpr std::array kReaders = {
-      DatasetReader{"plain", looks_plain, read_plain_view,
-                    "depth, identities, balls and poses; disparity and flow where they were rendered"},
+      DatasetReader{"plain", looks_plain, read_plain_view},
+      DatasetReader{"euroc", looks_like_euroc, read_euroc_view},
+      DatasetReader{"kitti-odometry", looks_like_kitti_odometry, read_kitti_odometry_view},
+      DatasetReader{"kitti-stereo-2012", looks_like_kitti_stereo_2012, read_kitti_stereo_2012_view},
+      DatasetReader{"kitti-scene-flow", looks_like_kitti_scene_flow, read_kitti_scene_flow_view},
+      DatasetReader{"kitti-stereo", looks_like_kitti_stereo, read_kitti_stereo_view},
+      DatasetReader{"tum", looks_like_tum, read_tum_view},
+      DatasetReader{"vslamlab", looks_like_vslamlab, read_vslamlab_view},
+      DatasetReader{"sceneflow", looks_like_sceneflow, read_sceneflow_view},
+      DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
+      DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
   };
   return kReaders;
 }

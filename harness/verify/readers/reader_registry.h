@@ -17,7 +17,6 @@ struct DatasetReader {
   /// @throws std::runtime_error, one line, where nothing of the folder can be read. What is wrong with single
   ///   files is a fault.
   DatasetView (*read)(const std::filesystem::path& folder);
-  std::string_view redundancy;  ///< what of the format can be held against what, as the guide says it
 };
 
 /// All readers, in the order in which folders are tried.
