@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,11 +15,20 @@ constexpr double kMeasuredScale_px = 0.5, kExactScale_px = 0.05;
 /// Of corners: a median that random errors of corners do not have.
 constexpr double kGross_px = 1.5;
 
-double median(std::vector<double> values) {
+/// The value that a share of all values are below.
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+double median(const std::vector<double>& values) {
+  return quantile(values, 0.5);
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// The links of one kind under some claims.
@@ -41,19 +51,27 @@ Residuals residuals_of(const Claims& claims, const std::vector<Link>& links) {
   return all;
 }
 
+/// Whether so many links are off that a cause is looked for: those of a few frames are enough.
+bool is_suspicious(LinkKind kind, const KindResiduals& residuals) {
+  constexpr double kNineTenths = 0.9;
+  if (is_measured(kind)) return quantile(residuals.length_px, kNineTenths) > kGross_px;
+  return quantile(residuals.in_tolerances, kNineTenths) > 1.0;
+}
+
+/// Whether most links are off.
 bool is_bad(LinkKind kind, const KindResiduals& residuals) {
   if (is_measured(kind)) return median(residuals.length_px) > kGross_px;
   return median(residuals.in_tolerances) > 1.0;
 }
 
 /// How much all kinds disagree; each counts as much, however many links it has.
-double disagreement(const Residuals& residuals) {
+/// @param otherwise of kinds that residuals say nothing of
+double disagreement(const Residuals& residuals, const Residuals& otherwise = {}) {
   double sum = 0.0;
-  for (const auto& [kind, of_kind] : residuals) {
-    double of_links = 0.0;
-    for (const double px : of_kind.length_px) of_links += px;
-    sum += of_links / static_cast<double>(of_kind.length_px.size()) /
-           (is_measured(kind) ? kMeasuredScale_px : kExactScale_px);
+  Residuals all = residuals;
+  all.insert(otherwise.begin(), otherwise.end());
+  for (const auto& [kind, of_kind] : all) {
+    sum += mean(of_kind.length_px) / (is_measured(kind) ? kMeasuredScale_px : kExactScale_px);
   }
   return sum;
 }
@@ -116,7 +134,8 @@ struct Explanation {
   const Hypothesis* cause = nullptr;
   Amount amount;
   Claims claims;
-  int mended = 0;  ///< kinds of links that agree then
+  int mended = 0;       ///< kinds of links that agree then
+  std::string instead;  ///< other causes that explain as much
   double left = 0.0;
 };
 
@@ -150,23 +169,37 @@ bool applies(const DatasetView& view, const Hypothesis& cause) {
 
 /// Whether a kind that was bad is as it should be, or nearly: other causes may be left.
 bool is_mended(LinkKind kind, const KindResiduals& before, const KindResiduals& after) {
-  constexpr double kNearly = 0.2;
-  return !is_bad(kind, after) || median(after.length_px) < kNearly * median(before.length_px);
+  constexpr double kNearly = 0.2, kHalf = 0.5;
+  const double share = mean(after.length_px) / mean(before.length_px);
+  return share < kNearly || (share < kHalf && !is_suspicious(kind, after));
 }
 
-/// How many kinds a hypothesis mends. @return 0 for one that spoils another kind, or says nothing of it
+/// How many kinds a hypothesis mends. @return 0 for one that spoils another kind, or says nothing of what files
+/// say of each other
 int mended_by(const Residuals& before, const Residuals& after) {
   int mended = 0;
   for (const auto& [kind, residuals] : before) {
     const auto left = after.find(kind);
+    if (left == after.end() && is_measured(kind)) continue;
     if (left == after.end()) return 0;
-    if (!is_bad(kind, residuals)) {
-      if (is_bad(kind, left->second)) return 0;
+    if (!is_suspicious(kind, residuals)) {
+      if (is_suspicious(kind, left->second)) return 0;
     } else if (is_mended(kind, residuals, left->second)) {
       ++mended;
     }
   }
   return mended;
+}
+
+/// The first of those that leave about as little as the best one; the others are named with it.
+/// @param all at least one
+Explanation first_of_best(std::vector<Explanation> all) {
+  constexpr double kAboutAsLittle = 1.1, kNoise = 0.02;
+  const double least = std::ranges::min_element(all, {}, &Explanation::left)->left;
+  std::erase_if(all, [&](const Explanation& one) { return one.left > kAboutAsLittle * least + kNoise; });
+  for (std::size_t i = 1; i < all.size(); ++i)
+    all.front().instead += fmt::format(", or as likely {}", text_of(all[i]));
+  return std::move(all.front());
 }
 
 /// The cause that mends the most kinds and leaves the least; of those that leave about as little, the one that is
@@ -183,26 +216,22 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
     cause.undo(one.claims, one.amount.value);
     const Residuals left = residuals_of(one.claims, links);
     one.mended = mended_by(before, left);
-    one.left = disagreement(left);
+    one.left = disagreement(left, before);
     if (one.mended > 0) all.push_back(std::move(one));
   }
   if (all.empty()) return std::nullopt;
-  constexpr double kAboutAsLittle = 1.15, kNoise = 0.02;
   const int most = std::ranges::max_element(all, {}, &Explanation::mended)->mended;
   std::erase_if(all, [&](const Explanation& one) { return one.mended < most; });
-  const double least = std::ranges::min_element(all, {}, &Explanation::left)->left;
-  const auto best = std::ranges::find_if(
-      all, [&](const Explanation& one) { return one.left <= kAboutAsLittle * least + kNoise; });
-  return std::move(*best);
+  return first_of_best(std::move(all));
 }
 
 std::string measured(const Residuals& before, const Residuals& after) {
   std::string text;
   for (const auto& [kind, residuals] : before) {
-    if (!is_bad(kind, residuals) || !after.contains(kind)) continue;
-    text += fmt::format("{}{}: {:.3g} px off, {:.2g} px without it, over {} points",
-                        text.empty() ? "" : "; ", name_of(kind), median(residuals.length_px),
-                        median(after.at(kind).length_px), residuals.length_px.size());
+    if (!is_suspicious(kind, residuals) || !after.contains(kind)) continue;
+    text += fmt::format("{}{}: {:.3g} px off on average, {:.2g} px without it, over {} points",
+                        text.empty() ? "" : "; ", name_of(kind), mean(residuals.length_px),
+                        mean(after.at(kind).length_px), residuals.length_px.size());
   }
   return text;
 }
@@ -224,7 +253,7 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
   for (int round = 0; round < kMostCauses; ++round) {
     const Residuals before = residuals_of(claims, links);
     const bool is_fine =
-        std::ranges::none_of(before, [](const auto& kind) { return is_bad(kind.first, kind.second); });
+        std::ranges::none_of(before, [](const auto& kind) { return is_suspicious(kind.first, kind.second); });
     if (is_fine) break;
     const auto best = best_explanation(view, claims, links, before, causes);
     if (!best) {
@@ -232,7 +261,7 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
       break;
     }
     faults.push_back({file_of(view, best->cause->suspect), "",
-                      fmt::format("{} ({})", text_of(*best),
+                      fmt::format("{}{} ({})", text_of(*best), best->instead,
                                   measured(before, residuals_of(best->claims, links)))});
     claims = best->claims;
   }
@@ -242,7 +271,7 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
 /// What corners say of amounts that are too small to be seen in any one of them.
 void find_small_amounts(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
                         std::vector<Fault>& faults) {
-  constexpr double kSure = 8.0, kGain = 0.97;
+  constexpr double kSure = 8.0, kGain = 0.97, kGainOfCertain = 0.75;
   constexpr std::size_t kLeast = 60;
   std::vector<Link> corners;
   for (const Link& link : links) {
@@ -251,22 +280,23 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
   }
   if (corners.size() < kLeast) return;
   const double now = disagreement(residuals_of(claims, corners));
-  std::optional<Explanation> best;
+  std::vector<Explanation> all;
   const std::vector<Hypothesis> causes = known_hypotheses();
   for (const Hypothesis& cause : causes) {
-    if (!cause.has_amount || !applies(view, cause)) continue;
-    Explanation one = {.cause = &cause, .amount = fitted(claims, cause, corners), .claims = claims};
+    if (!applies(view, cause)) continue;
+    Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
+    if (cause.has_amount) one.amount = fitted(claims, cause, corners);
     const double value = std::abs(one.amount.value);
-    if (value < cause.least || value < kSure * one.amount.sd) continue;
+    if (cause.has_amount && (value < cause.least || value < kSure * one.amount.sd)) continue;
     cause.undo(one.claims, one.amount.value);
-    one.left = disagreement(residuals_of(one.claims, corners));
-    if (one.left < kGain * now && (!best || one.left < best->left)) best = std::move(one);
+    one.left = disagreement(residuals_of(one.claims, corners), residuals_of(claims, corners));
+    if (one.left < (cause.has_amount ? kGain : kGainOfCertain) * now) all.push_back(std::move(one));
   }
-  if (!best) return;
-  faults.push_back({file_of(view, best->cause->suspect), "",
-                    fmt::format("{} (sd {:.2g} {}, from {} corners of pictures: their mean error shrinks by {:.0f} %)",
-                                text_of(*best), best->cause->shown_scale * best->amount.sd, best->cause->unit,
-                                corners.size(), 100.0 * (1.0 - best->left / now))});
+  if (all.empty()) return;
+  const Explanation best = first_of_best(std::move(all));
+  faults.push_back({file_of(view, best.cause->suspect), "",
+                    fmt::format("{}{} (from {} corners of pictures: their mean error shrinks by {:.0f} %)", text_of(best),
+                                best.instead, corners.size(), 100.0 * (1.0 - best.left / now))});
 }
 
 std::string file_of(const DatasetView& view, const Link& link) {
@@ -323,6 +353,7 @@ void find_single_frames(const DatasetView& view, const Claims& claims, const std
 }  // namespace
 
 std::vector<Fault> diagnose(const DatasetView& view, const std::vector<Link>& links) {
+  if (std::getenv("DBG") != nullptr) for (const auto& [k, r] : residuals_of(claims_of(view), links)) fmt::print(stderr, "DBG {} n {} median {:.3g} q75 {:.3g} tol {:.3g}\n", name_of(k), r.length_px.size(), median(r.length_px), quantile(r.length_px,.75), quantile(r.in_tolerances,.9));
   std::vector<Fault> faults;
   const Claims claims = explain(view, links, faults);
   find_single_frames(view, claims, links, faults);

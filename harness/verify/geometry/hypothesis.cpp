@@ -85,10 +85,18 @@ void add_frames(std::vector<Hypothesis>& all) {
                         [](Claims& claims) {
                           change_poses(claims, [](Eigen::Isometry3d& pose) { pose = pose.inverse(); });
                         }));
+  all.push_back(certain(Suspect::kPoses, "inverse poses, in axes of OpenGL (camera from world instead of world from camera)",
+                        [](Claims& claims) {
+                          change_poses(claims, [](Eigen::Isometry3d& pose) {
+                            pose = pose.inverse();
+                            pose.translation() = kAxesOfGl.cwiseProduct(pose.translation());
+                            pose.linear() = kAxesOfGl.asDiagonal() * pose.linear() * kAxesOfGl.asDiagonal();
+                          });
+                        }));
+  all.push_back(certain(Suspect::kCalibration, "swapped cameras: left is right", swap_cameras));
   all.push_back(certain(Suspect::kCalibration, "inverse places of the cameras on the body", [](Claims& claims) {
     change_cameras(claims, [](ViewCamera& camera) { camera.body_from_camera = camera.body_from_camera.inverse(); });
   }));
-  all.push_back(certain(Suspect::kCalibration, "swapped cameras: left is right", swap_cameras));
   all.push_back(certain(Suspect::kPoses, "poses are a frame late: each is that of the frame before",
                         [](Claims& claims) { shift_poses(claims, 1); }));
   all.push_back(certain(Suspect::kPoses, "poses are a frame early: each is that of the frame after",

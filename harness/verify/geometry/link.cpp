@@ -46,6 +46,10 @@ bool says_nothing(const Claims& claims, const Link& link) {
 /// A link as it is where the left picture is the right camera's: the other end is the one that has depth.
 Link swapped(Link link) {
   std::swap(link.from_px, link.to_px);
+  if (link.mate_is_measured) {
+    link.mate_px.fill(link.to_px);
+    return link;
+  }
   link.depth_m.fill(link.found_depth_m);
   link.mate_px.fill(link.found_mate_px);
   return link;
@@ -184,8 +188,8 @@ std::optional<Vector2d> residual_px(const Claims& claims, const Link& link) {
   if (link.kind == LinkKind::kBallSurface) return off_ball(claims, link);
   if (link.kind == LinkKind::kBallCentre) return off_centre(claims, link);
   if (claims.pictures_are_swapped && is_measured(link.kind)) {
-    if (link.kind != LinkKind::kStereoPictures) return std::nullopt;
-    if (!link.found_depth_m && !link.found_mate_px) return std::nullopt;
+    if (link.kind == LinkKind::kNextPictures) return std::nullopt;
+    if (!link.mate_is_measured && !link.found_depth_m && !link.found_mate_px) return std::nullopt;
     return off_pixel(claims, swapped(link));
   }
   return off_pixel(claims, link);

@@ -88,7 +88,11 @@ std::optional<Vector2d> refined(const cv::Mat& from, const cv::Point& corner, co
 std::optional<Vector2d> found_in(const cv::Mat& from, const cv::Point& corner, const cv::Mat& to,
                                  const cv::Size& reach) {
   const auto coarse = coarse_match(from, corner, to, reach);
-  return coarse ? refined(from, corner, to, Vector2d(coarse->x, coarse->y)) : std::nullopt;
+  if (!coarse || !is_within(patch_around(*coarse), to)) return std::nullopt;
+  // What is found in the other picture must be found here: of two things that look alike, one is not.
+  const auto back = coarse_match(to, *coarse, from, reach);
+  if (!back || std::max(std::abs(back->x - corner.x), std::abs(back->y - corner.y)) > 1) return std::nullopt;
+  return refined(from, corner, to, Vector2d(coarse->x, coarse->y));
 }
 
 std::vector<cv::Point> corners_in(const cv::Mat& picture, std::size_t most) {

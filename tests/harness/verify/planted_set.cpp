@@ -64,7 +64,7 @@ struct PoseLines {
 };
 
 std::vector<PoseLines> pose_lines(const std::string& format) {
-  const std::string rest = "([^\\n]*)\\n";
+  const std::string rest = "([^\\n]+)";
   if (format == "plain")  // the left camera's, then the right one's
     return {{"frames.csv", "\\n\\d+,[^,]*,1,[^,]*,([^,\\n]*,[^,]*,[^,]*),", ",", PoseLines::kPlane},
             {"frames.csv", "\\n\\d+,[^,]*,1,[^,]*,[^,\\n]*,[^,]*,[^,]*,([^\\n]*)", ",", PoseLines::kPlane}};
@@ -74,8 +74,8 @@ std::vector<PoseLines> pose_lines(const std::string& format) {
     return {{"mav0/state_groundtruth_estimate0/data.csv", "\\n\\d+,((?:[^,]*,){6}[^,]*)", ",",
              PoseLines::kQuaternionFirst}};
   if (format == "kitti-odometry") return {{"poses/00.txt", rest, " ", PoseLines::kRows}};
-  return {{"camera_data/office_0/camera_data.txt", "\\nL " + rest, " ", PoseLines::kRows},
-          {"camera_data/office_0/camera_data.txt", "\\nR " + rest, " ", PoseLines::kRows}};
+  return {{"camera_data/bend_0/camera_data.txt", "\\nL " + rest, " ", PoseLines::kRows},
+          {"camera_data/bend_0/camera_data.txt", "\\nR " + rest, " ", PoseLines::kRows}};
 }
 
 Matrix4d pose_of_line(const Numbers& numbers, PoseLines::Form form) {
@@ -166,9 +166,7 @@ fs::path rendered(const std::string& scenario, const std::string& formats, const
   const std::string key = fmt::format("{} {} {}", scenario, formats, fmt::join(arguments, " "));
   if (known.contains(key)) return known.at(key);
   const fs::path out = folder.path() / fmt::format("{}", known.size());
-  const std::vector<std::string> common = {"render", scenario_path(scenario), "--frames", "0..4", "--set",
-                                           "rig.width_px=320", "--set", "rig.height_px=240", "--set",
-                                           "rig.focal_px=280", "--format", formats, "--out", out.string()};
+  const std::vector<std::string> common = {"render", scenario, "--format", formats, "--out", out.string()};
   const Outcome outcome = run_stereobench(with(common, arguments));
   if (outcome.exit_code != 0) ADD_FAILURE() << outcome.err;
   return known[key] = out;
@@ -182,7 +180,7 @@ std::string faults_of(const fs::path& folder, const std::string& format) {
 }
 
 PlantedSet::PlantedSet(const std::string& format) : format_(format) {
-  const fs::path from = rendered("office", kAllFormats, {"--truth", "balls,disparity,flow"}) / format;
+  const fs::path from = rendered(kBend, kAllFormats, kBendFrames) / format;
   fs::copy(from, folder_.path() / format, fs::copy_options::recursive);
   fs::remove(path("dataset.json"));
 }
@@ -206,7 +204,7 @@ void PlantedSet::change_calibration(const Calibration& by) const {
   const auto rig = [&](const std::string& text) { return changed_rig(text, by); };
   if (format_ == "plain") return change("true_calibration.yaml", rig);
   if (format_ == "tum") return change("calibration.yaml", rig);
-  if (format_ == "sceneflow") return change("camera_data/office_0/calibration.yaml", rig);
+  if (format_ == "sceneflow") return change("camera_data/bend_0/calibration.yaml", rig);
   if (format_ == "vslamlab")
     return change("calibration.yaml", [&](const std::string& text) { return changed_vslamlab(text, by); });
   if (format_ == "euroc") {

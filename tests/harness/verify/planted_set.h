@@ -15,7 +15,12 @@
 
 namespace stereobench::harness {
 
+/// The scenario of most tests, and what is rendered of it.
+inline const std::string kBend = STEREOBENCH_SOURCE_DIR "/tests/harness/verify/bend.yaml";
+inline const std::vector<std::string> kBendFrames = {"--frames", "2..7", "--truth", "balls,disparity,flow"};
+
 /// The folder that has a data set in each of some formats.
+/// @param scenario its file
 /// @param arguments of `render` behind the scenario
 std::filesystem::path rendered(const std::string& scenario, const std::string& formats,
                                const std::vector<std::string>& arguments = {});
@@ -28,7 +33,7 @@ inline const std::string kAllFormats =
 /// All faults of a folder, a line each.
 std::string faults_of(const std::filesystem::path& folder, const std::string& format);
 
-/// A copy of a data set of the office, without dataset.json: as if somebody else had written it.
+/// A copy of a data set of the bend, without dataset.json: as if somebody else had written it.
 class PlantedSet {
  public:
   explicit PlantedSet(const std::string& format);
