@@ -51,6 +51,18 @@ Residuals residuals_of(const Claims& claims, const std::vector<Link>& links) {
   return all;
 }
 
+/// What a change of claims makes of the links that both claims say something of.
+struct Comparison {
+  Residuals before, after;
+};
+
+Comparison compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links) {
+  std::vector<Link> common;
+  for (const Link& link : links)
+    if (residual_px(claims, link) && residual_px(changed, link)) common.push_back(link);
+  return {residuals_of(claims, common), residuals_of(changed, common)};
+}
+
 /// Whether so many links are off that a cause is looked for: those of a few frames are enough.
 bool is_suspicious(LinkKind kind, const KindResiduals& residuals) {
   constexpr double kNineTenths = 0.9;
@@ -66,7 +78,7 @@ bool is_bad(LinkKind kind, const KindResiduals& residuals) {
 
 /// How much all kinds disagree; each counts as much, however many links it has.
 /// @param otherwise of kinds that residuals say nothing of
-double disagreement(const Residuals& residuals, const Residuals& otherwise = {}) {
+double disagreement(const Residuals& residuals, const Residuals& otherwise) {
   double sum = 0.0;
   Residuals all = residuals;
   all.insert(otherwise.begin(), otherwise.end());
@@ -174,17 +186,21 @@ bool is_mended(LinkKind kind, const KindResiduals& before, const KindResiduals& 
   return share < kNearly || (share < kHalf && !is_suspicious(kind, after));
 }
 
-/// How many kinds a hypothesis mends. @return 0 for one that spoils another kind, or says nothing of what files
-/// say of each other
-int mended_by(const Residuals& before, const Residuals& after) {
+/// How many kinds a hypothesis mends.
+/// @param all of all links before
+/// @return 0 for one that spoils another kind, or says nothing of what files say of each other
+int mended_by(const Residuals& all, const Comparison& change) {
+  constexpr std::size_t kFewest = 20;  // corners: some are found wrongly
   int mended = 0;
-  for (const auto& [kind, residuals] : before) {
-    const auto left = after.find(kind);
-    if (left == after.end() && is_measured(kind)) continue;
-    if (left == after.end()) return 0;
-    if (!is_suspicious(kind, residuals)) {
+  for (const auto& [kind, residuals] : all) {
+    const auto left = change.after.find(kind);
+    if (left == change.after.end() && is_measured(kind)) continue;
+    if (left == change.after.end()) return 0;
+    const KindResiduals& before = change.before.at(kind);
+    if (!is_suspicious(kind, before)) {
       if (is_suspicious(kind, left->second)) return 0;
-    } else if (is_mended(kind, residuals, left->second)) {
+    } else if (is_mended(kind, before, left->second) &&
+               (!is_measured(kind) || before.length_px.size() >= kFewest)) {
       ++mended;
     }
   }
@@ -214,9 +230,9 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
     if (cause.has_amount) one.amount = fitted(claims, cause, links);
     if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
     cause.undo(one.claims, one.amount.value);
-    const Residuals left = residuals_of(one.claims, links);
-    one.mended = mended_by(before, left);
-    one.left = disagreement(left, before);
+    const Comparison change = compared(claims, one.claims, links);
+    one.mended = mended_by(before, change);
+    one.left = disagreement(change.after, before);
     if (one.mended > 0) all.push_back(std::move(one));
   }
   if (all.empty()) return std::nullopt;
@@ -279,7 +295,6 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
     if (residual && residual->norm() < kGross_px) corners.push_back(link);
   }
   if (corners.size() < kLeast) return;
-  const double now = disagreement(residuals_of(claims, corners));
   std::vector<Explanation> all;
   const std::vector<Hypothesis> causes = known_hypotheses();
   for (const Hypothesis& cause : causes) {
@@ -289,14 +304,16 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
     const double value = std::abs(one.amount.value);
     if (cause.has_amount && (value < cause.least || value < kSure * one.amount.sd)) continue;
     cause.undo(one.claims, one.amount.value);
-    one.left = disagreement(residuals_of(one.claims, corners), residuals_of(claims, corners));
-    if (one.left < (cause.has_amount ? kGain : kGainOfCertain) * now) all.push_back(std::move(one));
+    const Comparison change = compared(claims, one.claims, corners);
+    if (change.before.empty()) continue;
+    one.left = disagreement(change.after, {}) / disagreement(change.before, {});
+    if (one.left < (cause.has_amount ? kGain : kGainOfCertain)) all.push_back(std::move(one));
   }
   if (all.empty()) return;
   const Explanation best = first_of_best(std::move(all));
   faults.push_back({file_of(view, best.cause->suspect), "",
                     fmt::format("{}{} (from {} corners of pictures: their mean error shrinks by {:.0f} %)", text_of(best),
-                                best.instead, corners.size(), 100.0 * (1.0 - best.left / now))});
+                                best.instead, corners.size(), 100.0 * (1.0 - best.left))});
 }
 
 std::string file_of(const DatasetView& view, const Link& link) {
@@ -353,7 +370,6 @@ void find_single_frames(const DatasetView& view, const Claims& claims, const std
 }  // namespace
 
 std::vector<Fault> diagnose(const DatasetView& view, const std::vector<Link>& links) {
-  if (std::getenv("DBG") != nullptr) for (const auto& [k, r] : residuals_of(claims_of(view), links)) fmt::print(stderr, "DBG {} n {} median {:.3g} q75 {:.3g} tol {:.3g}\n", name_of(k), r.length_px.size(), median(r.length_px), quantile(r.length_px,.75), quantile(r.in_tolerances,.9));
   std::vector<Fault> faults;
   const Claims claims = explain(view, links, faults);
   find_single_frames(view, claims, links, faults);

@@ -38,6 +38,7 @@ TEST_P(Clean, HasNoFaults) {
     const std::filesystem::path set = is_one ? folder : folder / format;
     EXPECT_EQ(reader_of(set).format, format);
     EXPECT_EQ(faults_of(set, format), "") << format;
+    if (std::string(GetParam().name) == "rolling_shutter") continue;  // dataset.json alone says that it rolls
     std::filesystem::remove(set / "dataset.json");
     EXPECT_EQ(faults_of(set, format), "") << format << ", without dataset.json";
   }
@@ -55,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         CleanCase{"levels_of_kitti", kBend, "plain",
                   {"--frames", "3..5", "--truth", "balls,disparity,flow", "--truth-format", "kitti"}},
         CleanCase{"lens_and_turned_camera", kBend, "plain,euroc,tum,vslamlab",
-                  {"--frames", "2..7", "--set", "rig.distortion.k1=-0.2", "--set", "rig.right_turn_deg=[0.4, -0.3, 0.5]",
+                  {"--frames", "2..7", "--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0]", "--set", "rig.right_turn_deg=[0.4, -0.3, 0.5]",
                    "--set", "rig.pitch_down_deg=8", "--truth", "disparity,flow,range"}},
         CleanCase{"rolling_shutter", kBend, "plain",
                   {"--frames", "3..5", "--set", "shutter.readout_s=0.02", "--truth", "range"}},

@@ -78,8 +78,10 @@ TEST(FilesOfASet, AreThereForEachFrame) {
         std::pair("vslamlab", "rgb_0/1500000000400000000.png")}) {
     const PlantedSet set(format);
     ASSERT_TRUE(fs::remove(set.path(file))) << file;
-    EXPECT_THAT(set.faults(), HasSubstr("missing frame")) << format << " without " << file;
-    EXPECT_THAT(set.faults(), HasSubstr(file)) << format;
+    const std::vector<Fault> faults = dataset_reader(format).read(set.path("")).faults;
+    EXPECT_TRUE(std::ranges::any_of(faults, [&](const Fault& fault) {
+      return line_of(fault).find("missing frame") != std::string::npos && line_of(fault).find(file) != std::string::npos;
+    })) << format << " without " << file;
   }
 }
 
@@ -96,8 +98,6 @@ TEST(FilesOfASet, AreThereForEachLineOfAList) {
 TEST(BallsOfASet, AreBoxedWhereTheyAreSeen) {
   const PlantedSet set("plain");
   const std::string file = "left_balls/000002.jsonl";
-  std::string lines = set.text(file);
-  const std::string hidden = "\"px_count_visib\":0,\"visib_fract\":0.0,\"bbox_obj\":";
   ASSERT_EQ(faults_of(set.path(""), "plain"), "");
   // The balls of the picture are whole or half hidden. One of them is taken out of the identities.
   cv::Mat ids = read_exact_png(set.path("left_id/000002.png"));
