@@ -97,12 +97,12 @@ struct DatasetView {
   std::vector<ViewFrame> frames;
   std::vector<ViewPose> poses;  ///< all of the files of poses
   std::vector<ViewBall> balls;
-  bool has_calibration = true;       ///< without it nothing is said of geometry
-  bool poses_are_of_camera = true;   ///< of the left one, not of a body that carries both
-  double place_precision_m = 0.0;    ///< of the poses, by the decimals of their numbers
-  double turn_precision = 0.0;       ///< likewise, rad
-  bool rows_look_apart = false;      ///< a rolling shutter: poses hold for the middle row alone
-  std::string calibration_file;      ///< that messages name; likewise below
+  bool has_calibration = true;      ///< without it nothing is said of geometry
+  bool poses_are_of_camera = true;  ///< of the left one, not of a body that carries both
+  double place_precision_m = 0.0;   ///< of the poses, by the decimals of their numbers
+  double turn_precision = 0.0;      ///< likewise, rad
+  bool rows_look_apart = false;     ///< a rolling shutter: poses hold for the middle row alone
+  std::string calibration_file;     ///< that messages name; likewise below
   std::string poses_file;
   std::string depth_file;            ///< or of disparities: a folder
   std::string pictures_file;         ///< a folder

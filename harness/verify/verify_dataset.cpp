@@ -87,16 +87,16 @@ std::vector<std::string> counts_of(const std::vector<Link>& links) {
   std::map<LinkKind, std::size_t> counts;
   for (const Link& link : links) ++counts[link.kind];
   std::vector<std::string> lines;
-  for (const auto& [kind, count] : counts) lines.push_back(fmt::format("{} ({} points)", name_of(kind), count));
+  for (const auto& [kind, count] : counts)
+    lines.push_back(fmt::format("{} ({} points)", name_of(kind), count));
   return lines;
 }
 
 /// Faults that several checks have found are named once.
 void leave_out_repeated(std::vector<Fault>& faults) {
   std::set<std::tuple<std::string, std::string, std::string>> known;
-  std::erase_if(faults, [&](const Fault& fault) {
-    return !known.emplace(fault.file, fault.frame, fault.what).second;
-  });
+  std::erase_if(
+      faults, [&](const Fault& fault) { return !known.emplace(fault.file, fault.frame, fault.what).second; });
 }
 
 }  // namespace
@@ -105,8 +105,8 @@ Verification verify_dataset(const std::filesystem::path& folder, const DatasetRe
                             const std::function<void(double)>& on_progress) {
   DatasetView view = reader.read(folder);
   if (view.frames.empty() && view.faults.empty())
-    throw std::runtime_error(
-        fmt::format("{}: expected a data set of the format {} (it has no frames)", folder.string(), reader.format));
+    throw std::runtime_error(fmt::format("{}: expected a data set of the format {} (it has no frames)",
+                                         folder.string(), reader.format));
   Verification result = {.format = view.format, .faults = {}, .checked = {}, .cannot = view.cannot};
   ChecksumResult checksums = check_checksums(folder);
   append(result.faults, std::move(checksums.faults));

@@ -22,7 +22,8 @@ enum class PngPacking {
 std::vector<std::uint8_t> encode_png(const cv::Mat& picture, PngPacking packing = PngPacking::kRuns);
 
 /// The picture of a PNG file with all its bits.
-/// @return as decode_picture (picture_reader.h), but CV_16UC1 or CV_16UC3 where the file has 16 bits a channel
+/// @return as decode_picture (picture_reader.h), but CV_16UC1 or CV_16UC3 where the file has 16 bits a
+/// channel
 /// @throws std::runtime_error as decode_picture
 cv::Mat decode_exact_png(std::span<const std::uint8_t> bytes,
                          int longest_px = std::numeric_limits<int>::max());

@@ -32,14 +32,14 @@ std::string text(const cv::Rect& box) {
 /// What is wrong with the line of one ball; empty where nothing is.
 std::string wrong_with(const ViewBallTruth& said, const SeenBall& seen) {
   if (seen.pixels == 0 && (!said.bbox_visib.empty() || said.px_count_visib != 0))
-    return fmt::format("ball {}: box {} and {} pixels of a hidden ball: no pixel of the identities shows it", said.ball,
-                       text(said.bbox_visib), said.px_count_visib);
+    return fmt::format("ball {}: box {} and {} pixels of a hidden ball: no pixel of the identities shows it",
+                       said.ball, text(said.bbox_visib), said.px_count_visib);
   if (said.px_count_visib != seen.pixels)
     return fmt::format("ball {}: px_count_visib is {}, and the identities show it in {} pixels", said.ball,
                        said.px_count_visib, seen.pixels);
   if (seen.pixels > 0 && said.bbox_visib != seen.box)
-    return fmt::format("ball {}: bbox_visib is {}, and that of the identities {}", said.ball, text(said.bbox_visib),
-                       text(seen.box));
+    return fmt::format("ball {}: bbox_visib is {}, and that of the identities {}", said.ball,
+                       text(said.bbox_visib), text(seen.box));
   return {};
 }
 
@@ -58,8 +58,9 @@ std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& loade
       seen.erase(said.ball);
     }
     for (const auto& [ball, pixels] : seen)
-      faults.push_back({frame.balls[side]->file, frame.name,
-                        fmt::format("ball {}: no line, and the identities show it in {} pixels", ball, pixels.pixels)});
+      faults.push_back(
+          {frame.balls[side]->file, frame.name,
+           fmt::format("ball {}: no line, and the identities show it in {} pixels", ball, pixels.pixels)});
   }
   return faults;
 }

@@ -10,7 +10,7 @@ namespace stereobench::harness {
 /// What the files of a data set sum up to.
 struct ChecksumResult {
   std::vector<Fault> faults;
-  std::size_t files = 0;             ///< that were compared
+  std::size_t files = 0;            ///< that were compared
   std::vector<std::string> cannot;  ///< lists that are not there
 };
 

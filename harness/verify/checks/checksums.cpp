@@ -19,7 +19,8 @@ constexpr const char* kManifest = "manifest-sha256.txt";
 
 Fault changed_file(const fs::path& folder, const std::string& name, const char* list) {
   if (!fs::exists(folder / name)) return {name, "", fmt::format("missing file: {} lists it", list)};
-  return {name, "", fmt::format("checksum: its bytes are not those that {} lists (a flipped bit, or edited)", list)};
+  return {name, "",
+          fmt::format("checksum: its bytes are not those that {} lists (a flipped bit, or edited)", list)};
 }
 
 void check_marker(const fs::path& folder, ChecksumResult& result) {
@@ -59,7 +60,8 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
                          line.find_first_not_of("0123456789abcdefABCDEF") >= kDigits;
     if (!is_line) {
       result.faults.push_back(
-          {kManifest, "", fmt::format("line {}: expected 64 hexadecimal digits and the name of a file", number)});
+          {kManifest, "",
+           fmt::format("line {}: expected 64 hexadecimal digits and the name of a file", number)});
       continue;
     }
     const std::string name = bag_name(line.substr(name_at));

@@ -24,10 +24,11 @@ void check_rigid(const DatasetView& view, std::vector<Fault>& faults) {
                         fmt::format("line {}: the quaternion has length {:.6g}: expected 1", pose.line,
                                     pose.quaternion_norm)});
     if (skew_of(pose.matrix) > tolerance)
-      faults.push_back({pose.file, "",
-                        fmt::format("line {}: the rotation is none: its columns are off a unit or a right angle by "
-                                    "{:.3g}",
-                                    pose.line, skew_of(pose.matrix))});
+      faults.push_back(
+          {pose.file, "",
+           fmt::format("line {}: the rotation is none: its columns are off a unit or a right angle by "
+                       "{:.3g}",
+                       pose.line, skew_of(pose.matrix))});
     else if (pose.matrix.topLeftCorner<3, 3>().determinant() < 0.0)
       faults.push_back({pose.file, "", fmt::format("line {}: the axes are left-handed", pose.line)});
   }
@@ -65,8 +66,9 @@ std::vector<Fault> check_stamps(const DatasetView& view) {
     const ViewFrame& frame = view.frames[i];
     const auto& stamps = frame.stamp_ns;
     if (stamps[0] && stamps[1] && *stamps[0] != *stamps[1])
-      faults.push_back({view.pictures_file, frame.name,
-                        fmt::format("the right picture is of {} ns, the left one of {} ns", *stamps[1], *stamps[0])});
+      faults.push_back(
+          {view.pictures_file, frame.name,
+           fmt::format("the right picture is of {} ns, the left one of {} ns", *stamps[1], *stamps[0])});
     if (i > 0 && stamps[0] && view.frames[i - 1].stamp_ns[0] && *stamps[0] <= *view.frames[i - 1].stamp_ns[0])
       faults.push_back({view.pictures_file, frame.name,
                         fmt::format("time {} ns is not after that of the frame before, {} ns", *stamps[0],
@@ -76,8 +78,8 @@ std::vector<Fault> check_stamps(const DatasetView& view) {
     if (view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
         *view.poses[i].stamp_ns <= *view.poses[i - 1].stamp_ns)
       faults.push_back({view.poses[i].file, "",
-                        fmt::format("line {}: time {} ns is not after that of the line before", view.poses[i].line,
-                                    *view.poses[i].stamp_ns)});
+                        fmt::format("line {}: time {} ns is not after that of the line before",
+                                    view.poses[i].line, *view.poses[i].stamp_ns)});
   return faults;
 }
 

@@ -42,13 +42,14 @@ std::vector<Fault> check_pictures(const DatasetView& view, const LoadedFrame& lo
   for (const Side side : kSides) {
     const std::size_t i = index_of(side);
     const vision::Intrinsics& camera = frame.cameras[i].pinhole;
-    for (const Read& read : {Read{Channel::kPicture, loaded.picture[i]}, Read{Channel::kDisparity, loaded.disparity_px[i]},
-                             Read{Channel::kDepth, loaded.depth_m[i]}, Read{Channel::kFlow, loaded.flow_px[i]},
-                             Read{Channel::kBallId, loaded.ball_id[i]}}) {
+    for (const Read& read :
+         {Read{Channel::kPicture, loaded.picture[i]}, Read{Channel::kDisparity, loaded.disparity_px[i]},
+          Read{Channel::kDepth, loaded.depth_m[i]}, Read{Channel::kFlow, loaded.flow_px[i]},
+          Read{Channel::kBallId, loaded.ball_id[i]}}) {
       if (read.picture.empty()) continue;
       const std::string& file = find_channel(frame, side, read.channel)->file;
-      const cv::Size size = camera.width_px > 0 ? cv::Size(camera.width_px, camera.height_px)
-                                                : loaded.picture[0].size();
+      const cv::Size size =
+          camera.width_px > 0 ? cv::Size(camera.width_px, camera.height_px) : loaded.picture[0].size();
       if (read.picture.size() != size)
         faults.push_back({file, frame.name,
                           fmt::format("expected {} x {} pixels (got {} x {})", size.width, size.height,
@@ -59,12 +60,13 @@ std::vector<Fault> check_pictures(const DatasetView& view, const LoadedFrame& lo
   return faults;
 }
 
-std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loaded, const cv::Mat& range_m, Side side) {
+std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loaded, const cv::Mat& range_m,
+                               Side side) {
   const ViewFrame& frame = view.frames[loaded.index];
   const cv::Mat& depth_m = loaded.depth_m[index_of(side)];
   if (depth_m.empty() || depth_m.size() != range_m.size()) return {};
   constexpr int kStride = 7;
-  constexpr double kFloat = 1e-5;  // of two 32-bit floats that were rounded, and of rays behind a lens
+  constexpr double kFloat = 1e-3;  // behind a lens: 0.001 px on a surface that is seen nearly from the side
   std::size_t off = 0, all = 0;
   for (int v = 0; v < range_m.rows; v += kStride)
     for (int u = 0; u < range_m.cols; u += kStride) {
@@ -75,9 +77,10 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loade
       if (std::abs(depth * ray->norm() - range) > kFloat * range) ++off;
     }
   if (2 * off <= all) return {};
-  return {{find_channel(frame, side, Channel::kRange)->file, frame.name,
-           fmt::format("range and depth disagree at {} of {} pixels: range is along the ray, depth is planar Z", off,
-                       all)}};
+  return {
+      {find_channel(frame, side, Channel::kRange)->file, frame.name,
+       fmt::format("range and depth disagree at {} of {} pixels: range is along the ray, depth is planar Z",
+                   off, all)}};
 }
 
 }  // namespace stereobench::harness

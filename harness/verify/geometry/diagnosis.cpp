@@ -3,91 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
+
+#include "harness/verify/geometry/link_statistics.h"
 
 namespace stereobench::harness {
 namespace {
 
 constexpr int kMostCauses = 3;
-constexpr double kMeasuredScale_px = 0.5, kExactScale_px = 0.05;
-/// Of corners: a median that random errors of corners do not have.
-constexpr double kGross_px = 1.5;
-
-/// The value that a share of all values are below.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-double median(const std::vector<double>& values) {
-  return quantile(values, 0.5);
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// The links of one kind under some claims.
-struct KindResiduals {
-  std::vector<double> length_px;
-  std::vector<double> in_tolerances;  ///< the same, divided by what rounding may do
-};
-
-using Residuals = std::map<LinkKind, KindResiduals>;
-
-Residuals residuals_of(const Claims& claims, const std::vector<Link>& links) {
-  Residuals all;
-  for (const Link& link : links) {
-    const auto residual = residual_px(claims, link);
-    if (!residual) continue;
-    KindResiduals& kind = all[link.kind];
-    kind.length_px.push_back(residual->norm());
-    kind.in_tolerances.push_back(residual->norm() / link.tolerance_px);
-  }
-  return all;
-}
-
-/// What a change of claims makes of the links that both claims say something of.
-struct Comparison {
-  Residuals before, after;
-};
-
-Comparison compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links) {
-  std::vector<Link> common;
-  for (const Link& link : links)
-    if (residual_px(claims, link) && residual_px(changed, link)) common.push_back(link);
-  return {residuals_of(claims, common), residuals_of(changed, common)};
-}
-
-/// Whether so many links are off that a cause is looked for: those of a few frames are enough.
-bool is_suspicious(LinkKind kind, const KindResiduals& residuals) {
-  constexpr double kNineTenths = 0.9;
-  if (is_measured(kind)) return quantile(residuals.length_px, kNineTenths) > kGross_px;
-  return quantile(residuals.in_tolerances, kNineTenths) > 1.0;
-}
-
-/// Whether most links are off.
-bool is_bad(LinkKind kind, const KindResiduals& residuals) {
-  if (is_measured(kind)) return median(residuals.length_px) > kGross_px;
-  return median(residuals.in_tolerances) > 1.0;
-}
-
-/// How much all kinds disagree; each counts as much, however many links it has.
-/// @param otherwise of kinds that residuals say nothing of
-double disagreement(const Residuals& residuals, const Residuals& otherwise) {
-  double sum = 0.0;
-  Residuals all = residuals;
-  all.insert(otherwise.begin(), otherwise.end());
-  for (const auto& [kind, of_kind] : all) {
-    sum += mean(of_kind.length_px) / (is_measured(kind) ? kMeasuredScale_px : kExactScale_px);
-  }
-  return sum;
-}
-
 /// How a residual changes with the amount of a hypothesis, link by link.
 struct Slope {
   double at = 0.0;  ///< the residual along the slope, px
@@ -104,7 +28,7 @@ std::vector<Slope> slopes_of(const Claims& claims, const Hypothesis& cause, doub
     const auto at = residual_px(here, link), then = residual_px(there, link);
     if (!at || !then || at->norm() >= kMostResidual_px) continue;
     const Eigen::Vector2d by = (*then - *at) / cause.first_step;
-    const double scale = is_measured(link.kind) ? kMeasuredScale_px : kExactScale_px;
+    const double scale = scale_px(link.kind);
     if (by.norm() > 1e-9) slopes.push_back({at->dot(by.normalized()) / scale, by.norm() / scale});
   }
   return slopes;
@@ -116,7 +40,8 @@ struct Amount {
   double sd = 0.0;
 };
 
-/// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on it.
+/// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on
+/// it.
 Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links) {
   constexpr int kRounds = 3;
   Amount amount;
@@ -218,8 +143,8 @@ Explanation first_of_best(std::vector<Explanation> all) {
   return std::move(all.front());
 }
 
-/// The cause that mends the most kinds and leaves the least; of those that leave about as little, the one that is
-/// listed first.
+/// The cause that mends the most kinds and leaves the least; of those that leave about as little, the one
+/// that is listed first.
 std::optional<Explanation> best_explanation(const DatasetView& view, const Claims& claims,
                                             const std::vector<Link>& links, const Residuals& before,
                                             const std::vector<Hypothesis>& causes) {
@@ -256,10 +181,11 @@ std::string measured(const Residuals& before, const Residuals& after) {
 void add_unexplained(const DatasetView& view, const Residuals& residuals, std::vector<Fault>& faults) {
   for (const auto& [kind, of_kind] : residuals)
     if (is_bad(kind, of_kind) && !is_measured(kind))
-      faults.push_back({view.calibration_file.empty() ? view.poses_file : view.calibration_file, "",
-                        fmt::format("{}: {:.3g} px off in the middle of {} points; no single cause that is known "
-                                    "explains it",
-                                    name_of(kind), median(of_kind.length_px), of_kind.length_px.size())});
+      faults.push_back(
+          {view.calibration_file.empty() ? view.poses_file : view.calibration_file, "",
+           fmt::format("{}: {:.3g} px off in the middle of {} points; no single cause that is known "
+                       "explains it",
+                       name_of(kind), median(of_kind.length_px), of_kind.length_px.size())});
 }
 
 /// Faults of the whole set. @return the claims without those that were explained
@@ -312,8 +238,8 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
   if (all.empty()) return;
   const Explanation best = first_of_best(std::move(all));
   faults.push_back({file_of(view, best.cause->suspect), "",
-                    fmt::format("{}{} (from {} corners of pictures: their mean error shrinks by {:.0f} %)", text_of(best),
-                                best.instead, corners.size(), 100.0 * (1.0 - best.left))});
+                    fmt::format("{}{} (from {} corners of pictures: their mean error shrinks by {:.0f} %)",
+                                text_of(best), best.instead, corners.size(), 100.0 * (1.0 - best.left))});
 }
 
 std::string file_of(const DatasetView& view, const Link& link) {

@@ -9,8 +9,8 @@ namespace {
 using Eigen::Vector2d;
 using vision::Side;
 
-/// What values that we call exact may be off: matches behind a lens are worked out to 0.001 px, and a place in
-/// a picture of some thousand pixels as 32-bit float to 0.0002 px.
+/// What values that we call exact may be off: matches behind a lens are worked out to 0.001 px, and a place
+/// in a picture of some thousand pixels as 32-bit float to 0.0002 px.
 constexpr double kExact_px = 0.002;
 
 /// Pixels of a grid that covers a picture, about as many as asked for.
@@ -68,8 +68,8 @@ void add_disparities(const DatasetView& view, const Neighbourhood& frames, Side 
     if (!std::isfinite(px) || !begin(frames, side, pixel, link) || !link.depth_m[kNow]) continue;
     link.to_side = is_left ? Side::kRight : Side::kLeft;
     link.to_px = {is_left ? pixel.x - px : pixel.x + px, pixel.y};
-    link.tolerance_px = kExact_px + 0.5 * step_of(frame, side, Channel::kDisparity) +
-                        std::abs(px) * depth_error(frame, link);
+    link.tolerance_px =
+        kExact_px + 0.5 * step_of(frame, side, Channel::kDisparity) + std::abs(px) * depth_error(frame, link);
     links.push_back(link);
   }
 }
@@ -150,7 +150,8 @@ void add_ball_centres(const DatasetView& view, const Neighbourhood& frames, Side
 }
 
 std::optional<double> value_at(const cv::Mat& picture, const Vector2d& pixel_px) {
-  const cv::Point pixel(static_cast<int>(std::lround(pixel_px.x())), static_cast<int>(std::lround(pixel_px.y())));
+  const cv::Point pixel(static_cast<int>(std::lround(pixel_px.x())),
+                        static_cast<int>(std::lround(pixel_px.y())));
   if (picture.empty() || !cv::Rect({}, picture.size()).contains(pixel)) return std::nullopt;
   const double value = picture.at<float>(pixel);
   return std::isfinite(value) && value != 0.0 ? std::optional(value) : std::nullopt;
@@ -165,8 +166,7 @@ void set_source(const Neighbourhood& frames, Side side, const Vector2d& pixel_px
     link.depth_m[instant] = value_at(all[instant]->depth_m[index_of(side)], pixel_px);
     const auto disparity_px = value_at(all[instant]->disparity_px[index_of(side)], pixel_px);
     if (!link.depth_m[instant] && disparity_px)
-      link.mate_px[instant] =
-          pixel_px - Vector2d(side == Side::kLeft ? *disparity_px : -*disparity_px, 0.0);
+      link.mate_px[instant] = pixel_px - Vector2d(side == Side::kLeft ? *disparity_px : -*disparity_px, 0.0);
   }
 }
 

@@ -43,7 +43,8 @@ void use_axes_of_gl(Claims& claims) {
 }
 
 void use_axes_of_gl_for_both(Claims& claims) {
-  change_cameras(claims, [](ViewCamera& camera) { camera.body_from_camera.linear() *= kAxesOfGl.asDiagonal(); });
+  change_cameras(claims,
+                 [](ViewCamera& camera) { camera.body_from_camera.linear() *= kAxesOfGl.asDiagonal(); });
 }
 
 /// Takes each frame's pose from another one.
@@ -75,17 +76,19 @@ Hypothesis certain(Suspect suspect, std::string cause, Undo undo) {
 }
 
 void add_frames(std::vector<Hypothesis>& all) {
-  all.push_back(certain(Suspect::kPoses, "camera axes are mixed up: y and z point the other way (OpenGL has y up, z backward)",
+  all.push_back(certain(Suspect::kPoses,
+                        "camera axes are mixed up: y and z point the other way (OpenGL has y up, z backward)",
                         use_axes_of_gl));
   all.back().needs_poses_of_camera = true;
-  all.push_back(certain(Suspect::kCalibration,
-                        "camera axes on the body are mixed up: y and z point the other way (OpenGL has y up, z backward)",
-                        use_axes_of_gl_for_both));
-  all.push_back(certain(Suspect::kPoses, "inverse poses (camera from world instead of world from camera)",
-                        [](Claims& claims) {
-                          change_poses(claims, [](Eigen::Isometry3d& pose) { pose = pose.inverse(); });
-                        }));
-  all.push_back(certain(Suspect::kPoses, "inverse poses, in axes of OpenGL (camera from world instead of world from camera)",
+  all.push_back(certain(
+      Suspect::kCalibration,
+      "camera axes on the body are mixed up: y and z point the other way (OpenGL has y up, z backward)",
+      use_axes_of_gl_for_both));
+  all.push_back(certain(
+      Suspect::kPoses, "inverse poses (camera from world instead of world from camera)",
+      [](Claims& claims) { change_poses(claims, [](Eigen::Isometry3d& pose) { pose = pose.inverse(); }); }));
+  all.push_back(certain(Suspect::kPoses,
+                        "inverse poses, in axes of OpenGL (camera from world instead of world from camera)",
                         [](Claims& claims) {
                           change_poses(claims, [](Eigen::Isometry3d& pose) {
                             pose = pose.inverse();
@@ -94,9 +97,11 @@ void add_frames(std::vector<Hypothesis>& all) {
                           });
                         }));
   all.push_back(certain(Suspect::kCalibration, "swapped cameras: left is right", swap_cameras));
-  all.push_back(certain(Suspect::kCalibration, "inverse places of the cameras on the body", [](Claims& claims) {
-    change_cameras(claims, [](ViewCamera& camera) { camera.body_from_camera = camera.body_from_camera.inverse(); });
-  }));
+  all.push_back(
+      certain(Suspect::kCalibration, "inverse places of the cameras on the body", [](Claims& claims) {
+        change_cameras(
+            claims, [](ViewCamera& camera) { camera.body_from_camera = camera.body_from_camera.inverse(); });
+      }));
   all.push_back(certain(Suspect::kPoses, "poses are a frame late: each is that of the frame before",
                         [](Claims& claims) { shift_poses(claims, 1); }));
   all.push_back(certain(Suspect::kPoses, "poses are a frame early: each is that of the frame after",
@@ -119,7 +124,8 @@ void add_units(std::vector<Hypothesis>& all) {
   for (const auto& [factor, unit] : {std::pair(0.01, "centimetres"), std::pair(0.001, "millimetres")}) {
     all.push_back(certain(Suspect::kPoses, fmt::format("places of poses in {} instead of metres", unit),
                           [factor = factor](Claims& claims) {
-                            change_poses(claims, [&](Eigen::Isometry3d& pose) { pose.translation() *= factor; });
+                            change_poses(claims,
+                                         [&](Eigen::Isometry3d& pose) { pose.translation() *= factor; });
                           }));
     all.push_back(certain(Suspect::kDepth, fmt::format("depth in {} instead of metres", unit),
                           [factor = factor](Claims& claims) { claims.depth_scale *= factor; }));
@@ -146,15 +152,19 @@ void add_amounts(std::vector<Hypothesis>& all) {
   add(Suspect::kCalibration, "focal length too long by {}", kShare, true, [](Claims& claims, double share) {
     change_cameras(claims, [&](ViewCamera& camera) { camera.pinhole.focal_px /= 1.0 + share; });
   });
-  add(Suspect::kCalibration, "principal point too far right by {} (half a pixel: the corner of the picture for the "
-      "centre of its first pixel)", kPixel, false, [](Claims& claims, double px) {
-    change_cameras(claims, [&](ViewCamera& camera) { camera.pinhole.cx_px -= px; });
-  });
-  add(Suspect::kCalibration, "principal point too far down by {}", kPixel, false, [](Claims& claims, double px) {
-    change_cameras(claims, [&](ViewCamera& camera) { camera.pinhole.cy_px -= px; });
-  });
   add(Suspect::kCalibration,
-      "principal point too far right and down by {} each (half a pixel: the corner of the picture for the centre of "
+      "principal point too far right by {} (half a pixel: the corner of the picture for the "
+      "centre of its first pixel)",
+      kPixel, false, [](Claims& claims, double px) {
+        change_cameras(claims, [&](ViewCamera& camera) { camera.pinhole.cx_px -= px; });
+      });
+  add(Suspect::kCalibration, "principal point too far down by {}", kPixel, false,
+      [](Claims& claims, double px) {
+        change_cameras(claims, [&](ViewCamera& camera) { camera.pinhole.cy_px -= px; });
+      });
+  add(Suspect::kCalibration,
+      "principal point too far right and down by {} each (half a pixel: the corner of the picture for the "
+      "centre of "
       "its first pixel)",
       kPixel, false, [](Claims& claims, double px) {
         change_cameras(claims, [&](ViewCamera& camera) {

@@ -21,12 +21,10 @@ Vector2d limited(const Vector2d& residual) {
 /// @return metres in the first camera's frame; empty where the rays do not meet ahead
 std::optional<Vector3d> triangulated(const ViewCamera& camera, const ViewCamera& other, const Vector3d& ray,
                                      const Vector3d& mate_ray) {
-  const Eigen::Isometry3d other_from_camera =
-      other.body_from_camera.inverse() * camera.body_from_camera;
+  const Eigen::Isometry3d other_from_camera = other.body_from_camera.inverse() * camera.body_from_camera;
   const Vector3d turned = other_from_camera.linear() * ray;
   const Vector3d& origin = other_from_camera.translation();
-  const double z_m =
-      (mate_ray.x() * origin.z() - origin.x()) / (turned.x() - mate_ray.x() * turned.z());
+  const double z_m = (mate_ray.x() * origin.z() - origin.x()) / (turned.x() - mate_ray.x() * turned.z());
   if (!(z_m > 0.0)) return std::nullopt;
   return z_m * ray;
 }
@@ -93,8 +91,7 @@ std::optional<Eigen::Isometry3d> to_from(const Claims& claims, const Link& link)
   if (link.from == link.to && link.kind != LinkKind::kBallCentre) {
     const bool moved = link.from_side != link.to_side && from.world_from_body[0] && from.world_from_body[1];
     if (!moved)
-      return to_camera.body_from_camera.inverse() *
-             from.cameras[index_of(link.from_side)].body_from_camera;
+      return to_camera.body_from_camera.inverse() * from.cameras[index_of(link.from_side)].body_from_camera;
   }
   const std::size_t here = frame_of_picture(claims, link, link.from);
   const std::size_t there = frame_of_picture(claims, link, link.to);
@@ -120,8 +117,7 @@ std::optional<Vector2d> off_ball(const Claims& claims, const Link& link) {
 std::optional<Vector2d> off_centre(const Claims& claims, const Link& link) {
   const auto world = world_from_camera(claims, link.to, link.to_side);
   if (!world) return std::nullopt;
-  const Vector3d centre_m =
-      world->inverse() * (*claims.balls)[static_cast<std::size_t>(*link.ball)].centre_m;
+  const Vector3d centre_m = world->inverse() * (*claims.balls)[static_cast<std::size_t>(*link.ball)].centre_m;
   const auto pixel = pixel_of(claims.frames[link.to].cameras[index_of(link.to_side)], centre_m);
   return pixel ? limited(link.to_px - *pixel) : kWorst;
 }
@@ -130,8 +126,8 @@ std::optional<Vector2d> off_centre(const Claims& claims, const Link& link) {
 std::optional<double> disparity_at(const Claims& claims, std::size_t frame, const Vector3d& in_left_m) {
   const auto& cameras = claims.frames[frame].cameras;
   const auto left = pixel_of(cameras[0], in_left_m);
-  const auto right = pixel_of(
-      cameras[1], cameras[1].body_from_camera.inverse() * cameras[0].body_from_camera * in_left_m);
+  const auto right =
+      pixel_of(cameras[1], cameras[1].body_from_camera.inverse() * cameras[0].body_from_camera * in_left_m);
   if (!left || !right) return std::nullopt;
   return left->x() - right->x();
 }
@@ -174,8 +170,7 @@ std::string_view name_of(LinkKind kind) {
 }
 
 bool is_measured(LinkKind kind) {
-  return kind == LinkKind::kStereoPictures || kind == LinkKind::kEpipolar ||
-         kind == LinkKind::kNextPictures;
+  return kind == LinkKind::kStereoPictures || kind == LinkKind::kEpipolar || kind == LinkKind::kNextPictures;
 }
 
 Claims claims_of(const DatasetView& view) {

@@ -59,7 +59,8 @@ std::optional<cv::Point> coarse_match(const cv::Mat& from, const cv::Point& corn
 }
 
 /// The place to a fraction of a pixel, by Lucas and Kanade.
-std::optional<Vector2d> refined(const cv::Mat& from, const cv::Point& corner, const cv::Mat& to, Vector2d place) {
+std::optional<Vector2d> refined(const cv::Mat& from, const cv::Point& corner, const cv::Mat& to,
+                                Vector2d place) {
   constexpr int kSteps = 15;
   constexpr double kStill_px = 0.003, kFarthest_px = 2.0;
   const Vector2d start = place;
@@ -138,10 +139,10 @@ void add_picture_links(const DatasetView& view, const Neighbourhood& frames, std
   if (now.picture[0].empty()) return;
   const cv::Mat left = grey(now.picture[0]);
   const bool is_pair = !now.picture[1].empty();
-  const bool goes_on = frames.after != nullptr && view.frames[now.index].drive_goes_on && !frames.after->picture[0].empty() &&
-                       frames.after->picture[0].size() == now.picture[0].size() &&
-                       view.frames[now.index].world_from_body[0] &&
-                       view.frames[frames.after->index].world_from_body[0];
+  const bool goes_on =
+      frames.after != nullptr && view.frames[now.index].drive_goes_on && !frames.after->picture[0].empty() &&
+      frames.after->picture[0].size() == now.picture[0].size() && view.frames[now.index].world_from_body[0] &&
+      view.frames[frames.after->index].world_from_body[0];
   const cv::Mat right = is_pair ? grey(now.picture[1]) : cv::Mat();
   const cv::Mat next = goes_on ? grey(frames.after->picture[0]) : cv::Mat();
   constexpr int kAcross = 4, kDown = 6;

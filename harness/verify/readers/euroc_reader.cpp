@@ -39,8 +39,9 @@ std::map<std::int64_t, std::string> pictures_in(DatasetView& view, const std::st
   for (const TableRow& row : table.rows) {
     const std::int64_t stamp_ns = nanoseconds_in(table, row, 0);
     if (stamp_ns <= before_ns)
-      view.faults.push_back({list, row.cells[0],
-                             fmt::format("line {}: the time is not after that of the line before", row.line)});
+      view.faults.push_back(
+          {list, row.cells[0],
+           fmt::format("line {}: the time is not after that of the line before", row.line)});
     before_ns = stamp_ns;
     const std::string file = fmt::format("{}/data/{}", camera, row.cells[1]);
     if (there.erase(row.cells[1]) == 0)
@@ -79,7 +80,8 @@ void read_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
     if (right != pictures[1].end())
       add_channel(view, frame, Side::kRight, Channel::kPicture, right->second);
     else if (!pictures[1].empty())
-      view.faults.push_back({"mav0/cam1/data.csv", frame.name, "missing frame: mav0/cam0 has a picture of this time"});
+      view.faults.push_back(
+          {"mav0/cam1/data.csv", frame.name, "missing frame: mav0/cam0 has a picture of this time"});
     view.frames.push_back(std::move(frame));
   }
   for (const auto& [stamp_ns, file] : pictures[1])
@@ -103,12 +105,14 @@ DatasetView read_euroc_view(const fs::path& folder) {
   std::array<ViewCamera, 2> cameras;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string file = std::string(kCameras[i]) + "/sensor.yaml";
-    if (fs::exists(folder / kCameras[i])) read_or_blame(view, file, [&] { cameras[i] = camera_in(folder / file); });
+    if (fs::exists(folder / kCameras[i]))
+      read_or_blame(view, file, [&] { cameras[i] = camera_in(folder / file); });
   }
   if (fs::exists(folder / kStates)) read_or_blame(view, kStates, [&] { read_states(view); });
   read_frames(view, cameras);
-  view.cannot.push_back("depth, which the layout has not: cameras, baseline and poses were held against corners of "
-                        "the pictures");
+  view.cannot.push_back(
+      "depth, which the layout has not: cameras, baseline and poses were held against corners of "
+      "the pictures");
   return view;
 }
 

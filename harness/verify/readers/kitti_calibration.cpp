@@ -28,10 +28,12 @@ std::map<std::string, std::vector<double>> keyed_numbers(const std::filesystem::
 }
 
 ViewCamera projected_camera(const std::filesystem::path& file,
-                            const std::map<std::string, std::vector<double>>& numbers, const std::string& key) {
+                            const std::map<std::string, std::vector<double>>& numbers,
+                            const std::string& key) {
   const auto found = numbers.find(key);
   if (found == numbers.end() || found->second.size() != 12 || !(found->second[0] > 0.0))
-    throw std::runtime_error(fmt::format("{}: {}: expected 12 numbers, a focal length first", file.string(), key));
+    throw std::runtime_error(
+        fmt::format("{}: {}: expected 12 numbers, a focal length first", file.string(), key));
   const std::vector<double>& p = found->second;
   ViewCamera camera;
   camera.pinhole = {0, 0, p[0], p[2], p[6]};

@@ -12,11 +12,13 @@ namespace stereobench::harness {
 /// The numbers by key; lines whose words are no numbers (a date) are left out.
 /// @param separator between key and numbers, ':' for KITTI and '=' for Middlebury
 /// @throws std::runtime_error where the file cannot be read
-std::map<std::string, std::vector<double>> keyed_numbers(const std::filesystem::path& file, char separator = ':');
+std::map<std::string, std::vector<double>> keyed_numbers(const std::filesystem::path& file,
+                                                         char separator = ':');
 
 /// A rectified camera of a 3 x 4 projection; the body is KITTI's camera 0.
 /// @throws std::runtime_error "file: P2: expected 12 numbers"
 ViewCamera projected_camera(const std::filesystem::path& file,
-                            const std::map<std::string, std::vector<double>>& numbers, const std::string& key);
+                            const std::map<std::string, std::vector<double>>& numbers,
+                            const std::string& key);
 
 }  // namespace stereobench::harness

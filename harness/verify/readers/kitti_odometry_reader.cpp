@@ -33,13 +33,15 @@ std::vector<std::int64_t> times_in(const fs::path& file) {
   constexpr double kNanoseconds = 1e9;
   const NumberTable table = read_blank_separated_table(file, {"t_s"});
   std::vector<std::int64_t> times;
-  for (const TableRow& row : table.rows) times.push_back(std::llround(kNanoseconds * number_in(table, row, 0)));
+  for (const TableRow& row : table.rows)
+    times.push_back(std::llround(kNanoseconds * number_in(table, row, 0)));
   return times;
 }
 
 void expect_count(DatasetView& view, const std::string& file, std::size_t got, std::size_t frames) {
   if (got != frames)
-    view.faults.push_back({file, "", fmt::format("missing frame: expected {} lines, one a picture (got {})", frames, got)});
+    view.faults.push_back(
+        {file, "", fmt::format("missing frame: expected {} lines, one a picture (got {})", frames, got)});
 }
 
 /// The frames of one sequence: "00".
@@ -54,21 +56,24 @@ void read_sequence(DatasetView& view, const std::string& sequence) {
   read_or_blame(view, calibration, [&] {
     const auto numbers = keyed_numbers(view.folder / calibration);
     for (std::size_t i = 0; i < 2; ++i)
-      cameras[i] = projected_camera(view.folder / calibration, numbers, fmt::format("P{}", i + (has_colour ? 2 : 0)));
+      cameras[i] =
+          projected_camera(view.folder / calibration, numbers, fmt::format("P{}", i + (has_colour ? 2 : 0)));
   });
   std::vector<std::int64_t> times;
   std::vector<ViewPose> path;
   const std::string times_file = folder + "times.txt", poses_file = fmt::format("poses/{}.txt", sequence);
   if (fs::exists(view.folder / times_file))
     read_or_blame(view, times_file, [&] { times = times_in(view.folder / times_file); });
-  if (fs::exists(view.folder / poses_file)) read_or_blame(view, poses_file, [&] { path = path_in(view, poses_file); });
+  if (fs::exists(view.folder / poses_file))
+    read_or_blame(view, poses_file, [&] { path = path_in(view, poses_file); });
   if (!times.empty()) expect_count(view, times_file, times.size(), names.size());
   if (!path.empty()) expect_count(view, poses_file, path.size(), names.size());
   for (const std::string& name : names) {
     const std::size_t number = std::strtoul(name.c_str(), nullptr, 10);
     ViewFrame frame = {.name = fmt::format("{}/{}", sequence, name), .cameras = cameras};
     if (number < times.size()) frame.stamp_ns[0] = frame.stamp_ns[1] = times[number];
-    if (number < path.size()) frame.world_from_body[0] = frame.world_from_body[1] = as_rigid(path[number].matrix);
+    if (number < path.size())
+      frame.world_from_body[0] = frame.world_from_body[1] = as_rigid(path[number].matrix);
     for (std::size_t i = 0; i < 2; ++i)
       add_channel(view, frame, static_cast<Side>(i), Channel::kPicture,
                   fmt::format("{}/{}.png", folders[i + (has_colour ? 2 : 0)], name));
@@ -93,8 +98,9 @@ DatasetView read_kitti_odometry_view(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "sequences"))
     if (entry.is_directory()) sequences.insert(entry.path().filename().string());
   for (const std::string& sequence : sequences) read_sequence(view, sequence);
-  view.cannot.push_back("depth, which the layout has not: cameras, baseline and poses were held against corners of "
-                        "the pictures");
+  view.cannot.push_back(
+      "depth, which the layout has not: cameras, baseline and poses were held against corners of "
+      "the pictures");
   return view;
 }
 

@@ -28,10 +28,11 @@ const KittiFolders k2015 = {"kitti-stereo",
                             {"image_2", "image_3"},
                             {"disp_noc_0", "disp_occ_0", "disp_occ_1", "disp_noc_1"},
                             "disp_occ_0"};
-const KittiFolders kSceneFlow = {"kitti-scene-flow",
-                                 {"image_2", "image_3"},
-                                 {"disp_noc_0", "disp_occ_0", "disp_occ_1", "disp_noc_1", "flow_occ", "flow_noc"},
-                                 "disp_occ_0"};
+const KittiFolders kSceneFlow = {
+    "kitti-scene-flow",
+    {"image_2", "image_3"},
+    {"disp_noc_0", "disp_occ_0", "disp_occ_1", "disp_noc_1", "flow_occ", "flow_noc"},
+    "disp_occ_0"};
 const KittiFolders k2012 = {"kitti-stereo-2012",
                             {"colored_0", "colored_1"},
                             {"disp_noc", "disp_occ", "image_0", "image_1"},
@@ -54,22 +55,26 @@ void compare_calibrations(DatasetView& view, const std::string& file, const View
     const ViewCamera& camera = frame.cameras[i];
     if (std::abs(other.pinhole.focal_px - camera.pinhole.focal_px) > kRounding * camera.pinhole.focal_px ||
         std::abs(other.pinhole.cx_px - camera.pinhole.cx_px) > kRounding * camera.pinhole.focal_px)
-      view.faults.push_back({file, frame.name,
-                             fmt::format("P_rect_0{}: focal length {} px and principal point {} px, and {} px and {} px "
-                                         "in {}",
-                                         i + 2, other.pinhole.focal_px, other.pinhole.cx_px, camera.pinhole.focal_px,
-                                         camera.pinhole.cx_px, view.calibration_file)});
+      view.faults.push_back(
+          {file, frame.name,
+           fmt::format("P_rect_0{}: focal length {} px and principal point {} px, and {} px and {} px "
+                       "in {}",
+                       i + 2, other.pinhole.focal_px, other.pinhole.cx_px, camera.pinhole.focal_px,
+                       camera.pinhole.cx_px, view.calibration_file)});
   }
   const auto lens = numbers.find("D_03"), place = numbers.find("T_03"), left = numbers.find("T_02");
   if (lens == numbers.end() || !is_nothing(lens->second)) return;
-  if (place == numbers.end() || place->second.size() != 3 || left == numbers.end() || left->second.size() != 3) return;
+  if (place == numbers.end() || place->second.size() != 3 || left == numbers.end() ||
+      left->second.size() != 3)
+    return;
   const double by_place_m = left->second[0] - place->second[0];
   const double by_projection_m =
       (frame.cameras[1].body_from_camera.translation() - frame.cameras[0].body_from_camera.translation()).x();
   if (std::abs(by_place_m - by_projection_m) > kRounding * std::abs(by_place_m))
-    view.faults.push_back({view.calibration_file, frame.name,
-                           fmt::format("baseline: {:.6g} m by P3, {:.6g} m by T_03 of {}: {:+.3g} %", by_projection_m,
-                                       by_place_m, file, 100.0 * (by_projection_m / by_place_m - 1.0))});
+    view.faults.push_back(
+        {view.calibration_file, frame.name,
+         fmt::format("baseline: {:.6g} m by P3, {:.6g} m by T_03 of {}: {:+.3g} %", by_projection_m,
+                     by_place_m, file, 100.0 * (by_projection_m / by_place_m - 1.0))});
 }
 
 void read_calibration_of(DatasetView& view, ViewFrame& frame) {
@@ -98,10 +103,12 @@ DatasetView read_layout(const fs::path& folder, const KittiFolders& layout) {
   folders.insert(folders.end(), layout.others.begin(), layout.others.end());
   std::set<std::string> names = complete_frames(view, folders, kEnding);
   if (layout.format == kSceneFlow.format) {
-    const std::set<std::string> seconds = complete_frames(view, {layout.pictures.begin(), layout.pictures.end()}, "_11.png");
+    const std::set<std::string> seconds =
+        complete_frames(view, {layout.pictures.begin(), layout.pictures.end()}, "_11.png");
     for (const std::string& name : names)
       if (!seconds.contains(name))
-        view.faults.push_back({fmt::format("{}/{}_11.png", layout.pictures[0], name), name, "missing frame: the second pair"});
+        view.faults.push_back(
+            {fmt::format("{}/{}_11.png", layout.pictures[0], name), name, "missing frame: the second pair"});
   }
   for (const std::string& name : names) {
     ViewFrame frame = {.name = name};
@@ -118,9 +125,11 @@ DatasetView read_layout(const fs::path& folder, const KittiFolders& layout) {
     if (&layout == &kSceneFlow) add(Channel::kFlow, "flow_occ", kFlowLevel_px);
     view.frames.push_back(std::move(frame));
   }
-  if (fs::exists(view.folder / "calib_cam_to_cam")) view.checked.push_back("calib_cam_to_cam/ against calib/");
-  view.cannot.push_back("depth in metres: the layout has no second source of the baseline but calib_cam_to_cam/, "
-                        "and no poses");
+  if (fs::exists(view.folder / "calib_cam_to_cam"))
+    view.checked.push_back("calib_cam_to_cam/ against calib/");
+  view.cannot.push_back(
+      "depth in metres: the layout has no second source of the baseline but calib_cam_to_cam/, "
+      "and no poses");
   return view;
 }
 

@@ -22,7 +22,8 @@ struct PairFolders {
 };
 
 const PairFolders kMiddlebury = {"middlebury", "", "", {"disp0.pfm", "disp1.pfm"}};
-const PairFolders kEth3d = {"eth3d", "two_view_training/", "two_view_training_gt/", {"disp0GT.pfm", "disp1GT.pfm"}};
+const PairFolders kEth3d = {
+    "eth3d", "two_view_training/", "two_view_training_gt/", {"disp0GT.pfm", "disp1GT.pfm"}};
 
 double number_of(const fs::path& file, const Numbers& numbers, const char* key) {
   const auto found = numbers.find(key);
@@ -38,7 +39,8 @@ void read_pair_calibration(DatasetView& view, const std::string& name, ViewFrame
   for (std::size_t i = 0; i < 2; ++i) {
     const auto matrix = numbers.find(i == 0 ? "cam0" : "cam1");
     if (matrix == numbers.end() || matrix->second.size() != 9 || !(matrix->second[0] > 0.0))
-      throw std::runtime_error(fmt::format("{}: cam{}: expected 9 numbers, a focal length first", file.string(), i));
+      throw std::runtime_error(
+          fmt::format("{}: cam{}: expected 9 numbers, a focal length first", file.string(), i));
     const std::vector<double>& k = matrix->second;
     frame.cameras[i].pinhole = {static_cast<int>(number_of(file, numbers, "width")),
                                 static_cast<int>(number_of(file, numbers, "height")), k[0], k[2], k[5]};
@@ -48,14 +50,16 @@ void read_pair_calibration(DatasetView& view, const std::string& name, ViewFrame
   const double shift_px = frame.cameras[1].pinhole.cx_px - frame.cameras[0].pinhole.cx_px;
   const double doffs = number_of(file, numbers, "doffs");
   if (std::abs(doffs - shift_px) > kRounding_px)
-    view.faults.push_back({name, frame.name,
-                           fmt::format("principal point: doffs is {} px, and cam1 has its principal point {} px right of "
-                                       "cam0's",
-                                       doffs, shift_px)});
+    view.faults.push_back(
+        {name, frame.name,
+         fmt::format("principal point: doffs is {} px, and cam1 has its principal point {} px right of "
+                     "cam0's",
+                     doffs, shift_px)});
   if (std::abs(frame.cameras[1].pinhole.focal_px - frame.cameras[0].pinhole.focal_px) > kRounding_px)
-    view.faults.push_back({name, frame.name,
-                           fmt::format("focal length: {} px of cam0, {} px of cam1: a rectified pair has one",
-                                       frame.cameras[0].pinhole.focal_px, frame.cameras[1].pinhole.focal_px)});
+    view.faults.push_back(
+        {name, frame.name,
+         fmt::format("focal length: {} px of cam0, {} px of cam1: a rectified pair has one",
+                     frame.cameras[0].pinhole.focal_px, frame.cameras[1].pinhole.focal_px)});
 }
 
 /// Each file that some pairs have and others not.
@@ -66,8 +70,8 @@ void find_missing_files(DatasetView& view, const std::string& folder, const std:
   for (const std::string& name : names)
     for (const std::string& file : known)
       if (!fs::exists(view.folder / (folder + name) / file))
-        view.faults.push_back({fmt::format("{}{}/{}", folder, name, file), name,
-                               "missing frame: other pairs have this file"});
+        view.faults.push_back(
+            {fmt::format("{}{}/{}", folder, name, file), name, "missing frame: other pairs have this file"});
 }
 
 std::set<std::string> pairs_in(const fs::path& folder) {
@@ -90,7 +94,8 @@ DatasetView read_pairs(const fs::path& folder, const PairFolders& layout) {
     const std::string calibration = fmt::format("{}{}/calib.txt", layout.pictures, name);
     read_or_blame(view, calibration, [&] { read_pair_calibration(view, calibration, frame); });
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      add_channel(view, frame, side, Channel::kPicture, fmt::format("{}{}/im{}.png", layout.pictures, name, index_of(side)));
+      add_channel(view, frame, side, Channel::kPicture,
+                  fmt::format("{}{}/im{}.png", layout.pictures, name, index_of(side)));
       add_channel(view, frame, side, Channel::kDisparity,
                   fmt::format("{}{}/{}", layout.truth, name, layout.disparity[index_of(side)]));
     }

@@ -25,8 +25,7 @@ constexpr double kKittiDisparity_px = 1.0 / 256.0, kKittiShift_px = 1.0 / 64.0;
 cv::Rect box_in(const JsonValue& value) {
   std::array<int, 4> box{};
   const auto numbers = value.list(4, 4);
-  for (std::size_t i = 0; i < box.size(); ++i)
-    box[i] = static_cast<int>(numbers[i].integer(-1, 1 << 20));
+  for (std::size_t i = 0; i < box.size(); ++i) box[i] = static_cast<int>(numbers[i].integer(-1, 1 << 20));
   return box[2] <= 0 || box[3] <= 0 ? cv::Rect() : cv::Rect(box[0], box[1], box[2], box[3]);
 }
 
@@ -70,8 +69,8 @@ void read_balls_of(DatasetView& view, ViewFrame& frame, Side side) {
 
 void add_files(DatasetView& view, ViewFrame& frame) {
   const auto add = [&](Side side, Channel channel, const char* kind, const char* ending, double step = 0.0) {
-    add_channel(view, frame, side, channel, fmt::format("{}/{}{}", picture_folder(side, kind), frame.name, ending),
-                step);
+    add_channel(view, frame, side, channel,
+                fmt::format("{}/{}{}", picture_folder(side, kind), frame.name, ending), step);
   };
   for (const Side side : kBothSides) {
     add(side, Channel::kPicture, "", ".png");
@@ -98,8 +97,9 @@ void read_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
   for (const TableRow& row : table.rows) {
     const int step = whole_number_in(table, row, 0, 0);
     if (step != last_step + 1)
-      view.faults.push_back({kFramesFile, fmt::format("{:06}", step),
-                             fmt::format("line {}: missing frame: expected step {}", row.line, last_step + 1)});
+      view.faults.push_back(
+          {kFramesFile, fmt::format("{:06}", step),
+           fmt::format("line {}: missing frame: expected step {}", row.line, last_step + 1)});
     last_step = step;
     if (whole_number_in(table, row, 2, 0) == 0) continue;
     ViewFrame frame = {.name = fmt::format("{:06}", step), .cameras = cameras};
@@ -122,9 +122,10 @@ void find_missing(DatasetView& view) {
   for (const char* kind : {"", "id", "depth"})
     for (const Side side : kBothSides) folders.push_back(picture_folder(side, kind));
   std::set<std::string> there = complete_frames(view, {folders.begin(), folders.begin() + 4}, ".png");
-  for (const std::vector<std::string>& pair :
-       {std::vector<std::string>{"left_depth", "right_depth"}, {"left_disparity", "right_disparity"},
-        {"left_range", "right_range"}, {"left_flow", "right_flow"}})
+  for (const std::vector<std::string>& pair : {std::vector<std::string>{"left_depth", "right_depth"},
+                                               {"left_disparity", "right_disparity"},
+                                               {"left_range", "right_range"},
+                                               {"left_flow", "right_flow"}})
     complete_frames(view, pair, ".pfm");
   for (const ViewFrame& frame : view.frames)
     if (there.erase(frame.name) == 0)
@@ -162,11 +163,13 @@ DatasetView read_plain_view(const fs::path& folder) {
   read_or_blame(view, kFinishedDataset, [&] { view.rows_look_apart = rows_look_apart(folder); });
   const std::array<ViewCamera, 2> cameras = read_rig_cameras(view, view.calibration_file);
   read_or_blame(view, kBallsFile, [&] {
-    for (const worlds::Ball& ball : read_balls(folder).balls) view.balls.push_back({ball.centre_m, ball.radius_m});
+    for (const worlds::Ball& ball : read_balls(folder).balls)
+      view.balls.push_back({ball.centre_m, ball.radius_m});
   });
   read_frames(view, cameras);
   find_missing(view);
-  if (view.rows_look_apart) view.cannot.push_back("rows of a rolling shutter against poses, which hold for one row");
+  if (view.rows_look_apart)
+    view.cannot.push_back("rows of a rolling shutter against poses, which hold for one row");
   if (view.frames.empty() || find_channel(view.frames.front(), Side::kLeft, Channel::kDisparity) == nullptr)
     view.cannot.push_back("disparity: it was not rendered");
   return view;

@@ -56,9 +56,8 @@ const DatasetReader& reader_of(const std::filesystem::path& folder) {
     throw std::runtime_error(fmt::format("{}: no such folder", folder.string()));
   for (const DatasetReader& reader : dataset_readers())
     if (reader.recognises(folder)) return reader;
-  throw std::runtime_error(
-      fmt::format("{}: expected a data set ({}); where it is one, say which by --as", folder.string(),
-                  fmt::join(known_formats(), ", ")));
+  throw std::runtime_error(fmt::format("{}: expected a data set ({}); where it is one, say which by --as",
+                                       folder.string(), fmt::join(known_formats(), ", ")));
 }
 
 }  // namespace stereobench::harness

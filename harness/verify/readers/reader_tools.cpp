@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "harness/verify/readers/channel_files.h"
+#include "harness/verify/channel_files.h"
 
 namespace stereobench::harness {
 
@@ -37,8 +37,8 @@ std::set<std::string> stems_in(const fs::path& folder, const std::string& ending
   return stems;
 }
 
-void add_channel(DatasetView& view, ViewFrame& frame, vision::Side side, Channel channel, const std::string& file,
-                 double step) {
+void add_channel(DatasetView& view, ViewFrame& frame, vision::Side side, Channel channel,
+                 const std::string& file, double step) {
   const fs::path path = view.folder / file;
   if (!fs::exists(path)) return;
   frame.channels[index_of(side)][channel] = {
@@ -57,14 +57,16 @@ std::set<std::string> complete_frames(DatasetView& view, const std::vector<std::
   for (const auto& [folder, stems] : there)
     for (const std::string& stem : all)
       if (!stems.contains(stem)) {
-        const auto other = std::ranges::find_if(there, [&](const auto& one) { return one.second.contains(stem); });
+        const auto other =
+            std::ranges::find_if(there, [&](const auto& one) { return one.second.contains(stem); });
         view.faults.push_back({fmt::format("{}/{}{}", folder, stem, ending), stem,
                                fmt::format("missing frame: there is {}/{}{}", other->first, stem, ending)});
       }
   return all;
 }
 
-Eigen::Matrix4d matrix_in(const NumberTable& table, const TableRow& row, std::size_t column, std::size_t count) {
+Eigen::Matrix4d matrix_in(const NumberTable& table, const TableRow& row, std::size_t column,
+                          std::size_t count) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   for (std::size_t i = 0; i < count; ++i)
     matrix(static_cast<int>(i / 4), static_cast<int>(i % 4)) = number_in(table, row, column + i);
@@ -109,13 +111,12 @@ std::optional<Eigen::Isometry3d> pose_at(const std::vector<ViewPose>& poses, std
   if (after == poses.begin()) return std::nullopt;
   const ViewPose& from = *(after - 1);
   if (!from.stamp_ns || *after->stamp_ns - *from.stamp_ns > kLongestGap_ns) return std::nullopt;
-  const double share = static_cast<double>(stamp_ns - *from.stamp_ns) /
-                       static_cast<double>(*after->stamp_ns - *from.stamp_ns);
+  const double share =
+      static_cast<double>(stamp_ns - *from.stamp_ns) / static_cast<double>(*after->stamp_ns - *from.stamp_ns);
   const Eigen::Isometry3d first = as_rigid(from.matrix), last = as_rigid(after->matrix);
   Eigen::Isometry3d between = Eigen::Isometry3d::Identity();
-  between.linear() = Eigen::Quaterniond(first.linear())
-                         .slerp(share, Eigen::Quaterniond(last.linear()))
-                         .toRotationMatrix();
+  between.linear() =
+      Eigen::Quaterniond(first.linear()).slerp(share, Eigen::Quaterniond(last.linear())).toRotationMatrix();
   between.translation() = (1.0 - share) * first.translation() + share * last.translation();
   return between;
 }

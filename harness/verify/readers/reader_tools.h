@@ -20,17 +20,18 @@ void read_or_blame(DatasetView& view, const std::string& file, const std::functi
 std::set<std::string> stems_in(const std::filesystem::path& folder, const std::string& ending);
 
 /// Adds a file of a frame, where the folder has it.
-void add_channel(DatasetView& view, ViewFrame& frame, vision::Side side, Channel channel, const std::string& file,
-                 double step = 0.0);
+void add_channel(DatasetView& view, ViewFrame& frame, vision::Side side, Channel channel,
+                 const std::string& file, double step = 0.0);
 
-/// Folders in which each frame has a file: {"image_2", "image_3", ...}. Those that are not there at all are left
-/// out; a file that is missing in one and not in another is a fault.
+/// Folders in which each frame has a file: {"image_2", "image_3", ...}. Those that are not there at all are
+/// left out; a file that is missing in one and not in another is a fault.
 /// @return the frames of all
 std::set<std::string> complete_frames(DatasetView& view, const std::vector<std::string>& folders,
                                       const std::string& ending);
 
 /// Twelve or sixteen numbers of a row, from a column on.
-Eigen::Matrix4d matrix_in(const NumberTable& table, const TableRow& row, std::size_t column, std::size_t count);
+Eigen::Matrix4d matrix_in(const NumberTable& table, const TableRow& row, std::size_t column,
+                          std::size_t count);
 
 /// x y z and a quaternion, whose order is "xyzw" or "wxyz", as a pose.
 ViewPose pose_in(const NumberTable& table, const TableRow& row, std::size_t column, bool w_is_first);

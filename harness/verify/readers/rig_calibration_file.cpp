@@ -17,9 +17,10 @@ struct DerivedMatrix {
   const char* from;
 };
 
-constexpr std::array kDerived = {DerivedMatrix{"P1", 12, "K"}, DerivedMatrix{"P2", 12, "K and baseline_m"},
-                                 DerivedMatrix{"robot_from_left_camera", 16, "a camera that looks ahead and down"},
-                                 DerivedMatrix{"robot_from_right_camera", 16, "baseline_m and the left camera"}};
+constexpr std::array kDerived = {
+    DerivedMatrix{"P1", 12, "K"}, DerivedMatrix{"P2", 12, "K and baseline_m"},
+    DerivedMatrix{"robot_from_left_camera", 16, "a camera that looks ahead and down"},
+    DerivedMatrix{"robot_from_right_camera", 16, "baseline_m and the left camera"}};
 
 void compare(DatasetView& view, const std::string& file, const YAML::Node& said, const YAML::Node& derived) {
   constexpr double kRounding = 1e-7;
@@ -30,8 +31,8 @@ void compare(DatasetView& view, const std::string& file, const YAML::Node& said,
     for (std::size_t i = 0; i < one.size(); ++i)
       if (std::abs(one[i] - other[i]) > kRounding * (1.0 + std::abs(other[i]))) {
         view.faults.push_back({file, "",
-                               fmt::format("{}: its number {} is {:.9g}, and {:.9g} by {}", matrix.key, i + 1, one[i],
-                                           other[i], matrix.from)});
+                               fmt::format("{}: its number {} is {:.9g}, and {:.9g} by {}", matrix.key, i + 1,
+                                           one[i], other[i], matrix.from)});
         break;
       }
   }

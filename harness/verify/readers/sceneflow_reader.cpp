@@ -45,7 +45,8 @@ std::map<int, CameraPoses> camera_data_in(const fs::path& file) {
     Eigen::Matrix4d matrix;
     for (int i = 0; i < 16; ++i) words >> matrix(i / 4, i % 4);
     if (frame == nullptr || words.fail() || (word != "L" && word != "R"))
-      throw std::runtime_error(fmt::format("{}: line {}: expected Frame, or L or R and 16 numbers", file.string(), number));
+      throw std::runtime_error(
+          fmt::format("{}: line {}: expected Frame, or L or R and 16 numbers", file.string(), number));
     matrix.col(1) *= -1.0;
     matrix.col(2) *= -1.0;
     frame->world_from_camera[word == "L" ? 0 : 1] = matrix;
@@ -62,9 +63,10 @@ void compare_baselines(DatasetView& view, const std::string& file, const std::ar
     const auto& [left, right] = frame.world_from_camera;
     const double got_m = (right - left).topRightCorner<3, 1>().norm();
     if (std::abs(got_m - wanted_m) <= kRounding * wanted_m) continue;
-    view.faults.push_back({view.calibration_file, fmt::format("{:04}", name),
-                           fmt::format("baseline: {:.6g} m, and {:.6g} m between the cameras of {}: {:+.3g} %", wanted_m,
-                                       got_m, file, 100.0 * (wanted_m / got_m - 1.0))});
+    view.faults.push_back(
+        {view.calibration_file, fmt::format("{:04}", name),
+         fmt::format("baseline: {:.6g} m, and {:.6g} m between the cameras of {}: {:+.3g} %", wanted_m, got_m,
+                     file, 100.0 * (wanted_m / got_m - 1.0))});
     return;  // one for all frames
   }
 }
@@ -73,11 +75,13 @@ void add_files(DatasetView& view, const std::string& scene, ViewFrame& frame, co
                const std::string& name) {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const char* const side_name = kSideNames[index_of(side)];
-    add_channel(view, frame, side, Channel::kPicture, fmt::format("{}/{}/{}/{}.png", pictures, scene, side_name, name));
-    add_channel(view, frame, side, Channel::kDisparity, fmt::format("disparity/{}/{}/{}.pfm", scene, side_name, name));
+    add_channel(view, frame, side, Channel::kPicture,
+                fmt::format("{}/{}/{}/{}.png", pictures, scene, side_name, name));
+    add_channel(view, frame, side, Channel::kDisparity,
+                fmt::format("disparity/{}/{}/{}.pfm", scene, side_name, name));
     add_channel(view, frame, side, Channel::kFlow,
-                fmt::format("optical_flow/{}/into_future/{}/OpticalFlowIntoFuture_{}_{}.pfm", scene, side_name, name,
-                            side == Side::kLeft ? "L" : "R"));
+                fmt::format("optical_flow/{}/into_future/{}/OpticalFlowIntoFuture_{}_{}.pfm", scene,
+                            side_name, name, side == Side::kLeft ? "L" : "R"));
   }
 }
 
@@ -86,7 +90,8 @@ void read_scene(DatasetView& view, const std::string& pictures, const std::strin
   const std::string rig = fmt::format("camera_data/{}/calibration.yaml", scene);
   std::array<ViewCamera, 2> cameras;
   std::map<int, CameraPoses> poses;
-  if (fs::exists(view.folder / data)) read_or_blame(view, data, [&] { poses = camera_data_in(view.folder / data); });
+  if (fs::exists(view.folder / data))
+    read_or_blame(view, data, [&] { poses = camera_data_in(view.folder / data); });
   view.calibration_file = rig;
   view.poses_file = data;
   view.has_calibration = fs::exists(view.folder / rig);
@@ -102,7 +107,8 @@ void read_scene(DatasetView& view, const std::string& pictures, const std::strin
   std::vector<std::string> folders;
   for (const char* side : kSideNames) folders.push_back(fmt::format("{}/{}/{}", pictures, scene, side));
   const std::set<std::string> names = complete_frames(view, folders, ".png");
-  complete_frames(view, {fmt::format("disparity/{}/left", scene), fmt::format("disparity/{}/right", scene)}, ".pfm");
+  complete_frames(view, {fmt::format("disparity/{}/left", scene), fmt::format("disparity/{}/right", scene)},
+                  ".pfm");
   for (const std::string& name : names) {
     ViewFrame frame = {.name = name, .cameras = cameras};
     const int number = std::atoi(name.c_str());

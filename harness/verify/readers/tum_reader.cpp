@@ -30,21 +30,22 @@ Pictures listed_in(DatasetView& view, const std::string& kind) {
     const std::int64_t stamp_ns = stamp_ns_in(table, row, 0);
     if (stamp_ns <= before_ns)
       view.faults.push_back(
-          {list, row.cells[0], fmt::format("line {}: the time is not after that of the line before", row.line)});
+          {list, row.cells[0],
+           fmt::format("line {}: the time is not after that of the line before", row.line)});
     before_ns = stamp_ns;
     if (there.erase(fs::path(row.cells[1]).filename().string()) == 0)
       view.faults.push_back({row.cells[1], row.cells[0], fmt::format("missing frame: {} lists it", list)});
     pictures[stamp_ns] = row.cells[1];
   }
   for (const std::string& name : there)
-    view.faults.push_back(
-        {fmt::format("{}/{}", kind, name), "", fmt::format("missing frame in {}: it does not list this picture", list)});
+    view.faults.push_back({fmt::format("{}/{}", kind, name), "",
+                           fmt::format("missing frame in {}: it does not list this picture", list)});
   return pictures;
 }
 
 void read_poses(DatasetView& view) {
-  const NumberTable table =
-      read_blank_separated_table(view.folder / kPoses, {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"});
+  const NumberTable table = read_blank_separated_table(
+      view.folder / kPoses, {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"});
   for (const TableRow& row : table.rows) {
     ViewPose pose = pose_in(table, row, 1, false);
     pose.file = kPoses;
@@ -88,18 +89,21 @@ DatasetView read_tum_view(const fs::path& folder) {
       cameras[0].body_from_camera = Eigen::Isometry3d::Identity();
     });
   else
-    view.cannot.push_back("depth against poses: the layout has no calibration, and there is no calibration.yaml");
+    view.cannot.push_back(
+        "depth against poses: the layout has no calibration, and there is no calibration.yaml");
   if (fs::exists(folder / kPoses)) read_or_blame(view, kPoses, [&] { read_poses(view); });
   const Pictures pictures = listed_in(view, "rgb");
   const Pictures depths = fs::exists(folder / "depth.txt") ? listed_in(view, "depth") : Pictures();
   for (const auto& [stamp_ns, file] : pictures) {
-    ViewFrame frame = {.name = fs::path(file).stem().string(), .stamp_ns = {stamp_ns, {}}, .cameras = cameras};
+    ViewFrame frame = {
+        .name = fs::path(file).stem().string(), .stamp_ns = {stamp_ns, {}}, .cameras = cameras};
     frame.world_from_body[0] = pose_at(view.poses, stamp_ns);
     add_channel(view, frame, Side::kLeft, Channel::kPicture, file);
     const std::string* depth = nearest(depths, stamp_ns);
     if (depth != nullptr) add_channel(view, frame, Side::kLeft, Channel::kDepth, *depth, kLevel_m);
     if (depth == nullptr && !depths.empty())
-      view.faults.push_back({"depth.txt", frame.name, "missing frame: no depth within 20 ms of this picture"});
+      view.faults.push_back(
+          {"depth.txt", frame.name, "missing frame: no depth within 20 ms of this picture"});
     view.frames.push_back(std::move(frame));
   }
   return view;

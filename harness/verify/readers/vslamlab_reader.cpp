@@ -38,8 +38,8 @@ std::array<ViewCamera, 2> cameras_in(const fs::path& file) {
 }
 
 void read_truth(DatasetView& view) {
-  const NumberTable table = read_comma_separated_table(view.folder / kTruth,
-                                                       {"ts (ns)", "tx", "ty", "tz", "qx", "qy", "qz", "qw"});
+  const NumberTable table =
+      read_comma_separated_table(view.folder / kTruth, {"ts (ns)", "tx", "ty", "tz", "qx", "qy", "qz", "qw"});
   for (const TableRow& row : table.rows) {
     ViewPose pose = pose_in(table, row, 1, false);
     pose.file = kTruth;
@@ -92,8 +92,9 @@ DatasetView read_vslamlab_view(const fs::path& folder) {
   read_or_blame(view, kCameras, [&] { cameras = cameras_in(folder / kCameras); });
   if (fs::exists(folder / kTruth)) read_or_blame(view, kTruth, [&] { read_truth(view); });
   read_frames(view, cameras);
-  view.cannot.push_back("depth, which the layout has not: cameras, baseline and poses were held against corners of "
-                        "the pictures");
+  view.cannot.push_back(
+      "depth, which the layout has not: cameras, baseline and poses were held against corners of "
+      "the pictures");
   return view;
 }
 

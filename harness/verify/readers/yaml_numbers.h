@@ -20,10 +20,11 @@ YAML::Node yaml_of(const std::string& text, const std::filesystem::path& name);
 
 /// A list of numbers; a matrix of OpenCV or of ASL is the list in its `data`.
 /// @throws std::runtime_error "file: key: expected 4 numbers"
-std::vector<double> numbers_in(const std::filesystem::path& file, const YAML::Node& map, const std::string& key,
-                               std::size_t count);
+std::vector<double> numbers_in(const std::filesystem::path& file, const YAML::Node& map,
+                               const std::string& key, std::size_t count);
 
 /// Sixteen numbers, row by row, as a transform.
-Eigen::Isometry3d transform_in(const std::filesystem::path& file, const YAML::Node& map, const std::string& key);
+Eigen::Isometry3d transform_in(const std::filesystem::path& file, const YAML::Node& map,
+                               const std::string& key);
 
 }  // namespace stereobench::harness

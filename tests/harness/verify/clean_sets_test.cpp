@@ -18,8 +18,9 @@ void PrintTo(const CleanCase& clean, std::ostream* out) {
   *out << clean.name;
 }
 
-const std::vector<std::string> kSmall = {"--frames",          "0..2", "--set", "rig.width_px=320", "--set",
-                                         "rig.height_px=240", "--set", "rig.focal_px=280"};
+const std::vector<std::string> kSmall = {
+    "--frames",          "0..2",  "--set",           "rig.width_px=320", "--set",
+    "rig.height_px=240", "--set", "rig.focal_px=280"};
 
 /// @param more behind a small rig
 std::vector<std::string> small_rig(const std::vector<std::string>& more) {
@@ -28,10 +29,12 @@ std::vector<std::string> small_rig(const std::vector<std::string>& more) {
 
 class Clean : public testing::TestWithParam<CleanCase> {};
 
-// Law: a set that is as it should be has no faults, with dataset.json and without, in any format, noise and all.
-// Mutations: disparity against depth allowed nothing for KITTI's 1/256 px; the poses of TUM taken for the robot's.
+// Law: a set that is as it should be has no faults, with dataset.json and without, in any format, noise and
+// all. Mutations: disparity against depth allowed nothing for KITTI's 1/256 px; the poses of TUM taken for
+// the robot's.
 TEST_P(Clean, HasNoFaults) {
-  const std::filesystem::path folder = rendered(GetParam().scenario, GetParam().formats, GetParam().arguments);
+  const std::filesystem::path folder =
+      rendered(GetParam().scenario, GetParam().formats, GetParam().arguments);
   std::istringstream names(GetParam().formats);
   const bool is_one = GetParam().formats.find(',') == std::string::npos;
   for (std::string format; std::getline(names, format, ',');) {
@@ -47,24 +50,40 @@ TEST_P(Clean, HasNoFaults) {
 INSTANTIATE_TEST_SUITE_P(
     Sets, Clean,
     testing::Values(
-        CleanCase{"bend_of_few_frames", kBend, kAllFormats,
+        CleanCase{"bend_of_few_frames",
+                  kBend,
+                  kAllFormats,
                   {"--frames", "3..5", "--truth", "balls,disparity,flow,range"}},
         CleanCase{"ball_circle", scenario_path("ball_circle"), kAllFormats,
                   small_rig({"--set", "path.laps=0.2", "--truth", "balls,disparity,flow,range"})},
-        CleanCase{"corridor", scenario_path("corridor"), kAllFormats, small_rig({"--truth", "balls,disparity,flow"})},
-        CleanCase{"office", scenario_path("office"), kAllFormats, small_rig({"--truth", "balls,disparity,flow"})},
-        CleanCase{"levels_of_kitti", kBend, "plain",
+        CleanCase{"corridor", scenario_path("corridor"), kAllFormats,
+                  small_rig({"--truth", "balls,disparity,flow"})},
+        CleanCase{"office", scenario_path("office"), kAllFormats,
+                  small_rig({"--truth", "balls,disparity,flow"})},
+        CleanCase{"levels_of_kitti",
+                  kBend,
+                  "plain",
                   {"--frames", "3..5", "--truth", "balls,disparity,flow", "--truth-format", "kitti"}},
-        CleanCase{"lens_and_turned_camera", kBend, "plain,euroc,tum,vslamlab",
-                  {"--frames", "2..7", "--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0]", "--set", "rig.right_turn_deg=[0.4, -0.3, 0.5]",
-                   "--set", "rig.pitch_down_deg=8", "--truth", "disparity,flow,range"}},
-        CleanCase{"rolling_shutter", kBend, "plain",
+        CleanCase{"lens_and_turned_camera",
+                  kBend,
+                  "plain,euroc,tum,vslamlab",
+                  {"--frames", "2..7", "--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0]", "--set",
+                   "rig.right_turn_deg=[0.4, -0.3, 0.5]", "--set", "rig.pitch_down_deg=8", "--truth",
+                   "disparity,flow,range"}},
+        CleanCase{"rolling_shutter",
+                  kBend,
+                  "plain",
                   {"--frames", "3..5", "--set", "shutter.readout_s=0.02", "--truth", "range"}},
-        CleanCase{"late_and_lost_frames", kBend, "plain,kitti-stereo-2012",
+        CleanCase{"late_and_lost_frames",
+                  kBend,
+                  "plain,kitti-stereo-2012",
                   {"--set", "shutter.drop_probability=0.3", "--set", "shutter.late_probability=0.3", "--set",
                    "shutter.late_s=0.03", "--set", "path.overlap_m=0", "--truth", "balls,disparity"}},
-        CleanCase{"right_camera_late", kBend, "plain",
-                  {"--frames", "2..5", "--set", "shutter.right_delay_s=0.01", "--truth", "balls,disparity,flow"}}),
+        CleanCase{
+            "right_camera_late",
+            kBend,
+            "plain",
+            {"--frames", "2..5", "--set", "shutter.right_delay_s=0.01", "--truth", "balls,disparity,flow"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -1,6 +1,5 @@
-#include <gmock/gmock.h>
-
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "harness/io/file_list.h"
 #include "harness/io/float_picture.h"
@@ -26,18 +25,21 @@ void flip_a_bit(const PlantedSet& set, const std::string& name) {
 
 /// dataset.json as it is in the set that was copied.
 void put_marker_back(const PlantedSet& set, const std::string& format) {
-  fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / kFinishedDataset, set.path(kFinishedDataset));
+  fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / kFinishedDataset,
+                set.path(kFinishedDataset));
 }
 
 // Mutations: sizes alone are compared; only the first file is.
 TEST(FilesOfASet, HaveTheBytesThatDatasetJsonLists) {
-  for (const auto& [format, file] : {std::pair("plain", "right_depth/000003.pfm"), std::pair("euroc", "mav0/body.yaml"),
-                                     std::pair("kitti-odometry", "sequences/00/image_3/000002.png")}) {
+  for (const auto& [format, file] :
+       {std::pair("plain", "right_depth/000003.pfm"), std::pair("euroc", "mav0/body.yaml"),
+        std::pair("kitti-odometry", "sequences/00/image_3/000002.png")}) {
     const PlantedSet set(format);
     put_marker_back(set, format);
     EXPECT_EQ(set.faults(), "") << format;
     flip_a_bit(set, file);
-    EXPECT_THAT(set.faults(), HasSubstr(fmt::format("{}: checksum: its bytes are not those that dataset.json lists", file)));
+    EXPECT_THAT(set.faults(), HasSubstr(fmt::format(
+                                  "{}: checksum: its bytes are not those that dataset.json lists", file)));
     fs::remove(set.path(file));
     EXPECT_THAT(set.faults(), HasSubstr(fmt::format("{}: missing file: dataset.json lists it", file)));
   }
@@ -53,7 +55,8 @@ TEST(FilesOfASet, HaveTheBytesThatABagItManifestLists) {
   set.write("manifest-sha256.txt", hash + "  100%25.txt\n");
   EXPECT_EQ(set.faults(), "");
   set.write("100%.txt", "whale");
-  EXPECT_THAT(set.faults(), HasSubstr("100%.txt: checksum: its bytes are not those that manifest-sha256.txt lists"));
+  EXPECT_THAT(set.faults(),
+              HasSubstr("100%.txt: checksum: its bytes are not those that manifest-sha256.txt lists"));
   set.write("manifest-sha256.txt", hash + "  ../tum/rgb.txt\nnothing\n");
   EXPECT_THAT(set.faults(), AllOf(HasSubstr("line 1: expected a file in the folder"),
                                   HasSubstr("line 2: expected 64 hexadecimal digits")));
@@ -70,18 +73,24 @@ TEST(FilesOfASet, AreReadToTheirEnds) {
 TEST(FilesOfASet, AreThereForEachFrame) {
   for (const auto& [format, file] :
        {std::pair("plain", "right/000004.png"), std::pair("plain", "left_flow/000004.pfm"),
-        std::pair("kitti-odometry", "sequences/00/image_1/000002.png"), std::pair("kitti-stereo", "image_2/000004_10.png"),
-        std::pair("kitti-scene-flow", "image_3/000004_11.png"), std::pair("kitti-stereo-2012", "disp_occ/000004_10.png"),
-        std::pair("euroc", "mav0/cam1/data/1500000000400000000.png"), std::pair("tum", "depth/1500000000.400000000.png"),
-        std::pair("middlebury", "000004/im1.png"), std::pair("eth3d", "two_view_training_gt/000004/disp0GT.pfm"),
+        std::pair("kitti-odometry", "sequences/00/image_1/000002.png"),
+        std::pair("kitti-stereo", "image_2/000004_10.png"),
+        std::pair("kitti-scene-flow", "image_3/000004_11.png"),
+        std::pair("kitti-stereo-2012", "disp_occ/000004_10.png"),
+        std::pair("euroc", "mav0/cam1/data/1500000000400000000.png"),
+        std::pair("tum", "depth/1500000000.400000000.png"), std::pair("middlebury", "000004/im1.png"),
+        std::pair("eth3d", "two_view_training_gt/000004/disp0GT.pfm"),
         std::pair("sceneflow", "frames_cleanpass/bend_0/right/0004.png"),
         std::pair("vslamlab", "rgb_0/1500000000400000000.png")}) {
     const PlantedSet set(format);
     ASSERT_TRUE(fs::remove(set.path(file))) << file;
     const std::vector<Fault> faults = dataset_reader(format).read(set.path("")).faults;
-    EXPECT_TRUE(std::ranges::any_of(faults, [&](const Fault& fault) {
-      return line_of(fault).find("missing frame") != std::string::npos && line_of(fault).find(file) != std::string::npos;
-    })) << format << " without " << file;
+    EXPECT_TRUE(std::ranges::any_of(faults,
+                                    [&](const Fault& fault) {
+                                      return line_of(fault).find("missing frame") != std::string::npos &&
+                                             line_of(fault).find(file) != std::string::npos;
+                                    }))
+        << format << " without " << file;
   }
 }
 
@@ -90,8 +99,11 @@ TEST(FilesOfASet, AreThereForEachLineOfAList) {
   const PlantedSet set("plain");
   for (const auto& entry : fs::directory_iterator(set.path("")))
     if (entry.is_directory())
-      for (const char* ending : {".png", ".pfm", ".jsonl"}) fs::remove(entry.path() / fmt::format("000004{}", ending));
-  EXPECT_THAT(set.faults(), HasSubstr("left/000004.png: frame 000004: missing frame: frames.csv says that it has pictures"));
+      for (const char* ending : {".png", ".pfm", ".jsonl"})
+        fs::remove(entry.path() / fmt::format("000004{}", ending));
+  EXPECT_THAT(
+      set.faults(),
+      HasSubstr("left/000004.png: frame 000004: missing frame: frames.csv says that it has pictures"));
 }
 
 // Mutation: a box of a hidden ball is let be where its count is 0.
@@ -103,7 +115,8 @@ TEST(BallsOfASet, AreBoxedWhereTheyAreSeen) {
   cv::Mat ids = read_exact_png(set.path("left_id/000002.png"));
   ids.setTo(0, ids == 1);
   set.write("left_id/000002.png", encoded(".png", ids));
-  EXPECT_THAT(set.faults(), AllOf(HasSubstr(file + ": frame 000002: ball 0: box ["), HasSubstr("of a hidden ball")));
+  EXPECT_THAT(set.faults(),
+              AllOf(HasSubstr(file + ": frame 000002: ball 0: box ["), HasSubstr("of a hidden ball")));
 }
 
 // Mutations: infinite depths are taken for NaN; a frame is not named.
@@ -113,16 +126,18 @@ TEST(PicturesOfASet, HoldNumbersOfTheirSize) {
   depth_m.at<float>(7, 5) = std::numeric_limits<float>::quiet_NaN();
   set.write("left_depth/000003.pfm", encoded(".pfm", depth_m));
   set.write("left_id/000005.png", encoded(".png", cv::Mat::zeros(10, 12, CV_8UC1)));
-  EXPECT_THAT(set.faults(), AllOf(HasSubstr("left_depth/000003.pfm: frame 000003: NaN at column 5, row 7"),
-                                  HasSubstr("left_id/000005.png: frame 000005: expected 320 x 240 pixels (got 12 x 10)")));
+  EXPECT_THAT(set.faults(),
+              AllOf(HasSubstr("left_depth/000003.pfm: frame 000003: NaN at column 5, row 7"),
+                    HasSubstr("left_id/000005.png: frame 000005: expected 320 x 240 pixels (got 12 x 10)")));
 }
 
 // A picture of another frame, in one file: the frame is named, and no cause that is of the whole set.
 TEST(PicturesOfASet, AreOfTheirFrame) {
   const PlantedSet set("plain");
   set.write("left_depth/000005.pfm", set.text("left_depth/000002.pfm"));
-  EXPECT_THAT(set.faults(), AllOf(HasSubstr("left_disparity/000005.pfm: frame 000005: disparity against depth"),
-                                  HasSubstr("where other frames agree"), Not(HasSubstr("000004"))));
+  EXPECT_THAT(set.faults(),
+              AllOf(HasSubstr("left_disparity/000005.pfm: frame 000005: disparity against depth"),
+                    HasSubstr("where other frames agree"), Not(HasSubstr("000004"))));
 }
 
 // Mutations: equal times are in order; the right camera's times are not looked at.
@@ -131,7 +146,8 @@ TEST(TimesOfASet, AreInOrderAndEqual) {
   std::string pairs = set.text("rgb.csv");
   pairs.replace(pairs.find(".png,1500000000300000000"), 24, ".png,1500000000300000007");
   set.write("rgb.csv", pairs);
-  EXPECT_THAT(set.faults(), HasSubstr("frame 1500000000300000000: the right picture is of 1500000000300000007 ns"));
+  EXPECT_THAT(set.faults(),
+              HasSubstr("frame 1500000000300000000: the right picture is of 1500000000300000007 ns"));
   const PlantedSet path("tum");
   std::string poses = path.text("groundtruth.txt");
   poses.replace(poses.find("\n1500000000.400"), 15, "\n1500000000.200");

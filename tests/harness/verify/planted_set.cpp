@@ -47,12 +47,14 @@ std::string with_numbers(const std::string& text, const std::string& pattern, co
 
 Matrix4d as_matrix(const Numbers& numbers) {
   Matrix4d matrix = Matrix4d::Identity();
-  for (std::size_t i = 0; i < numbers.size(); ++i) matrix(static_cast<int>(i / 4), static_cast<int>(i % 4)) = numbers[i];
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    matrix(static_cast<int>(i / 4), static_cast<int>(i % 4)) = numbers[i];
   return matrix;
 }
 
 void put(const Matrix4d& matrix, Numbers& numbers) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = matrix(static_cast<int>(i / 4), static_cast<int>(i % 4));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    numbers[i] = matrix(static_cast<int>(i / 4), static_cast<int>(i % 4));
 }
 
 /// Where a format has its poses, and how a line of numbers is one.
@@ -68,7 +70,8 @@ std::vector<PoseLines> pose_lines(const std::string& format) {
   if (format == "plain")  // the left camera's, then the right one's
     return {{"frames.csv", "\\n\\d+,[^,]*,1,[^,]*,([^,\\n]*,[^,]*,[^,]*),", ",", PoseLines::kPlane},
             {"frames.csv", "\\n\\d+,[^,]*,1,[^,]*,[^,\\n]*,[^,]*,[^,]*,([^\\n]*)", ",", PoseLines::kPlane}};
-  if (format == "tum") return {{"groundtruth.txt", "\\n\\d+\\.\\d+ " + rest, " ", PoseLines::kQuaternionLast}};
+  if (format == "tum")
+    return {{"groundtruth.txt", "\\n\\d+\\.\\d+ " + rest, " ", PoseLines::kQuaternionLast}};
   if (format == "vslamlab") return {{"groundtruth.csv", "\\n\\d+," + rest, ",", PoseLines::kQuaternionLast}};
   if (format == "euroc")
     return {{"mav0/state_groundtruth_estimate0/data.csv", "\\n\\d+,((?:[^,]*,){6}[^,]*)", ",",
@@ -125,11 +128,15 @@ std::function<void(Numbers&, std::size_t)> moved(const PlantedSet::Calibration& 
 
 /// calibration.yaml of `render`.
 std::string changed_rig(std::string text, const PlantedSet::Calibration& by) {
-  const auto data = [](const char* key) { return fmt::format("\n{}: !!opencv-matrix[^\\[]*\\[([^\\]]*)\\]", key); };
+  const auto data = [](const char* key) {
+    return fmt::format("\n{}: !!opencv-matrix[^\\[]*\\[([^\\]]*)\\]", key);
+  };
   text = with_numbers(text, data("K"), ", ", [&](Numbers& k, std::size_t) { change_projection(by, 3, k); });
-  text = with_numbers(text, data("P[12]"), ", ", [&](Numbers& p, std::size_t) { change_projection(by, 4, p); });
+  text =
+      with_numbers(text, data("P[12]"), ", ", [&](Numbers& p, std::size_t) { change_projection(by, 4, p); });
   text = with_numbers(text, data("robot_from_(?:left|right)_camera"), ", ", moved(by));
-  return with_numbers(text, "\nbaseline_m: ([^\\n]*)", "", [&](Numbers& b, std::size_t) { b[0] *= by.baseline; });
+  return with_numbers(text, "\nbaseline_m: ([^\\n]*)", "",
+                      [&](Numbers& b, std::size_t) { b[0] *= by.baseline; });
 }
 
 std::string changed_euroc(std::string text, const PlantedSet::Calibration& by,
@@ -137,7 +144,8 @@ std::string changed_euroc(std::string text, const PlantedSet::Calibration& by,
   text = with_numbers(text, "intrinsics: \\[([^\\]]*)\\]", ", ", [&](Numbers& k, std::size_t) {
     k = {by.focal * k[0], by.focal * k[1], k[2] + by.right_px, k[3] + by.down_px};
   });
-  return with_numbers(text, "data: \\[([^\\]]*)\\]", ", ", [&](Numbers& place, std::size_t) { move(place, side); });
+  return with_numbers(text, "data: \\[([^\\]]*)\\]", ", ",
+                      [&](Numbers& place, std::size_t) { move(place, side); });
 }
 
 std::string changed_vslamlab(std::string text, const PlantedSet::Calibration& by) {
@@ -160,7 +168,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 
 }  // namespace
 
-fs::path rendered(const std::string& scenario, const std::string& formats, const std::vector<std::string>& arguments) {
+fs::path rendered(const std::string& scenario, const std::string& formats,
+                  const std::vector<std::string>& arguments) {
   static const TestFolder folder;
   static std::map<std::string, fs::path> known;
   const std::string key = fmt::format("{} {} {}", scenario, formats, fmt::join(arguments, " "));
@@ -200,7 +209,9 @@ void PlantedSet::change_poses(const std::function<void(Path&)>& change) const {
 }
 
 void PlantedSet::change_calibration(const Calibration& by) const {
-  const auto change = [this](const std::string& name, const auto& changed) { write(name, changed(text(name))); };
+  const auto change = [this](const std::string& name, const auto& changed) {
+    write(name, changed(text(name)));
+  };
   const auto rig = [&](const std::string& text) { return changed_rig(text, by); };
   if (format_ == "plain") return change("true_calibration.yaml", rig);
   if (format_ == "tum") return change("calibration.yaml", rig);
@@ -220,17 +231,21 @@ void PlantedSet::change_calibration(const Calibration& by) const {
       change(name, [&](const std::string& text) {
         return with_numbers(with_numbers(text, "P\\d: ([^\\n]*)", " ",
                                          [&](Numbers& p, std::size_t) { change_projection(by, 4, p); }),
-                            "cam1=\\[([^\\]]*)\\]", " ", [&](Numbers& k, std::size_t) {
-                              change_projection(by, 3, k);
-                            });
+                            "cam1=\\[([^\\]]*)\\]", " ",
+                            [&](Numbers& k, std::size_t) { change_projection(by, 3, k); });
       });
   }
 }
 
 std::vector<std::string> PlantedSet::pictures(std::size_t side) const {
-  const std::vector<std::array<const char*, 2>> places = {
-      {"left/", "right/"},   {"image_0/", "image_1/"}, {"image_2/", "image_3/"}, {"colored_0/", "colored_1/"},
-      {"cam0/data/", "cam1/data/"}, {"rgb_0/", "rgb_1/"},     {"rgb/", "none/"},        {"im0.png", "im1.png"}};
+  const std::vector<std::array<const char*, 2>> places = {{"left/", "right/"},
+                                                          {"image_0/", "image_1/"},
+                                                          {"image_2/", "image_3/"},
+                                                          {"colored_0/", "colored_1/"},
+                                                          {"cam0/data/", "cam1/data/"},
+                                                          {"rgb_0/", "rgb_1/"},
+                                                          {"rgb/", "none/"},
+                                                          {"im0.png", "im1.png"}};
   std::vector<std::string> names;
   for (const fs::path& file : files_below(folder_.path() / format_)) {
     const std::string name = fs::relative(file, folder_.path() / format_).string();

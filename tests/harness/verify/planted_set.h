@@ -27,7 +27,8 @@ std::filesystem::path rendered(const std::string& scenario, const std::string& f
 
 /// All that `render --format` knows.
 inline const std::string kAllFormats =
-    "plain,kitti-odometry,kitti-stereo,kitti-stereo-2012,kitti-scene-flow,euroc,tum,middlebury,eth3d,sceneflow,"
+    "plain,kitti-odometry,kitti-stereo,kitti-stereo-2012,kitti-scene-flow,euroc,tum,middlebury,eth3d,"
+    "sceneflow,"
     "vslamlab";
 
 /// All faults of a folder, a line each.
@@ -41,7 +42,9 @@ class PlantedSet {
   std::string faults() const { return faults_of(folder_.path() / format_, format_); }
   std::filesystem::path path(const std::string& name) const { return folder_.path() / format_ / name; }
   std::string text(const std::string& name) const { return folder_.read(format_ + "/" + name); }
-  void write(const std::string& name, const std::string& text) const { folder_.write(format_ + "/" + name, text); }
+  void write(const std::string& name, const std::string& text) const {
+    folder_.write(format_ + "/" + name, text);
+  }
 
   using Path = std::vector<Eigen::Matrix4d>;
   /// Changes the poses of the format's file. @param change of all poses of one camera, in the file's axes
@@ -49,9 +52,9 @@ class PlantedSet {
 
   /// Changes what the format says of its cameras, wherever it says so.
   struct Calibration {
-    double focal = 1.0, baseline = 1.0;      ///< factors
-    double right_px = 0.0, down_px = 0.0;    ///< added to the principal point
-    bool has_axes_of_gl = false;             ///< in the cameras' places on the body
+    double focal = 1.0, baseline = 1.0;    ///< factors
+    double right_px = 0.0, down_px = 0.0;  ///< added to the principal point
+    bool has_axes_of_gl = false;           ///< in the cameras' places on the body
   };
   void change_calibration(const Calibration& by) const;
 

@@ -20,7 +20,8 @@ TEST(VerifyCommand, EndsWithWhatItFound) {
   std::filesystem::remove(set.path("left/000004.png"));
   const Outcome faulty = run_stereobench({"verify", folder, "--as", "plain"});
   EXPECT_EQ(faulty.exit_code, 1);
-  EXPECT_THAT(faulty.out, AllOf(HasSubstr("left/000004.png: frame 000004: missing frame"), HasSubstr(" fault")));
+  EXPECT_THAT(faulty.out,
+              AllOf(HasSubstr("left/000004.png: frame 000004: missing frame"), HasSubstr(" fault")));
   const Outcome none = run_stereobench({"verify", scenario_path("office")});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_EQ(run_stereobench({"verify", folder, "--as", "tum"}).exit_code, 2);

@@ -1,4 +1,4 @@
-#include "harness/verify/readers/channel_files.h"
+#include "harness/verify/channel_files.h"
 
 #include <limits>
 #include <stdexcept>

@@ -42,10 +42,13 @@ void add_verify_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("verify", "prove a data set of any format, whoever wrote it");
   auto arguments = std::make_shared<VerifyArguments>();
   command->add_option("dataset", arguments->folder, "folder of a data set")->required();
-  command->add_option("--as", arguments->format, "its format, where the folder does not tell")->type_name("NAME");
+  command->add_option("--as", arguments->format, "its format, where the folder does not tell")
+      ->type_name("NAME");
   command->footer(
-      "Opens each file, and holds all that the folder says twice against itself. A line names each fault with its\n"
-      "file, its frame and, where it can be told, its cause. Exit codes: 0 no faults, 1 faults, 2 no data set.\n\n"
+      "Opens each file, and holds all that the folder says twice against itself. A line names each fault "
+      "with its\n"
+      "file, its frame and, where it can be told, its cause. Exit codes: 0 no faults, 1 faults, 2 no data "
+      "set.\n\n"
       "Example: stereobench verify out/dataset");
   command->callback([arguments, &action] { action = [arguments] { return verify(*arguments); }; });
 }
