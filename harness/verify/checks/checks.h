@@ -14,7 +14,7 @@ struct ChecksumResult {
   std::vector<std::string> cannot;  ///< lists that are not there
 };
 
-/// Files against dataset.json and manifest-sha256.txt (BagIt, RFC 8493), where there are these.
+/// Files against manifest-sha256.txt (BagIt, RFC 8493), where there is one.
 ChecksumResult check_checksums(const std::filesystem::path& folder);
 
 /// Sizes of pictures against their camera and each other; numbers that are not finite or cannot be.

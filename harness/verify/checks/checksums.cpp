@@ -1,13 +1,11 @@
-#include <fstream>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "harness/io/file_list.h"
-#include "harness/io/json_file.h"
 #include "harness/io/sha256.h"
+#include "harness/io/text_file.h"
 #include "harness/verify/checks/checks.h"
 
 namespace stereobench::harness {
@@ -15,29 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kManifest = "manifest-sha256.txt";
-
-Fault changed_file(const fs::path& folder, const std::string& name, const char* list) {
-  if (!fs::exists(folder / name)) return {name, "", fmt::format("missing file: {} lists it", list)};
-  return {name, "",
-          fmt::format("checksum: its bytes are not those that {} lists (a flipped bit, or edited)", list)};
-}
-
-void check_marker(const fs::path& folder, ChecksumResult& result) {
-  if (!fs::exists(folder / kFinishedDataset)) {
-    result.cannot.push_back(fmt::format("bytes of files: there is no {}", kFinishedDataset));
-    return;
-  }
-  try {
-    const nlohmann::json json = parse_line(read_text(folder / kFinishedDataset));
-    const auto list = json.find(kFiles);
-    if (list == json.end()) return;
-    for (const std::string& name : changed_files(folder, *list))
-      result.faults.push_back(changed_file(folder, name, kFinishedDataset));
-    result.files += list->size();
-  } catch (const std::runtime_error& error) {
-    result.faults.push_back({kFinishedDataset, "", error.what()});
-  }
+Fault changed_file(const fs::path& folder, const std::string& name) {
+  if (!fs::exists(folder / name)) return {name, "", fmt::format("missing file: {} lists it", kManifest)};
+  return {
+      name, "",
+      fmt::format("checksum: its bytes are not those that {} lists (a flipped bit, or edited)", kManifest)};
 }
 
 /// A name as BagIt has it: line ends and % are written as %0A, %0D, %25.
@@ -49,7 +29,10 @@ std::string bag_name(std::string name) {
 }
 
 void check_manifest(const fs::path& folder, ChecksumResult& result) {
-  if (!fs::exists(folder / kManifest)) return;
+  if (!fs::exists(folder / kManifest)) {
+    result.cannot.push_back(fmt::format("bytes of files: there is no {}", kManifest));
+    return;
+  }
   std::istringstream lines(read_text(folder / kManifest));
   long number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -64,7 +47,8 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
            fmt::format("line {}: expected 64 hexadecimal digits and the name of a file", number)});
       continue;
     }
-    const std::string name = bag_name(line.substr(name_at));
+    std::string name = line.substr(name_at);
+    if (!fs::exists(folder / name)) name = bag_name(name);  // sha256sum has them as they are
     const fs::path place = fs::path(name).lexically_normal();
     if (place.is_absolute() || *place.begin() == "..") {
       result.faults.push_back({kManifest, "", fmt::format("line {}: expected a file in the folder", number)});
@@ -74,7 +58,7 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
     for (char& digit : wanted)
       if (digit >= 'A' && digit <= 'F') digit = static_cast<char>(digit - 'A' + 'a');
     if (!fs::is_regular_file(folder / place) || sha256_of_file(folder / place) != wanted)
-      result.faults.push_back(changed_file(folder, name, kManifest));
+      result.faults.push_back(changed_file(folder, name));
     ++result.files;
   }
 }
@@ -83,7 +67,6 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
 
 ChecksumResult check_checksums(const fs::path& folder) {
   ChecksumResult result;
-  check_marker(folder, result);
   check_manifest(folder, result);
   return result;
 }

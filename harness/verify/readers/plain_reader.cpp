@@ -137,9 +137,9 @@ void find_missing(DatasetView& view) {
 
 /// What dataset.json says of the shutter; folders without it are taken to have whole pictures.
 bool rows_look_apart(const fs::path& folder) {
-  if (!fs::exists(folder / kFinishedDataset)) return false;
+  if (!fs::exists(folder / kDatasetJson)) return false;
   constexpr double kMost = 1e9;
-  return read_json_file(folder / kFinishedDataset, [](const JsonValue& json) {
+  return read_json_file(folder / kDatasetJson, [](const JsonValue& json) {
     const auto drive = json.find("drive");
     const auto shutter = drive ? drive->find("shutter") : std::nullopt;
     const auto readout_s = shutter ? shutter->find("readout_s") : std::nullopt;
@@ -160,7 +160,7 @@ DatasetView read_plain_view(const fs::path& folder) {
   view.depth_file = picture_folder(Side::kLeft, "depth");
   view.pictures_file = picture_folder(Side::kLeft);
   view.poses_are_of_camera = false;
-  read_or_blame(view, kFinishedDataset, [&] { view.rows_look_apart = rows_look_apart(folder); });
+  read_or_blame(view, kDatasetJson, [&] { view.rows_look_apart = rows_look_apart(folder); });
   const std::array<ViewCamera, 2> cameras = read_rig_cameras(view, view.calibration_file);
   read_or_blame(view, kBallsFile, [&] {
     for (const worlds::Ball& ball : read_balls(folder).balls)

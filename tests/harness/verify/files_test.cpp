@@ -23,25 +23,26 @@ void flip_a_bit(const PlantedSet& set, const std::string& name) {
   set.write(name, bytes);
 }
 
-/// dataset.json as it is in the set that was copied.
-void put_marker_back(const PlantedSet& set, const std::string& format) {
-  fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / kFinishedDataset,
-                set.path(kFinishedDataset));
+/// What says how the set was rendered, and the manifest, as they are in the set that was copied.
+void put_manifest_back(const PlantedSet& set, const std::string& format) {
+  for (const char* name : {kDatasetJson, kManifest})
+    fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / name, set.path(name));
 }
 
 // Mutations: sizes alone are compared; only the first file is.
-TEST(FilesOfASet, HaveTheBytesThatDatasetJsonLists) {
+TEST(FilesOfASet, HaveTheBytesThatTheManifestLists) {
   for (const auto& [format, file] :
        {std::pair("plain", "right_depth/000003.pfm"), std::pair("euroc", "mav0/body.yaml"),
         std::pair("kitti-odometry", "sequences/00/image_3/000002.png")}) {
     const PlantedSet set(format);
-    put_marker_back(set, format);
+    put_manifest_back(set, format);
     EXPECT_EQ(set.faults(), "") << format;
     flip_a_bit(set, file);
-    EXPECT_THAT(set.faults(), HasSubstr(fmt::format(
-                                  "{}: checksum: its bytes are not those that dataset.json lists", file)));
+    EXPECT_THAT(
+        set.faults(),
+        HasSubstr(fmt::format("{}: checksum: its bytes are not those that manifest-sha256.txt lists", file)));
     fs::remove(set.path(file));
-    EXPECT_THAT(set.faults(), HasSubstr(fmt::format("{}: missing file: dataset.json lists it", file)));
+    EXPECT_THAT(set.faults(), HasSubstr(fmt::format("{}: missing file: manifest-sha256.txt lists it", file)));
   }
 }
 

@@ -191,7 +191,7 @@ std::string faults_of(const fs::path& folder, const std::string& format) {
 PlantedSet::PlantedSet(const std::string& format) : format_(format) {
   const fs::path from = rendered(kBend, kAllFormats, kBendFrames) / format;
   fs::copy(from, folder_.path() / format, fs::copy_options::recursive);
-  fs::remove(path("dataset.json"));
+  for (const char* name : {"dataset.json", "manifest-sha256.txt"}) fs::remove(path(name));
 }
 
 void PlantedSet::change_poses(const std::function<void(Path&)>& change) const {

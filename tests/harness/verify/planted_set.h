@@ -34,7 +34,7 @@ inline const std::string kAllFormats =
 /// All faults of a folder, a line each.
 std::string faults_of(const std::filesystem::path& folder, const std::string& format);
 
-/// A copy of a data set of the bend, without dataset.json: as if somebody else had written it.
+/// A copy of a data set of the bend, without dataset.json and manifest: as if somebody else had written it.
 class PlantedSet {
  public:
   explicit PlantedSet(const std::string& format);

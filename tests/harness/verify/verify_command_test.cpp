@@ -15,8 +15,9 @@ TEST(VerifyCommand, EndsWithWhatItFound) {
   const std::string folder = set.path("").string();
   const Outcome clean = run_stereobench({"verify", folder});
   EXPECT_EQ(clean.exit_code, 0) << clean.err;
-  EXPECT_THAT(clean.out, AllOf(HasSubstr("plain: plain, no faults; checked: 6 frames"),
-                               HasSubstr("could not check: bytes of files: there is no dataset.json")));
+  EXPECT_THAT(clean.out,
+              AllOf(HasSubstr("plain: plain, no faults; checked: 6 frames"),
+                    HasSubstr("could not check: bytes of files: there is no manifest-sha256.txt")));
   std::filesystem::remove(set.path("left/000004.png"));
   const Outcome faulty = run_stereobench({"verify", folder, "--as", "plain"});
   EXPECT_EQ(faulty.exit_code, 1);
