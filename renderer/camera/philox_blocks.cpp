@@ -10,7 +10,7 @@ namespace {
 #if defined(__x86_64__)
 #define STEREOBENCH_AVX2 __attribute__((target("avx2")))
 
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kBlocksAtOnce = 4;
 
 /// A 32-bit word in the low half of each 64-bit lane. What the high halves hold does not matter: products are
 /// those of the low halves.
@@ -57,7 +57,7 @@ STEREOBENCH_AVX2 void write_four(const PhiloxBlocks& blocks, std::uint32_t count
 
 STEREOBENCH_AVX2 std::size_t write_fours(const PhiloxBlocks& blocks, std::uint16_t* numbers) {
   std::size_t done = 0;
-  for (; done + kLanes <= blocks.count; done += kLanes)
+  for (; done + kBlocksAtOnce <= blocks.count; done += kBlocksAtOnce)
     write_four(blocks, blocks.first[0] + static_cast<std::uint32_t>(done), numbers + done * kNumbersPerBlock);
   return done;
 }
