@@ -1,5 +1,8 @@
 #include "harness/verify/dataset_view.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "vision/camera/distortion.h"
 
 namespace stereobench::harness {
@@ -16,6 +19,21 @@ std::optional<Eigen::Vector3d> ray_of(const ViewCamera& camera, const Eigen::Vec
   const std::optional<Eigen::Vector2d> direction = vision::undistort(camera.lens, place);
   if (!direction) return std::nullopt;
   return Eigen::Vector3d(direction->x(), direction->y(), 1.0);
+}
+
+double depth_beside(const ViewCamera& camera, const cv::Mat& depth_m, const cv::Point& pixel) {
+  if (camera.lens == vision::Distortion{}) return 0.0;
+  constexpr double kBeside_px = 0.25;
+  const cv::Rect area({}, depth_m.size());
+  const double here_m = depth_m.at<float>(pixel);
+  const auto slope_m = [&](const cv::Point& step) {
+    double most_m = 0.0;
+    for (const cv::Point& next : {pixel - step, pixel + step})
+      if (area.contains(next) && std::isfinite(depth_m.at<float>(next)))
+        most_m = std::max(most_m, std::abs(depth_m.at<float>(next) - here_m));
+    return most_m;
+  };
+  return kBeside_px * (slope_m({1, 0}) + slope_m({0, 1})) / here_m;
 }
 
 std::optional<Eigen::Vector2d> pixel_of(const ViewCamera& camera, const Eigen::Vector3d& point_m) {

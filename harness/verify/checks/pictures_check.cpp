@@ -66,7 +66,7 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loade
   const cv::Mat& depth_m = loaded.depth_m[index_of(side)];
   if (depth_m.empty() || depth_m.size() != range_m.size()) return {};
   constexpr int kStride = 7;
-  constexpr double kFloat = 1e-3;  // behind a lens: 0.001 px on a surface that is seen nearly from the side
+  constexpr double kFloat = 1e-5;
   std::size_t off = 0, all = 0;
   for (int v = 0; v < range_m.rows; v += kStride)
     for (int u = 0; u < range_m.cols; u += kStride) {
@@ -74,7 +74,8 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loade
       const auto ray = ray_of(frame.cameras[index_of(side)], {u, v});
       if (!std::isfinite(range) || !std::isfinite(depth) || !ray) continue;
       ++all;
-      if (std::abs(depth * ray->norm() - range) > kFloat * range) ++off;
+      const double share = kFloat + depth_beside(frame.cameras[index_of(side)], depth_m, {u, v});
+      if (std::abs(depth * ray->norm() - range) > share * range) ++off;
     }
   if (2 * off <= all) return {};
   return {

@@ -28,10 +28,14 @@ double step_of(const ViewFrame& frame, Side side, Channel channel) {
   return file == nullptr ? 0.0 : file->step;
 }
 
-/// The relative error that rounding makes of a link's depth.
-double depth_error(const ViewFrame& frame, const Link& link) {
-  if (const auto depth_m = link.depth_m[kNow])
-    return 0.5 * step_of(frame, link.from_side, Channel::kDepth) / *depth_m;
+/// The relative error of a link's depth: what rounding and lenses make of it.
+double depth_error(const Neighbourhood& frames, const ViewFrame& frame, const Link& link) {
+  if (const auto depth_m = link.depth_m[kNow]) {
+    const std::size_t side = index_of(link.from_side);
+    const cv::Point pixel(static_cast<int>(link.from_px.x()), static_cast<int>(link.from_px.y()));
+    return 0.5 * step_of(frame, link.from_side, Channel::kDepth) / *depth_m +
+           depth_beside(frame.cameras[side], frames.now->depth_m[side], pixel);
+  }
   if (const auto mate_px = link.mate_px[kNow]) {
     const double disparity_px = std::max(1e-3, std::abs(link.from_px.x() - mate_px->x()));
     return 0.5 * step_of(frame, link.from_side, Channel::kDisparity) / disparity_px;
@@ -68,8 +72,8 @@ void add_disparities(const DatasetView& view, const Neighbourhood& frames, Side 
     if (!std::isfinite(px) || !begin(frames, side, pixel, link) || !link.depth_m[kNow]) continue;
     link.to_side = is_left ? Side::kRight : Side::kLeft;
     link.to_px = {is_left ? pixel.x - px : pixel.x + px, pixel.y};
-    link.tolerance_px =
-        kExact_px + 0.5 * step_of(frame, side, Channel::kDisparity) + std::abs(px) * depth_error(frame, link);
+    link.tolerance_px = kExact_px + 0.5 * step_of(frame, side, Channel::kDisparity) +
+                        std::abs(px) * depth_error(frames, frame, link);
     links.push_back(link);
   }
 }
@@ -92,7 +96,7 @@ void add_flow(const DatasetView& view, const Neighbourhood& frames, Side side, s
     link.to = frames.now->index + 1;
     link.to_px = link.from_px + Vector2d(shift[0], shift[1]);
     link.tolerance_px = kExact_px + step_of(frame, side, Channel::kFlow) +
-                        cv::norm(shift) * depth_error(frame, link) + pose_error_px(view, frame, link);
+                        cv::norm(shift) * depth_error(frames, frame, link) + pose_error_px(view, frame, link);
     links.push_back(link);
   }
 }
@@ -109,7 +113,7 @@ void add_next_disparity(const DatasetView& view, const Neighbourhood& frames, st
     link.to = frames.now->index + 1;
     link.to_px = {px, 0.0};
     link.tolerance_px = kExact_px + 0.5 * step_of(frame, Side::kLeft, Channel::kNextDisparity) +
-                        px * depth_error(frame, link) + pose_error_px(view, frame, link);
+                        px * depth_error(frames, frame, link) + pose_error_px(view, frame, link);
     links.push_back(link);
   }
 }
@@ -127,7 +131,7 @@ void add_ball_surfaces(const DatasetView& view, const Neighbourhood& frames, Sid
     const int ball = ids.at<std::uint8_t>(pixels[i]) - 1;
     if (ball >= static_cast<int>(view.balls.size()) || !begin(frames, side, pixels[i], link)) continue;
     link.ball = ball;
-    link.tolerance_px = kExact_px + frame.cameras[0].pinhole.focal_px * depth_error(frame, link) +
+    link.tolerance_px = kExact_px + frame.cameras[0].pinhole.focal_px * depth_error(frames, frame, link) +
                         pose_error_px(view, frame, link);
     links.push_back(link);
   }

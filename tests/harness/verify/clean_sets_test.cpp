@@ -30,8 +30,7 @@ std::vector<std::string> small_rig(const std::vector<std::string>& more) {
 class Clean : public testing::TestWithParam<CleanCase> {};
 
 // Law: a set that is as it should be has no faults, with dataset.json and without, in any format, noise and
-// all. Mutations: disparity against depth allowed nothing for KITTI's 1/256 px; the poses of TUM taken for
-// the robot's.
+// all.
 TEST_P(Clean, HasNoFaults) {
   const std::filesystem::path folder =
       rendered(GetParam().scenario, GetParam().formats, GetParam().arguments);

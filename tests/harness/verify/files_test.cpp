@@ -29,7 +29,6 @@ void put_manifest_back(const PlantedSet& set, const std::string& format) {
     fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / name, set.path(name));
 }
 
-// Mutations: sizes alone are compared; only the first file is.
 TEST(FilesOfASet, HaveTheBytesThatTheManifestLists) {
   for (const auto& [format, file] :
        {std::pair("plain", "right_depth/000003.pfm"), std::pair("euroc", "mav0/body.yaml"),
@@ -47,7 +46,6 @@ TEST(FilesOfASet, HaveTheBytesThatTheManifestLists) {
 }
 
 // The form is RFC 8493's: a hash, blanks, and a name in which line ends and % are written as in URLs.
-// Mutations: upper-case digits differ; %25 is taken as it is; a name may lead out of the folder.
 TEST(FilesOfASet, HaveTheBytesThatABagItManifestLists) {
   const PlantedSet set("tum");
   set.write("100%.txt", "whole");
@@ -70,7 +68,6 @@ TEST(FilesOfASet, AreReadToTheirEnds) {
   EXPECT_THAT(set.faults(), HasSubstr("rgb_1/1500000000300000000.png: frame 1500000000300000000: "));
 }
 
-// Mutation: the first folder alone says which frames there are.
 TEST(FilesOfASet, AreThereForEachFrame) {
   for (const auto& [format, file] :
        {std::pair("plain", "right/000004.png"), std::pair("plain", "left_flow/000004.pfm"),
@@ -107,7 +104,6 @@ TEST(FilesOfASet, AreThereForEachLineOfAList) {
       HasSubstr("left/000004.png: frame 000004: missing frame: frames.csv says that it has pictures"));
 }
 
-// Mutation: a box of a hidden ball is let be where its count is 0.
 TEST(BallsOfASet, AreBoxedWhereTheyAreSeen) {
   const PlantedSet set("plain");
   const std::string file = "left_balls/000002.jsonl";
@@ -120,7 +116,6 @@ TEST(BallsOfASet, AreBoxedWhereTheyAreSeen) {
               AllOf(HasSubstr(file + ": frame 000002: ball 0: box ["), HasSubstr("of a hidden ball")));
 }
 
-// Mutations: infinite depths are taken for NaN; a frame is not named.
 TEST(PicturesOfASet, HoldNumbersOfTheirSize) {
   const PlantedSet set("plain");
   cv::Mat depth_m = read_float_picture(set.path("left_depth/000003.pfm"));
@@ -141,7 +136,6 @@ TEST(PicturesOfASet, AreOfTheirFrame) {
                     HasSubstr("where other frames agree"), Not(HasSubstr("000004"))));
 }
 
-// Mutations: equal times are in order; the right camera's times are not looked at.
 TEST(TimesOfASet, AreInOrderAndEqual) {
   const PlantedSet set("vslamlab");
   std::string pairs = set.text("rgb.csv");
@@ -156,7 +150,6 @@ TEST(TimesOfASet, AreInOrderAndEqual) {
   EXPECT_THAT(path.faults(), HasSubstr("is not after that of the line before"));
 }
 
-// Mutations: a mirrored rotation passes; quaternions are normalised without a word.
 TEST(PosesOfASet, AreRigid) {
   const PlantedSet mirrored("kitti-odometry"), long_one("euroc");
   mirrored.change_poses([](PlantedSet::Path& path) { path[2].col(1) *= -1.0; });

@@ -9,7 +9,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Mutations: faults end with 0; a folder that is no data set ends with 1.
 TEST(VerifyCommand, EndsWithWhatItFound) {
   const PlantedSet set("plain");
   const std::string folder = set.path("").string();

@@ -41,8 +41,7 @@ std::vector<renderer::BallTruth> odd_truths() {
   return {seen, hidden};
 }
 
-// Law: what is read back is what was written, to the last bit. Mutations: the semi-axes exchanged; -1 taken
-// for a place; six digits.
+// Law: what is read back is what was written, to the last bit.
 TEST(BallLines, AreReadBackExactly) {
   worlds::World world;
   world.balls = {{{1.5, -2.0, 0.3}, 0.05, 4}, {{0.1, 0.2, 0.25}, 0.125, 0}};
@@ -66,7 +65,6 @@ TEST(BallLines, AreReadBackExactly) {
   }
 }
 
-// Mutation: balls that the world does not have.
 TEST(BallLines, SayWhichLineIsBroken) {
   worlds::World world;
   world.balls = {{{1.5, -2.0, 0.3}, 0.05, 4}, {{0.1, 0.2, 0.25}, 0.125, 0}};

@@ -36,8 +36,7 @@ std::string scene_of(Side side) {
   return side == Side::kLeft ? "test_left/000000/" : "test_right/000000/";
 }
 
-// Law: a ball's pose in the camera, K, and the camera's pose in the world say where the centre is. Mutations:
-// metres; world_from_camera; the left camera's poses for the right one; K by columns.
+// Law: a ball's pose in the camera, K, and the camera's pose in the world say where the centre is.
 TEST(BopFormat, HasThePosesOfBallsAndCameras) {
   const WrittenDrive drive("bop", occluded_drive());
   for (const Side side : kBothSides) {
@@ -59,8 +58,7 @@ TEST(BopFormat, HasThePosesOfBallsAndCameras) {
 }
 
 // Law: a mask within the outline holds the pixels whose sight lines meet the sphere, and the visible one
-// those of the identity picture; counts and boxes are of the masks. Mutations: masks exchanged; a box of what
-// is visible.
+// those of the identity picture; counts and boxes are of the masks.
 TEST(BopFormat, MasksAreTheWholeBallAndWhatIsSeenOfIt) {
   const WrittenDrive drive("bop", occluded_drive());
   const auto infos = nlohmann::json::parse(drive.text("test_left/000000/scene_gt_info.json"));
@@ -91,7 +89,7 @@ TEST(BopFormat, MasksAreTheWholeBallAndWhatIsSeenOfIt) {
   }
 }
 
-// Law: level x depth_scale is the depth in mm. Mutation: the left camera's depth for both.
+// Law: level x depth_scale is the depth in mm.
 TEST(BopFormat, HasDepthOfBothCameras) {
   const WrittenDrive drive("bop");
   const double scale = nlohmann::json::parse(drive.text("camera.json")).at("depth_scale");
@@ -109,8 +107,7 @@ TEST(BopFormat, HasDepthOfBothCameras) {
   }
 }
 
-// Law: corners lie on the sphere, and the triangles' volume is nearly the ball's. Mutations: metres; a
-// triangle left out or turned inside out.
+// Law: corners lie on the sphere, and the triangles' volume is nearly the ball's.
 TEST(BopFormat, ModelsAreSpheresOfTheBallsSize) {
   worlds::Scenario scenario = tilted_drive();
   scenario.world.balls.push_back(scenario.world.balls[1]);  // the same object again
@@ -135,7 +132,6 @@ TEST(BopFormat, ModelsAreSpheresOfTheBallsSize) {
   EXPECT_NEAR(volume / (4.0 / 3.0 * 3.14159265358979 * 1e6), 1.0, 0.003);
 }
 
-// Mutation: each line of the check left out.
 TEST(BopFormat, RefusesWhatItHasNoPlaceFor) {
   using Change = void (*)(worlds::Scenario&);
   const std::vector<std::pair<std::string, Change>> cases = {

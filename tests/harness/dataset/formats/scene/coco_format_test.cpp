@@ -33,8 +33,7 @@ worlds::Scenario crowded_drive() {
 }
 
 // Law: the masks are the pixels of the identity pictures, and boxes and areas are those of the masks; what no
-// pixel shows is not annotated. Mutations: rows first; ones first; the box of the whole outline; hidden
-// balls.
+// pixel shows is not annotated.
 TEST(CocoFormat, MasksAreThePixelsThatShowTheBall) {
   const WrittenDrive drive("coco", crowded_drive());
   const auto json = nlohmann::json::parse(drive.text(kInstances));
@@ -60,7 +59,6 @@ TEST(CocoFormat, MasksAreThePixelsThatShowTheBall) {
   EXPECT_LE(shown, 12U) << "the third ball is behind the wall";
 }
 
-// Mutations: identities from 0; categories of palette indices; the same picture for both cameras.
 TEST(CocoFormat, EachIdentityIsThereOnce) {
   const WrittenDrive drive("coco", crowded_drive());
   const auto json = nlohmann::json::parse(drive.text(kInstances));
@@ -86,7 +84,6 @@ TEST(CocoFormat, EachIdentityIsThereOnce) {
   }
 }
 
-// Mutation: each line of the check left out.
 TEST(CocoFormat, RefusesWhatItHasNoPlaceFor) {
   using Change = void (*)(worlds::Scenario&);
   const std::vector<std::pair<std::string, Change>> cases = {

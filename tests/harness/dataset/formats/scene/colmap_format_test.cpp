@@ -35,8 +35,7 @@ std::map<int, Eigen::Vector2d> seen_in(const std::string& line) {
 }
 
 // Law: each picture's pose takes the points to where the picture observes them, which is where the renderer
-// says that the centres are, half a pixel further. Mutations: world_from_camera; w last; the right camera's
-// pose for both; no half pixel.
+// says that the centres are, half a pixel further.
 TEST(ColmapFormat, ObservesTheCentresOfBallsFromTheTruePoses) {
   const WrittenDrive drive("colmap");
   const auto lines = picture_lines(drive);
@@ -65,8 +64,7 @@ TEST(ColmapFormat, ObservesTheCentresOfBallsFromTheTruePoses) {
   }
 }
 
-// Law: tracks and observations say the same. Mutations: hidden balls observed; the index of the ball for that
-// of the observation.
+// Law: tracks and observations say the same.
 TEST(ColmapFormat, HasTracksOfWhatIsSeen) {
   worlds::Scenario scenario = tilted_drive();
   scenario.world.balls[1] = {{2.6, 0.13, 0.3}, 0.05, 5};        // hidden behind ball 0 at first
@@ -94,7 +92,6 @@ TEST(ColmapFormat, HasTracksOfWhatIsSeen) {
   EXPECT_GT(observed, 6U);
 }
 
-// Mutations: k3 left out; a focal length for both axes; OpenCV's order of coefficients after p2.
 TEST(ColmapFormat, ChoosesTheModelByTheLens) {
   const auto camera_line = [](const vision::Distortion& lens) {
     worlds::Scenario scenario = tilted_drive();
@@ -110,7 +107,6 @@ TEST(ColmapFormat, ChoosesTheModelByTheLens) {
             "2 FULL_OPENCV 160 120 140 140 76.75 64 -0.1 0.02 0.001 0.002 0.003 0 0 0\n");
 }
 
-// Mutation: each line of the check left out.
 TEST(ColmapFormat, RefusesWhatItHasNoPlaceFor) {
   using Change = void (*)(worlds::Scenario&);
   const std::vector<std::pair<std::string, Change>> cases = {

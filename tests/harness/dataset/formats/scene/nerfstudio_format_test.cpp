@@ -14,8 +14,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using vision::Side;
 
-// Law: by OpenGL's axes (y up, z backward), each frame shows the ball where the renderer says. Mutations:
-// OpenCV's axes; camera_from_world; the right camera's pose for both.
+// Law: by OpenGL's axes (y up, z backward), each frame shows the ball where the renderer says.
 TEST(NerfstudioFormat, HasThePosesOfBothCamerasInAxesOfOpenGl) {
   const WrittenDrive drive("nerfstudio");
   const auto json = nlohmann::json::parse(drive.text("transforms.json"));
@@ -45,7 +44,6 @@ TEST(NerfstudioFormat, HasThePosesOfBothCamerasInAxesOfOpenGl) {
   }
 }
 
-// Mutations: k3 left out; one focal length for both axes; p1 and p2 exchanged.
 TEST(NerfstudioFormat, HasTheLens) {
   worlds::Scenario scenario = tilted_drive();
   scenario.rig.distortion = {
@@ -59,7 +57,6 @@ TEST(NerfstudioFormat, HasTheLens) {
   EXPECT_EQ(json.at("camera_model"), "OPENCV");
 }
 
-// Mutation: each line of the check left out.
 TEST(NerfstudioFormat, RefusesWhatItHasNoPlaceFor) {
   using Change = void (*)(worlds::Scenario&);
   const std::vector<std::pair<std::string, Change>> cases = {
