@@ -19,9 +19,8 @@ namespace stereobench::harness {
 namespace {
 
 constexpr std::string_view kMagic = "stereobench-answer 1 ";
-constexpr std::size_t kHashDigits = 64;
 constexpr std::size_t kSizeDigits = 20;
-constexpr std::size_t kHeaderBytes = kMagic.size() + kHashDigits + 1 + kSizeDigits + 1 + kHashDigits + 1;
+constexpr std::size_t kHeaderBytes = kMagic.size() + kSha256Digits + 1 + kSizeDigits + 1 + kSha256Digits + 1;
 
 /// What stands before an answer: "stereobench-answer 1 KEY SIZE SHA256\n", each part of a fixed width.
 struct AnswerHeader {
@@ -37,9 +36,9 @@ std::string text_of(const AnswerHeader& header) {
 /// @return empty where the text is not exactly a header
 std::optional<AnswerHeader> header_in(const std::string& text) {
   AnswerHeader header;
-  header.key = text.substr(kMagic.size(), kHashDigits);
-  header.bytes = std::strtoull(text.c_str() + kMagic.size() + kHashDigits + 1, nullptr, 10);
-  header.sha256 = text.substr(text.size() - 1 - kHashDigits, kHashDigits);
+  header.key = text.substr(kMagic.size(), kSha256Digits);
+  header.bytes = std::strtoull(text.c_str() + kMagic.size() + kSha256Digits + 1, nullptr, 10);
+  header.sha256 = text.substr(text.size() - 1 - kSha256Digits, kSha256Digits);
   return text_of(header) == text ? std::optional(header) : std::nullopt;
 }
 
@@ -138,7 +137,8 @@ void AnswerStore::write_all(std::string_view bytes) {
 }
 
 void AnswerStore::append(const std::string& key, std::string_view answer) {
-  if (key.size() != kHashDigits) throw std::invalid_argument("AnswerStore: a key has 64 hexadecimal digits");
+  if (key.size() != kSha256Digits)
+    throw std::invalid_argument("AnswerStore: a key has 64 hexadecimal digits");
   std::string record = text_of({key, answer.size(), sha256_of(answer)});
   record += answer;
   write_all(record);

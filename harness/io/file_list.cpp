@@ -14,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kHashDigits = 64;
 constexpr std::string_view kGap = "  ";  ///< between hash and name, as sha256sum has it
 
 /// Whether a name is a file's place within a folder, in the one form that names it: left_depth/000012.pfm.
@@ -25,7 +24,7 @@ bool is_place_within(const std::string& name) {
 }
 
 bool is_hash(std::string_view text) {
-  return text.size() == kHashDigits &&
+  return text.size() == kSha256Digits &&
          std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
@@ -58,10 +57,10 @@ FileHashes read_manifest(const fs::path& folder) {
     const auto refuse = [&](const char* expected) {
       throw std::runtime_error(fmt::format("{}:{}: expected {}", manifest.string(), number, expected));
     };
-    const std::string hash = line.substr(0, kHashDigits);
-    if (!is_hash(hash) || line.compare(kHashDigits, kGap.size(), kGap) != 0)
+    const std::string hash = line.substr(0, kSha256Digits);
+    if (!is_hash(hash) || line.compare(kSha256Digits, kGap.size(), kGap) != 0)
       refuse("a SHA-256, two spaces and the name of a file");
-    const std::string name = line.substr(kHashDigits + kGap.size());
+    const std::string name = line.substr(kSha256Digits + kGap.size());
     if (!is_place_within(name)) refuse("the name of a file in the folder");
     if (!files.emplace(name, hash).second) refuse("each file once");
   }

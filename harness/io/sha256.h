@@ -1,12 +1,16 @@
 /// SHA-256 (FIPS 180-4), by OpenSSL's libcrypto: what files and results are told apart by.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace stereobench::harness {
+
+/// A hash is written as so many hexadecimal digits.
+inline constexpr std::size_t kSha256Digits = 64;
 
 /// A hash of bytes that come in parts.
 class Sha256 {

@@ -37,10 +37,9 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
   long number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    constexpr std::size_t kDigits = 64;
-    const std::size_t name_at = line.find_first_not_of(" \t*", kDigits);
-    const bool is_line = line.size() > kDigits && name_at != std::string::npos &&
-                         line.find_first_not_of("0123456789abcdefABCDEF") >= kDigits;
+    const std::size_t name_at = line.find_first_not_of(" \t*", kSha256Digits);
+    const bool is_line = line.size() > kSha256Digits && name_at != std::string::npos &&
+                         line.find_first_not_of("0123456789abcdefABCDEF") >= kSha256Digits;
     if (!is_line) {
       result.faults.push_back(
           {kManifest, "",
@@ -54,7 +53,7 @@ void check_manifest(const fs::path& folder, ChecksumResult& result) {
       result.faults.push_back({kManifest, "", fmt::format("line {}: expected a file in the folder", number)});
       continue;
     }
-    std::string wanted = line.substr(0, kDigits);
+    std::string wanted = line.substr(0, kSha256Digits);
     for (char& digit : wanted)
       if (digit >= 'A' && digit <= 'F') digit = static_cast<char>(digit - 'A' + 'a');
     if (!fs::is_regular_file(folder / place) || sha256_of_file(folder / place) != wanted)

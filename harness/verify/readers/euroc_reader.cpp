@@ -68,7 +68,7 @@ void read_states(DatasetView& view) {
   view.turn_precision = precision_of(table, kTurn, 4);
 }
 
-void read_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
+void read_euroc_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
   std::array<std::map<std::int64_t, std::string>, 2> pictures;
   for (std::size_t i = 0; i < 2; ++i)
     if (fs::exists(view.folder / kCameras[i])) pictures[i] = pictures_in(view, kCameras[i]);
@@ -109,7 +109,7 @@ DatasetView read_euroc_view(const fs::path& folder) {
       read_or_blame(view, file, [&] { cameras[i] = camera_in(folder / file); });
   }
   if (fs::exists(folder / kStates)) read_or_blame(view, kStates, [&] { read_states(view); });
-  read_frames(view, cameras);
+  read_euroc_frames(view, cameras);
   view.cannot.push_back(
       "depth, which the layout has not: cameras, baseline and poses were held against corners of "
       "the pictures");

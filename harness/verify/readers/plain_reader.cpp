@@ -91,7 +91,7 @@ Eigen::Isometry3d robot_at(const NumberTable& table, const TableRow& row, std::s
 }
 
 /// The frames of frames.csv that have pictures.
-void read_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
+void read_plain_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
   const NumberTable table = read_csv_table(view.folder / kFramesFile, {kFramesHeader});
   int last_step = -1;
   for (const TableRow& row : table.rows) {
@@ -166,7 +166,7 @@ DatasetView read_plain_view(const fs::path& folder) {
     for (const worlds::Ball& ball : read_balls(folder).balls)
       view.balls.push_back({ball.centre_m, ball.radius_m});
   });
-  read_frames(view, cameras);
+  read_plain_frames(view, cameras);
   find_missing(view);
   if (view.rows_look_apart)
     view.cannot.push_back("rows of a rolling shutter against poses, which hold for one row");

@@ -15,7 +15,7 @@ using vision::Side;
 
 constexpr const char* kPairs = "rgb.csv";
 constexpr const char* kTruth = "groundtruth.csv";
-constexpr const char* kCameras = "calibration.yaml";
+constexpr const char* kRigCameras = "calibration.yaml";
 
 ViewCamera camera_in(const fs::path& file, const YAML::Node& yaml) {
   const std::vector<double> focal = numbers_in(file, yaml, "focal_length", 2);
@@ -57,7 +57,7 @@ void add_picture(DatasetView& view, ViewFrame& frame, Side side, const std::stri
   add_channel(view, frame, side, Channel::kPicture, file);
 }
 
-void read_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
+void read_vslamlab_frames(DatasetView& view, const std::array<ViewCamera, 2>& cameras) {
   std::array<std::set<std::string>, 2> there = {stems_in(view.folder / "rgb_0", ""),
                                                 stems_in(view.folder / "rgb_1", "")};
   const NumberTable table =
@@ -85,13 +85,13 @@ bool looks_like_vslamlab(const fs::path& folder) {
 
 DatasetView read_vslamlab_view(const fs::path& folder) {
   DatasetView view = {.format = "vslamlab", .folder = folder};
-  view.calibration_file = kCameras;
+  view.calibration_file = kRigCameras;
   view.poses_file = kTruth;
   view.pictures_file = "rgb_0";
   std::array<ViewCamera, 2> cameras;
-  read_or_blame(view, kCameras, [&] { cameras = cameras_in(folder / kCameras); });
+  read_or_blame(view, kRigCameras, [&] { cameras = cameras_in(folder / kRigCameras); });
   if (fs::exists(folder / kTruth)) read_or_blame(view, kTruth, [&] { read_truth(view); });
-  read_frames(view, cameras);
+  read_vslamlab_frames(view, cameras);
   view.cannot.push_back(
       "depth, which the layout has not: cameras, baseline and poses were held against corners of "
       "the pictures");
