@@ -28,9 +28,10 @@ double depth_beside(const ViewCamera& camera, const cv::Mat& depth_m, const cv::
   const double here_m = depth_m.at<float>(pixel);
   const auto slope_m = [&](const cv::Point& step) {
     double most_m = 0.0;
-    for (const cv::Point& next : {pixel - step, pixel + step})
-      if (area.contains(next) && std::isfinite(depth_m.at<float>(next)))
-        most_m = std::max(most_m, std::abs(depth_m.at<float>(next) - here_m));
+    for (const cv::Point& next : {pixel - step, pixel + step}) {
+      const double there_m = area.contains(next) ? double{depth_m.at<float>(next)} : here_m;
+      if (std::isfinite(there_m)) most_m = std::max(most_m, std::abs(there_m - here_m));
+    }
     return most_m;
   };
   return kBeside_px * (slope_m({1, 0}) + slope_m({0, 1})) / here_m;
