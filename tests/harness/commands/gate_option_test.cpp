@@ -123,7 +123,7 @@ TEST(Misspelt, CommandsFiltersAndOptionsAreAskedBack) {
   };
   EXPECT_THAT(complaint({"rnu", "x"}), HasSubstr("no command is called 'rnu', did you mean run?"));
   EXPECT_THAT(complaint({"swep"}), HasSubstr("did you mean sweep?"));
-  EXPECT_THAT(complaint({"photograph"}), HasSubstr("expected one of run, render, export, slam"));
+  EXPECT_THAT(complaint({"photograph"}), HasSubstr("expected one of run, render, export, dataset"));
   EXPECT_THAT(complaint({"run", "x", "--filters", "ufastslm"}), HasSubstr("did you mean ufastslam?"));
   EXPECT_THAT(complaint({"run", "x", "--partciles", "3"}), HasSubstr("did you mean --particles?"));
 }
