@@ -164,6 +164,8 @@ void AtomicFile::move_into_place() {
 }
 
 void AtomicFiles::write(const fs::path& path, std::string_view bytes) {
+  constexpr std::size_t kMostTogether = AtomicFile::kMostAtATime / 2;
+  if (files_.size() == kMostTogether) move_into_place();
   auto file = std::make_unique<AtomicFile>(path);
   file->append(bytes);
   files_.push_back(std::move(file));

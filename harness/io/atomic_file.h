@@ -46,7 +46,7 @@ class AtomicFile {
 /// Several AtomicFiles that are synced once, together: a sync costs more than writing a file.
 class AtomicFiles {
  public:
-  /// Writes a whole file under a temporary name.
+  /// Writes a whole file under a temporary name. Of very many files, those so far are first moved into place.
   /// @throws std::runtime_error as AtomicFile
   void write(const std::filesystem::path& path, std::string_view bytes);
 

@@ -159,5 +159,14 @@ TEST(OutputFolder, NamesWhatIsWrong) {
   EXPECT_THROW(prepare_output_folder(""), std::runtime_error);
 }
 
+// A picture of many balls has a mask for each. Mutation: without a move in between, there are too many files.
+TEST(AtomicFiles, MayBeMany) {
+  const TestFolder folder;
+  AtomicFiles files;
+  for (int i = 0; i < 200; ++i) files.write(folder.path() / std::to_string(i), "mask " + std::to_string(i));
+  files.move_into_place();
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(folder.read(std::to_string(i)), "mask " + std::to_string(i));
+}
+
 }  // namespace
 }  // namespace stereobench::harness
