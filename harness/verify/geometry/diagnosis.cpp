@@ -37,7 +37,8 @@ std::vector<Slope> slopes_of(const Claims& claims, const Hypothesis& cause, doub
 /// An amount, and how well links know it.
 struct Amount {
   double value = 0.0;
-  double sd = 0.0;
+  double sd = 0.0;        ///< of errors of links that are each its own
+  double moves_px = 0.0;  ///< by how much it moves links, rms
 };
 
 /// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on
@@ -62,6 +63,8 @@ Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<L
     for (const Slope& slope : slopes) scatter.push_back(std::abs(slope.at + step * slope.by));
     constexpr double kSdOfMedian = 1.2533, kSdOfMad = 1.4826;
     amount.sd = kSdOfMedian * kSdOfMad * median(scatter) / std::sqrt(squares);
+    amount.moves_px = std::abs(amount.value) * scale_px(links.front().kind) *
+                      std::sqrt(squares / static_cast<double>(slopes.size()));
   }
   return amount;
 }
@@ -215,6 +218,8 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
                         std::vector<Fault>& faults) {
   constexpr double kSure = 8.0, kGain = 0.97, kGainOfCertain = 0.75;
   constexpr std::size_t kLeast = 60;
+  // What comes nearer grows, unevenly within the patch that is searched: all of a floor seems to move on.
+  constexpr double kCommonError_px = 0.2;
   std::vector<Link> corners;
   for (const Link& link : links) {
     const auto residual = is_measured(link.kind) ? residual_px(claims, link) : std::nullopt;
@@ -228,7 +233,9 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
     Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
     if (cause.has_amount) one.amount = fitted(claims, cause, corners);
     const double value = std::abs(one.amount.value);
-    if (cause.has_amount && (value < cause.least || value < kSure * one.amount.sd)) continue;
+    if (cause.has_amount &&
+        (value < cause.least || value < kSure * one.amount.sd || one.amount.moves_px < kCommonError_px))
+      continue;
     cause.undo(one.claims, one.amount.value);
     const Comparison change = compared(claims, one.claims, corners);
     if (change.before.empty()) continue;
