@@ -193,14 +193,13 @@ class Chip {
   }
 
   void add_shot_noise(Row& row) {
-    const auto has_few = [](float expected) { return expected < kFewElectrons; };
     for (std::size_t i = 0; i < row.size(); ++i) {
       const float expected = row[i], z = normal_[i];
       // Of few electrons, the root is that of a number below 0, perhaps; they are counted below.
       normal_[i] = expected + std::sqrt(expected - 1.0F / 18.0F) * z + (z * z - 1.0F) / 6.0F;
     }
     for (std::size_t i = 0; i < row.size(); ++i)
-      row[i] = has_few(row[i]) ? poisson_by_inversion(row[i], bits_[i]) : normal_[i];
+      row[i] = row[i] < kFewElectrons ? poisson_by_inversion(row[i], bits_[i]) : normal_[i];
   }
 
   bool grains_;

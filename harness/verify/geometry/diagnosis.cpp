@@ -11,7 +11,8 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr int kMostCauses = 3;
+constexpr int kMostCauses = 3;  ///< that are looked for one after another
+
 /// How a residual changes with the amount of a hypothesis, link by link.
 struct Slope {
   double at = 0.0;  ///< the residual along the slope, px
