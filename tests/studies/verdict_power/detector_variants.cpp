@@ -13,6 +13,7 @@ constexpr double kLost = 0.03;  ///< share of balls
 constexpr double kFar_m = 2.2;  ///< where balls are lost that are far
 constexpr int kFirst = 4;       ///< colours of two balls, each of which all seeds see
 constexpr int kSecond = 8;
+constexpr const char* kConsistent = "covariance made consistent";
 constexpr double kCoarserBelief = 11.0;  ///< makes the absolute trajectory error a fifth larger
 
 /// Moves a ball's centres, and its range and bearing as triangulation does.
@@ -68,15 +69,17 @@ void take_one_colour_for_another(vision::BallObservation& ball, const Found&, sl
 
 }  // namespace
 
-std::vector<Variant> faulty_variants() {
+std::vector<Variant> faulty_variants(double nis_per_degree) {
   using Ball = vision::BallObservation;
   const auto shifted = each_ball([](Ball& ball, const Found& found, slam::RandomStream&) {
     shift_centres(ball, {0.3, 0.0}, {0.0, 0.0}, found);
   });
   const auto long_ranges =
       each_ball([](Ball& ball, const Found&, slam::RandomStream&) { ball.range_bearing.range_m *= 1.01; });
-  const auto halved =
-      each_ball([](Ball& ball, const Found&, slam::RandomStream&) { ball.range_bearing.covariance *= 0.5; });
+  const auto covariance_times = [](double factor) {
+    return each_ball(
+        [factor](Ball& ball, const Found&, slam::RandomStream&) { ball.range_bearing.covariance *= factor; });
+  };
   const auto late = [](const Found& found, slam::RandomStream&) { return found.before; };
   const auto distrust_odometry = [](slam::FilterConfig& config) {
     for (double slam::OdometryNoise::*part :
@@ -85,7 +88,7 @@ std::vector<Variant> faulty_variants() {
       config.odometry_noise.*part *= kCoarserBelief;
   };
   return {
-      {"the same", {}, {}, as_it_is},
+      {kAsItIs, {}, {}, as_it_is},
       {"centres of one camera shifted by 0.3 px",
        {"vision.disparity_rms_px", "vision.disparity_bias_px"},
        {"left (+0.3000", "right (+0.0000"},
@@ -107,7 +110,12 @@ std::vector<Variant> faulty_variants() {
        {"balls, B over A: +1.000 +- 0.000 %"},
        long_ranges},
       {"a frame late", {"vision.recall", "vision.range_rms_m"}, {}, late},
-      {"covariance halved", {"vision.normalised_error"}, {}, halved},
+      {.name = kConsistent, .metrics = {}, .says = {}, .detect = covariance_times(nis_per_degree)},
+      {.name = "covariance halved",
+       .metrics = {"vision.normalised_error"},
+       .says = {},
+       .detect = covariance_times(0.5 * nis_per_degree),
+       .beside = kConsistent},
       {fmt::format("odometry believed {:g} times as noisy", kCoarserBelief),
        {"filters.iekf.ate_rms_m"},
        {},

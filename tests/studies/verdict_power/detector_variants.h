@@ -21,6 +21,8 @@ struct Found {
   double ball_radius_m = 0.0;
 };
 
+constexpr const char* kAsItIs = "the same";  ///< the variant that changes nothing
+
 /// A planted fault: of the detector, or of what a filter believes.
 struct Variant {
   std::string name;
@@ -28,10 +30,13 @@ struct Variant {
   std::vector<std::string> says;     ///< all that the report is to say; none: nothing special
   std::function<Observations(const Found&, slam::RandomStream&)> detect;
   std::function<void(slam::FilterConfig&)> believe = [](slam::FilterConfig&) {};
+  std::string beside = kAsItIs;  ///< the variant that it is compared with
 };
 
 /// The detector itself, and the planted faults.
-std::vector<Variant> faulty_variants();
+/// @param nis_per_degree mean NIS / 2 of the detector on other seeds: its covariance times this is
+///        consistent. Half of a covariance that is too large would be an improvement.
+std::vector<Variant> faulty_variants(double nis_per_degree);
 
 /// The detector with centres that are off by chance: of the same quality, whatever the seed.
 Variant noisy_variant(double sd_px);

@@ -32,6 +32,7 @@ namespace {
 constexpr std::uint64_t kSeedsOfRepetition = 20;
 constexpr std::size_t kNoisyVariants = 4;  ///< of each repetition; each is compared with the next one
 constexpr double kNoise_px = 0.05;
+constexpr std::uint64_t kCalibrationSeeds = 40;  ///< those behind the seeds of all repetitions
 
 /// A variant's result so far: what its folder would hold.
 struct VariantResult {
@@ -40,8 +41,8 @@ struct VariantResult {
   std::string detections = detections_csv_header();
 };
 
-std::vector<Variant> all_variants() {
-  std::vector<Variant> variants = faulty_variants();
+std::vector<Variant> all_variants(double nis_per_degree) {
+  std::vector<Variant> variants = faulty_variants(nis_per_degree);
   for (std::size_t i = 0; i < kNoisyVariants; ++i) variants.push_back(noisy_variant(kNoise_px));
   return variants;
 }
@@ -104,6 +105,15 @@ void drive_variants(const Experiment& experiment, std::uint64_t seed, const std:
   for (std::size_t i = 0; i < drives.size(); ++i) drives[i].finish(experiment, recording.log, results[i]);
 }
 
+/// Mean NIS / 2 of the detector as it is, on seeds from `first` on.
+double measured_nis_per_degree(const Experiment& experiment, std::uint64_t first) {
+  const std::vector<Variant> as_it_is = {faulty_variants(1.0).front()};
+  std::vector<VariantResult> result(1);
+  for (std::uint64_t i = 0; i < kCalibrationSeeds; ++i)
+    drive_variants(experiment, first + i, as_it_is, result);
+  return summarise(result[0].metrics.metrics().at("vision.normalised_error")).mean;
+}
+
 constexpr const char* kAte = "filters.iekf.ate_rms_m";
 
 double mean_ate_m(const VariantResult& result) {
@@ -134,10 +144,16 @@ nlohmann::json comparison_of(VariantResult& first, VariantResult& second, const 
   return said;
 }
 
-/// One repetition: each fault beside the detector as it is, and each noisy variant beside the next one.
-std::string repetition(const Experiment& experiment, std::uint64_t number,
-                       const std::filesystem::path& folder, const std::function<void(double)>& report) {
-  const std::vector<Variant> variants = all_variants();
+/// Position of the variant that one is compared with.
+std::size_t position_of(const std::string& name, const std::vector<Variant>& variants) {
+  const auto found = std::ranges::find(variants, name, &Variant::name);
+  return static_cast<std::size_t>(found - variants.begin());
+}
+
+/// One repetition: each fault beside the detector without it, and each noisy variant beside the next one.
+std::string repetition(const Experiment& experiment, const std::vector<Variant>& variants,
+                       std::uint64_t number, const std::filesystem::path& folder,
+                       const std::function<void(double)>& report) {
   std::vector<VariantResult> results(variants.size());
   for (std::uint64_t i = 0; i < kSeedsOfRepetition; ++i) {
     drive_variants(experiment, kSeedsOfRepetition * number + i, variants, results);
@@ -146,7 +162,8 @@ std::string repetition(const Experiment& experiment, std::uint64_t number,
   const std::filesystem::path file = folder / fmt::format("detections_{}.csv", number);
   const std::size_t faults = variants.size() - kNoisyVariants;
   nlohmann::json said = nlohmann::json::array();
-  for (std::size_t i = 0; i < faults; ++i) said.push_back(comparison_of(results[0], results[i], file));
+  for (std::size_t i = 0; i < faults; ++i)
+    said.push_back(comparison_of(results[position_of(variants[i].beside, variants)], results[i], file));
   for (std::size_t i = faults; i + 1 < variants.size(); ++i)
     said.push_back(comparison_of(results[i], results[i + 1], file));
   std::filesystem::remove(file);
@@ -154,12 +171,14 @@ std::string repetition(const Experiment& experiment, std::uint64_t number,
 }
 
 /// The same, kept in a folder for a study that is stopped and goes on: the folder is one study's.
-std::string kept_repetition(const Experiment& experiment, std::uint64_t number,
-                            const std::filesystem::path& keep, const std::function<void(double)>& report) {
-  if (keep.empty()) return repetition(experiment, number, std::filesystem::temp_directory_path(), report);
+std::string kept_repetition(const Experiment& experiment, const std::vector<Variant>& variants,
+                            std::uint64_t number, const std::filesystem::path& keep,
+                            const std::function<void(double)>& report) {
+  if (keep.empty())
+    return repetition(experiment, variants, number, std::filesystem::temp_directory_path(), report);
   const std::filesystem::path file = keep / fmt::format("repetition_{}.json", number);
   if (std::filesystem::exists(file)) return read_text(file);
-  std::string said = repetition(experiment, number, keep, report);
+  std::string said = repetition(experiment, variants, number, keep, report);
   write_file_atomically(file, said);
   return said;
 }
@@ -216,7 +235,7 @@ std::string most_frequent(const Tally& tally) {
 void print(const std::vector<Variant>& variants, const std::vector<Tally>& tallies) {
   AlignedTable table{.header = {"variant", "comparisons", "REGRESSED", "IMPROVED", "right metric",
                                 "right report", "ATE, B / A", "most often"}};
-  for (std::size_t i = 0; i < variants.size(); ++i) {
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
     const Tally& tally = tallies[i];
     const auto unless = [](bool nothing, long count) { return nothing ? "-" : fmt::format("{}", count); };
     table.rows.push_back({variants[i].name, fmt::format("{}", tally.repetitions),
@@ -234,15 +253,15 @@ int run_study(const std::filesystem::path& scenario, const std::string& detector
   if (!keep.empty()) prepare_output_folder(keep);
   Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
   experiment.detector.command = detector;
-  std::vector<Variant> variants = faulty_variants();
-  const std::size_t faults = variants.size();
-  variants.push_back(noisy_variant(kNoise_px));
-  std::vector<Tally> tallies(variants.size());
+  const double nis_per_degree = measured_nis_per_degree(experiment, kSeedsOfRepetition * repetitions);
+  const std::vector<Variant> variants = all_variants(nis_per_degree);
+  const std::size_t faults = variants.size() - kNoisyVariants;
+  std::vector<Tally> tallies(faults + 1);
   Progress progress("verdicts", static_cast<double>(repetitions));
   run_in_order(
       repetitions, jobs,
       [&](std::size_t index, const std::function<void(double)>& report) {
-        return kept_repetition(experiment, index, keep, report);
+        return kept_repetition(experiment, variants, index, keep, report);
       },
       [&](std::size_t index, const std::string& answer) {
         const auto said = nlohmann::json::parse(answer);
@@ -254,8 +273,8 @@ int run_study(const std::filesystem::path& scenario, const std::string& detector
         }
       },
       [&](double done) { progress.show(done); });
-  fmt::print("{} seeds a comparison, {} steps a seed\n\n", kSeedsOfRepetition,
-             experiment.scenario.path.size());
+  fmt::print("{} seeds a comparison, {} steps a seed; NIS / 2 as it is, on {} other seeds: {:.3f}\n\n",
+             kSeedsOfRepetition, experiment.scenario.path.size(), kCalibrationSeeds, nis_per_degree);
   print(variants, tallies);
   return 0;
 }
