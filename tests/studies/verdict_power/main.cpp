@@ -105,13 +105,23 @@ void drive_variants(const Experiment& experiment, std::uint64_t seed, const std:
   for (std::size_t i = 0; i < drives.size(); ++i) drives[i].finish(experiment, recording.log, results[i]);
 }
 
-/// Mean NIS / 2 of the detector as it is, on seeds from `first` on.
-double measured_nis_per_degree(const Experiment& experiment, std::uint64_t first) {
-  const std::vector<Variant> as_it_is = {faulty_variants(1.0).front()};
+/// NIS / 2 of the detector as it is in one drive.
+double nis_per_degree_of(const Experiment& experiment, std::uint64_t seed) {
   std::vector<VariantResult> result(1);
-  for (std::uint64_t i = 0; i < kCalibrationSeeds; ++i)
-    drive_variants(experiment, first + i, as_it_is, result);
+  drive_variants(experiment, seed, {faulty_variants(1.0).front()}, result);
   return summarise(result[0].metrics.metrics().at("vision.normalised_error")).mean;
+}
+
+/// The mean over seeds from `first` on, each driven by a process of its own.
+double mean_nis_per_degree(const Experiment& experiment, std::uint64_t first, int jobs) {
+  double sum = 0.0;
+  run_in_order(
+      kCalibrationSeeds, jobs,
+      [&](std::size_t index, const std::function<void(double)>&) {
+        return fmt::format("{}", nis_per_degree_of(experiment, first + index));
+      },
+      [&](std::size_t, const std::string& answer) { sum += std::stod(answer); }, [](double) {});
+  return sum / static_cast<double>(kCalibrationSeeds);
 }
 
 constexpr const char* kAte = "filters.iekf.ate_rms_m";
@@ -253,7 +263,7 @@ int run_study(const std::filesystem::path& scenario, const std::string& detector
   if (!keep.empty()) prepare_output_folder(keep);
   Experiment experiment = read_experiment(scenario, {"path.laps=0.29", "gates=[]"});
   experiment.detector.command = detector;
-  const double nis_per_degree = measured_nis_per_degree(experiment, kSeedsOfRepetition * repetitions);
+  const double nis_per_degree = mean_nis_per_degree(experiment, kSeedsOfRepetition * repetitions, jobs);
   const std::vector<Variant> variants = all_variants(nis_per_degree);
   const std::size_t faults = variants.size() - kNoisyVariants;
   std::vector<Tally> tallies(faults + 1);
