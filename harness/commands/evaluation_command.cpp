@@ -15,6 +15,8 @@
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
+#include "harness/result_pages/evaluation_page.h"
+#include "harness/result_pages/run_page.h"
 #include "harness/trajectories/evaluation_pictures.h"
 #include "harness/trajectories/trajectory_file.h"
 
@@ -164,6 +166,8 @@ int run_evaluation(const EvaluationArguments& arguments, std::filesystem::path o
   write_file_atomically(out / "errors.csv", errors_csv(evaluation));
   write_file_atomically(out / "error.png", error_picture);
   write_file_atomically(out / "path.png", path_picture);
+  write_file_atomically(out / kReport,
+                        page_html(evaluation_page(evaluation, estimate, truth, gates, arguments.words)));
   write_file_atomically(out / "evaluation.json", json.dump(2) + "\n");
   print_summary(evaluation, estimate, truth);
   const auto broken = broken_gates(json, gates);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@ struct EvaluationArguments {
   std::filesystem::path estimate;
   std::filesystem::path truth;
   EvaluationRules rules;
+  std::vector<std::string> words;  ///< of the command line; empty: not known
 };
 
 /// Adds --evaluate and the options that go with it.

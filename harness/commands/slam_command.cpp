@@ -270,6 +270,7 @@ void add_slam_command(CLI::App& program, Action& action) {
     const auto said = [&](const char* option) { return command->count(option) > 0; };
     if (said("--evaluate")) {
       check_evaluation_options(*command);
+      arguments->evaluation.words = words_of(*command);
       action = [arguments] {
         return run_evaluation(arguments->evaluation, arguments->run.out, arguments->run.gates,
                               arguments->run.dry_run);

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include "harness/io/text_table.h"
+#include "harness/page/spaced_steps.h"
 #include "slam/math/angles.h"
 
 namespace stereobench::harness {
 namespace {
+
+constexpr std::size_t kMostDrawn = 500;  ///< steps of a line over time
 
 PageCell text_cell(const std::string& text) {
   return {.text = text};
@@ -127,20 +130,11 @@ Block compared_block(const RunResult& result) {
           .content = std::move(table)};
 }
 
-/// Steps that are drawn: all, or every n-th.
-std::vector<std::size_t> drawn_steps(std::size_t steps) {
-  constexpr std::size_t kMostDrawn = 500;
-  const std::size_t stride = steps / (kMostDrawn + 1) + 1;
-  std::vector<std::size_t> drawn;
-  for (std::size_t k = 0; k < steps; k += stride) drawn.push_back(k);
-  return drawn;
-}
-
 /// A line over the drawn instants.
 template <class ValueAt>
 Series over_time(const std::string& name, const std::vector<double>& time_s, const ValueAt& value_at) {
   Series series{.name = name};
-  for (const std::size_t k : drawn_steps(time_s.size())) {
+  for (const std::size_t k : spaced_steps(time_s.size(), kMostDrawn)) {
     series.x.push_back(time_s[k]);
     series.y.push_back(value_at(k));
   }
@@ -165,7 +159,7 @@ Chart ratio_chart(const std::string& label, const std::vector<double>& time_s,
                   const std::vector<std::string>& filters, const std::vector<std::vector<SquaredSum>>& sums) {
   Chart chart{.name = label, .x_label = "time [s]", .y_label = label, .y_is_logarithmic = true};
   Series band{.name = "95 % band", .look = Look::kBand};
-  for (const std::size_t k : drawn_steps(time_s.size())) {
+  for (const std::size_t k : spaced_steps(time_s.size(), kMostDrawn)) {
     long least = 0;
     for (const std::vector<SquaredSum>& filter : sums) {
       const long degrees = k < filter.size() ? filter[k].degrees_of_freedom : 0;

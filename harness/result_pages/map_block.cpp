@@ -4,20 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "harness/page/spaced_steps.h"
 #include "harness/scoring/landmark_map.h"
 #include "vision/palette.h"
 
 namespace stereobench::harness {
 namespace {
 
-/// Instants that the slider stops at: all, or every n-th.
-std::vector<std::size_t> instants_of(std::size_t steps) {
-  constexpr std::size_t kMostInstants = 600;
-  const std::size_t stride = steps / (kMostInstants + 1) + 1;
-  std::vector<std::size_t> instants;
-  for (std::size_t k = 0; k < steps; k += stride) instants.push_back(k);
-  return instants;
-}
+constexpr std::size_t kMostInstants = 600;  ///< that the slider stops at
 
 std::string colour_of_landmark(const LandmarkTruth& landmark) {
   if (landmark.colour_class < 0 || landmark.colour_class >= static_cast<int>(vision::kPalette.size()))
@@ -46,7 +40,7 @@ PageEstimate page_estimate(const MapEstimate& estimate, const std::vector<Landma
 PageMap map_of_seed(const SeedResult& seed, const std::vector<worlds::Wall>& walls) {
   PageMap shown;
   if (!seed.map || !seed.track) return shown;
-  const std::vector<std::size_t> instants = instants_of(seed.time_s.size());
+  const std::vector<std::size_t> instants = spaced_steps(seed.time_s.size(), kMostInstants);
   for (const std::size_t k : instants) {
     shown.time_s.push_back(seed.time_s[k]);
     shown.sightings.push_back(seed.track->seen_m[k]);
@@ -62,6 +56,18 @@ PageMap map_of_seed(const SeedResult& seed, const std::vector<worlds::Wall>& wal
     shown.estimates.push_back(
         page_estimate(seed.map->estimates[i], seed.map->landmarks, instants,
                       i < covariances.size() ? covariances[i] : std::vector<Eigen::Matrix2d>()));
+  return shown;
+}
+
+PageMap map_of_paths(const std::vector<double>& time_s, const PathView& paths, const std::string& name) {
+  PageMap shown{.estimates = {{.name = name}}};
+  for (const std::size_t k : spaced_steps(time_s.size(), kMostInstants)) {
+    shown.time_s.push_back(time_s[k]);
+    shown.sightings.emplace_back();
+    const slam::Pose& truth = paths.truth[k];
+    shown.truth.emplace_back(Eigen::Vector3d(truth.x_m, truth.y_m, truth.heading_rad));
+    shown.estimates[0].path.emplace_back(paths.estimate[k].x_m, paths.estimate[k].y_m);
+  }
   return shown;
 }
 

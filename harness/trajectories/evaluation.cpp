@@ -148,9 +148,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
   AlignedTable table{{"error", "number", "rmse", "mean", "median", "sd", "min", "max"}, {}};
   table.rows.push_back(row_of("APE, translation [m]", evaluation.absolute.translation_m, 1.0));
   table.rows.push_back(row_of("APE, rotation [deg]", evaluation.absolute.rotation_rad, kDegrees));
-  const std::string delta = text_of(evaluation.delta);
-  const bool in_poses = evaluation.delta.unit == Delta::Unit::kPoses;
-  const std::string over = in_poses ? fmt::format("{} pose{}", delta, delta == "1" ? "" : "s") : delta;
+  const std::string over = span_text(evaluation.delta);
   table.rows.push_back(
       row_of(fmt::format("RPE over {}, translation [m]", over), evaluation.relative.translation_m, 1.0));
   table.rows.push_back(

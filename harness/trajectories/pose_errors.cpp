@@ -118,6 +118,12 @@ std::string text_of(const Delta& delta) {
   return fmt::format("{}{}", delta.length, delta.unit == Delta::Unit::kPoses ? "" : metres ? "m" : "s");
 }
 
+std::string span_text(const Delta& delta) {
+  const std::string text = text_of(delta);
+  if (delta.unit != Delta::Unit::kPoses) return text;
+  return fmt::format("{} pose{}", text, text == "1" ? "" : "s");
+}
+
 PoseErrors relative_errors(const TrajectoryPairs& aligned, const Delta& delta) {
   PoseErrors errors;
   const std::vector<double> length = progress(aligned, delta.unit);

@@ -48,6 +48,9 @@ Delta parse_delta(const std::string& text);
 /// The form that parse_delta reads.
 std::string text_of(const Delta& delta);
 
+/// The same for people: "1 pose", "5 poses", "10m".
+std::string span_text(const Delta& delta);
+
 /// The relative pose error: inverse(inverse(Q_i) Q_j) inverse(P_i) P_j of truth Q and estimate P (Sturm et
 /// al., eq. 1). A pair ends at the first pose that is as far from its start as asked for, or further: in
 /// poses, in seconds, or in metres along the estimate's path. Spans are chosen as in the program evo.

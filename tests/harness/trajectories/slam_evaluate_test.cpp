@@ -50,6 +50,7 @@ TEST_F(EvaluationCommand, WritesWhatItPrints) {
   EXPECT_THAT(bytes_of(scratch_.path() / "out/errors.csv"), HasSubstr("\n20,0.5,0\n"));
   for (const char* picture : {"out/error.png", "out/path.png"})
     EXPECT_THAT(bytes_of(scratch_.path() / picture).substr(0, 4), "\x89PNG");
+  EXPECT_THAT(bytes_of(scratch_.path() / "out/report.html"), HasSubstr("--align none"));
 }
 
 // Mutation: a broken gate that ends with 0.
