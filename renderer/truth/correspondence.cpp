@@ -27,33 +27,39 @@ bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, 
   return scene.normal(primitive, point.in_world).dot(line.direction) > 0.0;
 }
 
-/// Another look, and where from.
-struct OtherLook {
-  const IdBuffer& ids;
-  Eigen::Vector3d camera_m;  ///< optical centre, world frame
+/// Where another look's camera has a point.
+struct PlaceOfPoint {
+  Eigen::Vector3d in_camera;
+  Eigen::Vector2d px;  ///< only where it is before the camera
 };
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own primitive, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const OtherLook& look, const PrimitivePoint& point) {
-  const IdBuffer& ids = look.ids;
-  const Ray line{look.camera_m, point.in_world - look.camera_m};
-  const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;
-  if (!(in_camera.z() > kNear_m)) return false;
-  const std::array<int, 4> around = primitives_around(ids.primitive, shown_at(ids.view, in_camera));
+bool is_hidden(const SceneGeometry& scene, const cv::Mat& primitives, const Eigen::Vector3d& camera_m,
+               const PrimitivePoint& point, const PlaceOfPoint& place) {
+  if (!(place.in_camera.z() > kNear_m)) return false;
+  const Ray line{camera_m, point.in_world - camera_m};
+  const std::array<int, 4> around = primitives_around(primitives, place.px);
   if (ball_is_before(scene, point.primitive, line, point)) return true;
   if (std::all_of(around.begin(), around.end(), [&](int primitive) { return primitive == point.primitive; }))
     return false;
   return std::any_of(around.begin(), around.end(),
                      [&](int primitive) { return ball_is_before(scene, primitive, line, point); }) ||
-         scene.first_flat(line, kNear_m / in_camera.z(), 1.0 - kRounding, point.primitive) != kNoPrimitive;
+         scene.first_flat(line, kNear_m / place.in_camera.z(), 1.0 - kRounding, point.primitive) !=
+             kNoPrimitive;
 }
 
 /// Follows pixels of one look to another.
 class Follower {
  public:
   Follower(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to)
-      : scene_(scene), from_(from), to_(to), look_{to, to.view.centre_in_world()}, lines_(from.view) {
+      : scene_(scene),
+        from_(from),
+        to_(to),
+        other_camera_m_(to.view.centre_in_world()),
+        lines_(from.view),
+        place_here_(from.view),
+        place_there_(to.view) {
     if (!(to.view.lens == vision::Distortion{}))
       field_ = vision::directions_seen(to.view.lens, to.view.intrinsics);
   }
@@ -63,17 +69,25 @@ class Follower {
   Occlusion follow(int primitive, int u, int v, cv::Vec2f& shift_px) const {
     if (primitive == kNoPrimitive) return Occlusion::kNothing;
     const SceneGeometry::Seen seen = scene_.seen(primitive, lines_(u, v));
-    const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_ray;
-    if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Occlusion::kOutside;
-    const Eigen::Vector2d there = shown_at(to_.view, in_other);
-    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_ray);
-    const Eigen::Vector2f shift = (there - here).cast<float>();
+    const PlaceOfPoint there = place_there(seen.on_ray);
+    if (!(there.in_camera.z() > kNear_m) || is_beyond(there.in_camera)) return Occlusion::kOutside;
+    const Eigen::Vector2d here = place_here_(from_.view.camera_from_world * seen.on_ray);
+    const Eigen::Vector2f shift = (there.px - here).cast<float>();
     shift_px = {shift.x(), shift.y()};
-    if (!vision::is_inside(to_.view.intrinsics, there)) return Occlusion::kOutside;
-    return is_hidden(scene_, look_, {primitive, seen.on_primitive}) ? Occlusion::kHidden : Occlusion::kSeen;
+    if (!vision::is_inside(to_.view.intrinsics, there.px)) return Occlusion::kOutside;
+    const bool is_same = seen.on_primitive == seen.on_ray;  // nearly always
+    return is_hidden(scene_, to_.primitive, other_camera_m_, {primitive, seen.on_primitive},
+                     is_same ? there : place_there(seen.on_primitive))
+               ? Occlusion::kHidden
+               : Occlusion::kSeen;
   }
 
  private:
+  PlaceOfPoint place_there(const Eigen::Vector3d& in_world) const {
+    const Eigen::Vector3d in_camera = to_.view.camera_from_world * in_world;
+    return {in_camera, place_there_(in_camera)};
+  }
+
   /// Whether a direction is none of those that the other picture shows: a lens may fold it into it.
   bool is_beyond(const Eigen::Vector3d& in_other) const {
     return field_ && !field_->contains(Eigen::Vector2d(in_other.hnormalized()));
@@ -82,8 +96,9 @@ class Follower {
   const SceneGeometry& scene_;
   const IdBuffer& from_;
   const IdBuffer& to_;
-  OtherLook look_;
+  Eigen::Vector3d other_camera_m_;  // optical centre, world frame
   PixelRays lines_;
+  PixelPlaces place_here_, place_there_;
   std::optional<Eigen::AlignedBox2d> field_;  // of the other camera, where it has a lens
 };
 

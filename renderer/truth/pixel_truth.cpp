@@ -21,15 +21,19 @@ PixelTruth pixel_truth(const SceneGeometry& scene, const IdBuffer& ids) {
   const Eigen::Matrix3d turn = ids.view.camera_from_world.linear();
   const PixelRays lines(ids.view);
   for (int v = 0; v < size.height; ++v) {
+    const int* primitives = ids.primitive.ptr<int>(v);
+    auto* surfaces = truth.surface.ptr<int>(v);
+    auto* ranges_m = truth.range_m.ptr<float>(v);
+    auto* normals = truth.normal.ptr<cv::Vec3f>(v);
     for (int u = 0; u < size.width; ++u) {
-      const int primitive = ids.primitive.at<int>(v, u);
+      const int primitive = primitives[u];
       if (primitive == kNoPrimitive) continue;
       const Ray line = lines(u, v);
       const SceneGeometry::Seen seen = scene.seen(primitive, line);
       const Eigen::Vector3d normal = scene.normal(primitive, seen.on_primitive);
-      truth.surface.at<int>(v, u) = scene.surface(primitive);
-      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_ray - line.origin_m).norm());
-      truth.normal.at<cv::Vec3f>(v, u) = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
+      surfaces[u] = scene.surface(primitive);
+      ranges_m[u] = static_cast<float>((seen.on_ray - line.origin_m).norm());
+      normals[u] = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
     }
   }
   return truth;

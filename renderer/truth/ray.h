@@ -30,4 +30,21 @@ class PixelRays {
   Eigen::Matrix3d world_from_camera_;
 };
 
+/// shown_at for many points of one camera.
+class PixelPlaces {
+ public:
+  explicit PixelPlaces(const CameraView& view)
+      : view_(view), is_straight_(view.lens == vision::Distortion{}) {}
+
+  /// @param point_in_camera as of shown_at
+  Eigen::Vector2d operator()(const Eigen::Vector3d& point_in_camera) const {
+    return is_straight_ ? vision::project(view_.intrinsics, point_in_camera)
+                        : shown_at(view_, point_in_camera);
+  }
+
+ private:
+  CameraView view_;
+  bool is_straight_;
+};
+
 }  // namespace stereobench::renderer

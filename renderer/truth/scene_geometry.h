@@ -1,4 +1,5 @@
-/// The primitives of a world as equations in double precision: where rays meet them.
+/// The primitives of a world as equations in double precision: where rays meet them. What each pixel asks
+/// is defined here, since calls would cost as much as the answers.
 #pragma once
 
 #include <vector>
@@ -36,14 +37,26 @@ class SceneGeometry {
     Eigen::Vector3d on_ray;  ///< the same point, or where the ray comes nearest to it
   };
   /// @param primitive that is seen there, not kNoPrimitive
-  Seen seen(int primitive, const Ray& ray) const;
+  Seen seen(int primitive, const Ray& ray) const {
+    if (is_ball(primitive)) return seen_of(ball(primitive), ray);
+    const Flat& plane = flat(primitive);
+    const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
+    const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
+    const Eigen::Vector3d place = point - plane.corner;
+    if (plane.contains(plane.dual_along.dot(place), plane.dual_up.dot(place))) return {point, point};
+    return seen_beside(plane, point, ray);
+  }
 
   /// The unit normal of a primitive at one of its points, world frame: outwards for balls, either way for
   /// others.
-  Eigen::Vector3d normal(int primitive, const Eigen::Vector3d& point_m) const;
+  Eigen::Vector3d normal(int primitive, const Eigen::Vector3d& point_m) const {
+    return is_ball(primitive) ? normal_of(ball(primitive), point_m) : flat(primitive).normal;
+  }
 
   /// The surface that a primitive is of (primitives.h).
-  int surface(int primitive) const;
+  int surface(int primitive) const {
+    return primitive < kFloorPrimitive ? primitive : flat(primitive).surface;
+  }
 
  private:
   enum class Shape { kNothing, kPlane, kParallelogram, kTriangle };
@@ -51,13 +64,21 @@ class SceneGeometry {
   struct Flat {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
          const Eigen::Vector3d& up);
-    bool contains(double s, double t) const;
+    bool contains(double s, double t) const {
+      if (shape == Shape::kPlane || shape == Shape::kNothing) return shape == Shape::kPlane;
+      if (!(s >= 0.0 && t >= 0.0)) return false;
+      return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
+    }
     /// The point of the primitive that is taken for one of its plane which is not on it.
     Eigen::Vector3d nearest(const Eigen::Vector3d& in_plane) const;
     Shape shape;
     int surface;
     Eigen::Vector3d corner, along, up, normal, dual_along, dual_up;
   };
+  static Seen seen_of(const worlds::Ball& ball, const Ray& ray);
+  static Eigen::Vector3d normal_of(const worlds::Ball& ball, const Eigen::Vector3d& point_m);
+  /// What is seen of a flat whose plane is met beside it. @param in_plane where
+  static Seen seen_beside(const Flat& flat, const Eigen::Vector3d& in_plane, const Ray& ray);
   static std::vector<Flat> flats_of(const worlds::World& world, const FormReader& read);
   static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
   const Flat& flat(int primitive) const {
