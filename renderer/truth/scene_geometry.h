@@ -37,15 +37,10 @@ class SceneGeometry {
     Eigen::Vector3d on_ray;  ///< the same point, or where the ray comes nearest to it
   };
   /// @param primitive that is seen there, not kNoPrimitive
-  Seen seen(int primitive, const Ray& ray) const {
-    if (is_ball(primitive)) return seen_of(ball(primitive), ray);
-    const Flat& plane = flat(primitive);
-    const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
-    const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
-    const Eigen::Vector3d place = point - plane.corner;
-    if (plane.contains(plane.dual_along.dot(place), plane.dual_up.dot(place))) return {point, point};
-    return seen_beside(plane, point, ray);
-  }
+  Seen seen(int primitive, const Ray& ray) const;
+
+  /// The same of a floor, wall or triangle for many rays of one camera.
+  class FlatLook;
 
   /// The unit normal of a primitive at one of its points, world frame: outwards for balls, either way for
   /// others.
@@ -64,7 +59,8 @@ class SceneGeometry {
   struct Flat {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
          const Eigen::Vector3d& up);
-    bool contains(double s, double t) const {
+    bool contains(double s, double t) const { return contains(shape, s, t); }
+    static bool contains(Shape shape, double s, double t) {
       if (shape == Shape::kPlane || shape == Shape::kNothing) return shape == Shape::kPlane;
       if (!(s >= 0.0 && t >= 0.0)) return false;
       return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
@@ -90,5 +86,44 @@ class SceneGeometry {
   std::vector<Flat> flats_;  // the floor, walls, triangles
   worlds::Bvh tree_;         // of all flats but the floor
 };
+
+class SceneGeometry::FlatLook {
+ public:
+  /// @param primitive that is no ball
+  /// @param camera_m where all rays begin
+  FlatLook(const SceneGeometry& scene, int primitive, const Eigen::Vector3d& camera_m)
+      : FlatLook(scene.flat(primitive), camera_m) {}
+
+  Seen seen(const Ray& ray) const {
+    const double depth = ahead_m_ / normal_.dot(ray.direction);
+    const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
+    const Eigen::Vector3d place = point - corner_m_;
+    if (Flat::contains(shape_, dual_along_.dot(place), dual_up_.dot(place))) return {point, point};
+    return seen_beside(whole_, point, ray);
+  }
+
+  const Eigen::Vector3d& normal() const { return normal_; }
+
+ private:
+  FlatLook(const Flat& flat, const Eigen::Vector3d& camera_m)
+      : whole_(flat),
+        shape_(flat.shape),
+        corner_m_(flat.corner),
+        normal_(flat.normal),
+        dual_along_(flat.dual_along),
+        dual_up_(flat.dual_up),
+        ahead_m_(flat.normal.dot(flat.corner - camera_m)) {}
+
+  const Flat& whole_;
+  // Copies: in registers, where pixels are written that might lie where the flat does.
+  Shape shape_;
+  Eigen::Vector3d corner_m_, normal_, dual_along_, dual_up_;
+  double ahead_m_;  ///< along the normal
+};
+
+inline SceneGeometry::Seen SceneGeometry::seen(int primitive, const Ray& ray) const {
+  return is_ball(primitive) ? seen_of(ball(primitive), ray)
+                            : FlatLook(*this, primitive, ray.origin_m).seen(ray);
+}
 
 }  // namespace stereobench::renderer
