@@ -116,8 +116,11 @@ void RenderedDataset::write(std::size_t step, const std::vector<DatasetFile>& fi
   frames_.insert(step);
   AtomicFiles written;
   for (const DatasetFile& file : files) {
-    names_.insert(file.name);
-    if (!std::filesystem::exists(folder_ / file.name)) written.write(folder_ / file.name, file.bytes());
+    std::string& hash = files_[file.name];
+    if (std::filesystem::exists(folder_ / file.name)) continue;
+    const std::string bytes = file.bytes();
+    written.write(folder_ / file.name, bytes);
+    hash = sha256_of(bytes);  // here, since who reads a large set again reads it from the disk
   }
   written.move_into_place();
 }
@@ -126,15 +129,17 @@ void RenderedDataset::finish(const std::vector<DatasetFile>& files, const Coarse
   begin(files);
   AtomicFiles written;
   for (const DatasetFile& file : files) {
-    names_.insert(file.name);
-    written.write(folder_ / file.name, file.bytes());
+    const std::string bytes = file.bytes();
+    written.write(folder_ / file.name, bytes);
+    files_[file.name] = sha256_of(bytes);
   }
   written.move_into_place();
   remove_leftovers(folder_);  // of one that was just dying when this one began
   nlohmann::ordered_json marker = identity_;
   marker[kFrames] = frames_;
   marker[kBlur] = blur_json(blur);
-  seal({.folder = folder_, .marker = std::move(marker), .files = hash_files(folder_, names_)});
+  hash_others(folder_, files_);
+  seal({.folder = folder_, .marker = std::move(marker), .files = files_});
 }
 
 /// Adds what every data set has, and last of all the manifest.

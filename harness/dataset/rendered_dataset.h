@@ -57,7 +57,7 @@ class RenderedDataset {
   bool is_finished_ = false;
   std::vector<std::string> spoilt_;
   std::set<std::size_t> frames_;  ///< that were written
-  std::set<std::string> names_;   ///< of all files
+  FileHashes files_;              ///< all of them; hashes of those written just now, others empty
 };
 
 /// Makes sure that a folder holds no other rendering, finished or not, than the one that is asked for. What

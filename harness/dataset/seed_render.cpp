@@ -8,6 +8,7 @@
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
 #include "harness/json/cbor.h"
+#include "harness/process/kept_memory.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "renderer/surfaces/mesh_cache.h"
@@ -20,6 +21,16 @@ STEREOBENCH_ALL_FIELDS(WrittenDataset, pairs, was_complete, spoilt)
 STEREOBENCH_ALL_FIELDS(RenderedSeed, datasets, blur)
 
 namespace {
+
+/// Whether some data set has the log of what was observed: that of other formats is nobody's.
+bool looks_for_balls(const RenderTask& task) {
+  return std::ranges::any_of(task.datasets,
+                             [](const WantedDataset& wanted) { return is_plain(*wanted.format); });
+}
+
+std::vector<vision::BallObservation> sees_nothing(const DetectorInput&) {
+  return {};
+}
 
 RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
   const worlds::Scenario& scenario = task.experiment->scenario;
@@ -34,6 +45,7 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
   };
   if (std::ranges::all_of(outputs, [](const DatasetOutput& one) { return one.written().was_complete; }))
     return keep_outcome();
+  keep_freed_memory();
   renderer::MeshCache meshes;  // for the pictures and for the truth
   FrameTruth truth(scenario, world, meshes.forms());
   Listeners listeners;
@@ -43,8 +55,8 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
     truth.look_at(event);
     for (DatasetOutput& output : outputs) output.write(truth);
   };
-  const Recording recording =
-      record(*task.experiment, task.seed, listeners, task.backend, {}, meshes.forms());
+  const Recording recording = record(*task.experiment, task.seed, listeners, task.backend,
+                                     looks_for_balls(task) ? Detector() : sees_nothing, meshes.forms());
   for (DatasetOutput& output : outputs) output.finish(recording.log, recording.blur);
   rendered.blur = recording.blur;
   return keep_outcome();

@@ -35,10 +35,9 @@ bool is_as_listed(const fs::path& file, const std::string& hash) {
 
 }  // namespace
 
-FileHashes hash_files(const fs::path& folder, const std::set<std::string>& names) {
-  FileHashes files;
-  for (const std::string& name : names) files[name] = sha256_of_file(folder / name);
-  return files;
+void hash_others(const fs::path& folder, FileHashes& files) {
+  for (auto& [name, hash] : files)
+    if (hash.empty()) hash = sha256_of_file(folder / name);
 }
 
 std::string manifest_text(const FileHashes& files) {

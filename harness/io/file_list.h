@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,8 @@ inline constexpr const char* kManifest = "manifest-sha256.txt";
 /// SHA-256 of files, as 64 hexadecimal digits, by their place in a folder: "left/000012.png".
 using FileHashes = std::map<std::string, std::string>;
 
-/// Hashes files of a folder. @throws std::runtime_error when one cannot be read
-FileHashes hash_files(const std::filesystem::path& folder, const std::set<std::string>& names);
+/// Hashes those files of a folder whose hash is empty. @throws std::runtime_error when one cannot be read
+void hash_others(const std::filesystem::path& folder, FileHashes& files);
 
 /// The manifest: a line for each file, sorted by name.
 std::string manifest_text(const FileHashes& files);

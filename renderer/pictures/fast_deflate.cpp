@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
-#include <memory>
 
 #include <zlib.h>
 
@@ -37,52 +37,92 @@ constexpr std::array<RunLength, kLongestRun + 1> run_lengths() {
 
 constexpr std::array<RunLength, kLongestRun + 1> kRunLengths = run_lengths();
 
-std::uint32_t four_at(const std::uint8_t* at) {
-  std::uint32_t four = 0;
-  std::memcpy(&four, at, sizeof four);
-  return four;
+using Counts = std::array<std::uint32_t, kSymbols>;
+
+constexpr std::uint64_t kOnes = 0x0101010101010101U;
+
+std::uint64_t eight_at(const std::uint8_t* at) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, at, sizeof eight);
+  return eight;
 }
 
-/// Literals as they are, and runs of the byte before them as 256 + their length.
-struct Tokens {
-  std::unique_ptr<std::uint16_t[]> values;
-  std::size_t size = 0;
-  std::array<std::uint32_t, kSymbols> counts{};  ///< of symbols
+/// The highest bit of each byte that is 0.
+std::uint64_t zero_bytes(std::uint64_t eight) {
+  constexpr std::uint64_t kLow = 0x7F * kOnes;
+  return ~(((eight & kLow) + kLow) | eight | kLow);
+}
+
+std::ptrdiff_t first_byte(std::uint64_t marks) {
+  return std::countr_zero(marks) / 8;
+}
+
+/// Some bytes as they are, and behind them a run of the byte before.
+struct Stretch {
+  std::size_t literals = 0;
+  std::size_t run = 0;  ///< its length; 0 for the last stretch
 };
 
-Tokens tokens_of(Bytes bytes) {
-  Tokens tokens;
-  tokens.values = std::make_unique_for_overwrite<std::uint16_t[]>(bytes.size());
-  std::uint16_t* token = tokens.values.get();
+/// Where the next run begins, of the shortest length at least, or the end.
+/// @param at behind the first byte
+const std::uint8_t* next_run(const std::uint8_t* at, const std::uint8_t* end) {
+  constexpr std::ptrdiff_t kWord = 8, kPlaces = 5;  // of four bytes in eight
+  for (; end - at >= kWord; at += kPlaces) {
+    const std::uint64_t equal = zero_bytes(eight_at(at) ^ eight_at(at - 1));
+    const std::uint64_t four = equal & equal >> 8U & equal >> 16U & equal >> 24U;
+    if (four != 0) return at + first_byte(four);
+  }
+  constexpr auto kLeast = static_cast<std::ptrdiff_t>(kShortestRun);
+  for (; end - at >= kLeast; ++at)
+    if (std::all_of(at, at + kLeast, [&](std::uint8_t byte) { return byte == at[-1]; })) return at;
+  return end;
+}
+
+/// Where a run ends that begins there.
+const std::uint8_t* end_of_run(const std::uint8_t* at, const std::uint8_t* end) {
+  const std::uint8_t before = at[-1];
+  const std::uint8_t* const most = at + std::min<std::ptrdiff_t>(end - at, kLongestRun);
+  for (; most - at >= 8; at += 8)
+    if (const std::uint64_t other = eight_at(at) ^ kOnes * before; other != 0) return at + first_byte(other);
+  while (at != most && *at == before) ++at;
+  return at;
+}
+
+/// Four tables, since a count that was just written is slow to read again.
+void count_literals(Bytes bytes, std::array<Counts, 4>& counts) {
+  std::size_t i = 0;
+  for (; i + 4 <= bytes.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) ++counts[k][bytes[i + k]];
+  for (; i < bytes.size(); ++i) ++counts[0][bytes[i]];
+}
+
+struct Stretches {
+  std::vector<Stretch> all;
+  Counts counts{};  ///< of symbols
+};
+
+Stretches stretches_of(Bytes bytes) {
+  Stretches found;
+  std::array<Counts, 4> counts{};
   const std::uint8_t* const end = bytes.data() + bytes.size();
   const std::uint8_t* at = bytes.data();
-  const auto literal = [&] {
-    ++tokens.counts[*at];
-    *token++ = *at++;
-  };
-  if (at != end) literal();
-  while (end - at >= static_cast<std::ptrdiff_t>(kShortestRun)) {
-    const std::uint8_t before = at[-1];
-    if (four_at(at) != 0x01010101U * before) {
-      literal();
-      continue;
-    }
-    const std::uint8_t* const most = at + std::min<std::ptrdiff_t>(end - at, kLongestRun);
-    const std::uint8_t* run = at + kShortestRun;
-    while (run != most && *run == before) ++run;
-    const auto length = static_cast<std::size_t>(run - at);
-    ++tokens.counts[kRunLengths[length].symbol];
-    *token++ = static_cast<std::uint16_t>(256 + length);
-    at = run;
-  }
-  while (at != end) literal();
-  tokens.counts[kEndOfBlock] = 1;
-  tokens.size = static_cast<std::size_t>(token - tokens.values.get());
-  return tokens;
+  do {
+    const std::uint8_t* const run = next_run(at == bytes.data() && at != end ? at + 1 : at, end);
+    const std::uint8_t* const behind = run == end ? end : end_of_run(run, end);
+    const Stretch stretch = {static_cast<std::size_t>(run - at), static_cast<std::size_t>(behind - run)};
+    count_literals({at, stretch.literals}, counts);
+    if (stretch.run > 0) ++counts[0][kRunLengths[stretch.run].symbol];
+    found.all.push_back(stretch);
+    at = behind;
+  } while (at != end);
+  for (const Counts& some : counts)
+    for (std::size_t i = 0; i < kSymbols; ++i) found.counts[i] += some[i];
+  found.counts[kEndOfBlock] = 1;
+  return found;
 }
 
 /// Lengths of Huffman codes, none above kLongestCode; 0 for what does not occur.
-std::array<std::uint8_t, kSymbols> code_lengths(const std::array<std::uint32_t, kSymbols>& counts) {
+std::array<std::uint8_t, kSymbols> code_lengths(const Counts& counts) {
   struct Node {
     std::uint64_t count = 0;
     int parent = -1;
@@ -201,44 +241,48 @@ void put_codes(const std::array<std::uint8_t, kSymbols>& lengths, BitWriter& wri
   writer.flush();
 }
 
-void put_tokens(std::span<const std::uint16_t> tokens, const std::array<Code, kSymbols>& codes,
-                BitWriter& writer) {
-  const auto put = [&](std::uint16_t token) {
-    if (token < 256) {
-      writer.put(codes[token].bits, codes[token].length);
-      return;
-    }
-    const RunLength& run = kRunLengths[token - 256U];
-    writer.put(codes[run.symbol].bits, codes[run.symbol].length);
-    writer.put(run.extra, run.extra_bits + 1U);  // and the distance, whose bit is 0
-  };
+/// @param writer copied, since what is kept in memory would be read again after each byte that is written
+BitWriter put_literals(Bytes bytes, const std::array<Code, kSymbols>& codes, BitWriter writer) {
+  const auto put = [&](std::uint8_t byte) { writer.put(codes[byte].bits, codes[byte].length); };
   std::size_t i = 0;
-  for (; i + 3 <= tokens.size(); i += 3) {  // at most 18 bits each
-    put(tokens[i]);
-    put(tokens[i + 1]);
-    put(tokens[i + 2]);
+  for (; i + 4 <= bytes.size(); i += 4) {  // at most 12 bits each
+    for (std::size_t k = 0; k < 4; ++k) put(bytes[i + k]);
     writer.flush();
   }
-  for (; i < tokens.size(); ++i) put(tokens[i]);
+  for (; i < bytes.size(); ++i) put(bytes[i]);
   writer.flush();
+  return writer;
+}
+
+void put_stretches(const std::vector<Stretch>& stretches, Bytes bytes,
+                   const std::array<Code, kSymbols>& codes, BitWriter& writer) {
+  for (const Stretch& stretch : stretches) {
+    writer = put_literals(bytes.first(stretch.literals), codes, writer);
+    bytes = bytes.subspan(stretch.literals + stretch.run);
+    if (stretch.run == 0) continue;
+    const RunLength& run = kRunLengths[stretch.run];
+    writer.put(codes[run.symbol].bits, codes[run.symbol].length);
+    writer.put(run.extra, run.extra_bits + 1U);  // and the distance, whose bit is 0
+    writer.flush();
+  }
   writer.put(codes[kEndOfBlock].bits, codes[kEndOfBlock].length);
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> deflate_fast(Bytes bytes) {
-  const Tokens tokens = tokens_of(bytes);
-  const auto lengths = code_lengths(tokens.counts);
+  const Stretches stretches = stretches_of(bytes);
+  const auto lengths = code_lengths(stretches.counts);
   constexpr std::size_t kHeaders = 1024;
   std::size_t bits = 0;
   for (std::size_t i = 0; i < kSymbols; ++i)
-    bits += tokens.counts[i] * (lengths[i] + (i < kEndOfBlock ? 0U : 6U));
+    bits += stretches.counts[i] * (lengths[i] + (i < kEndOfBlock ? 0U : 6U));
   std::vector<std::uint8_t> packed(kHeaders + bits / 8);
   packed[0] = 0x78;  // zlib, a window of 32 KiB
   packed[1] = 0x01;  // packed fast
   BitWriter writer(packed.data() + 2);
   put_codes(lengths, writer);
-  put_tokens({tokens.values.get(), tokens.size}, codes_of(lengths), writer);
+  put_stretches(stretches.all, bytes, codes_of(lengths), writer);
   std::uint8_t* const end = writer.finish();
   const auto sum = static_cast<std::uint32_t>(::adler32(1, bytes.data(), static_cast<uInt>(bytes.size())));
   for (unsigned i = 0; i < 4; ++i) end[i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));

@@ -27,79 +27,127 @@ bool ball_is_before(const SceneGeometry& scene, int primitive, const Ray& line, 
   return scene.normal(primitive, point.in_world).dot(line.direction) > 0.0;
 }
 
-/// Another look, and where from.
-struct OtherLook {
-  const IdBuffer& ids;
-  Eigen::Vector3d camera_m;  ///< optical centre, world frame
+/// Where another look's camera has a point.
+struct PlaceOfPoint {
+  Eigen::Vector3d in_camera;
+  Eigen::Vector2d px;  ///< only where it is before the camera
 };
 
 /// Walls and meshes may be thinner than a pixel, so that none of four pixels sees what is in the way: where
 /// these see anything but the point's own primitive, all of them are asked.
-bool is_hidden(const SceneGeometry& scene, const OtherLook& look, const PrimitivePoint& point) {
-  const IdBuffer& ids = look.ids;
-  const Ray line{look.camera_m, point.in_world - look.camera_m};
-  const Eigen::Vector3d in_camera = ids.view.camera_from_world * point.in_world;
-  if (!(in_camera.z() > kNear_m)) return false;
-  const std::array<int, 4> around = primitives_around(ids.primitive, shown_at(ids.view, in_camera));
+bool is_hidden(const SceneGeometry& scene, const cv::Mat& primitives, const Eigen::Vector3d& camera_m,
+               const PrimitivePoint& point, const PlaceOfPoint& place) {
+  if (!(place.in_camera.z() > kNear_m)) return false;
+  const std::array<int, 4> around = primitives_around(primitives, place.px);
+  const bool is_alone =
+      std::all_of(around.begin(), around.end(), [&](int primitive) { return primitive == point.primitive; });
+  if (is_alone && !is_ball(point.primitive)) return false;  // nearly always
+  const Ray line{camera_m, point.in_world - camera_m};
   if (ball_is_before(scene, point.primitive, line, point)) return true;
-  if (std::all_of(around.begin(), around.end(), [&](int primitive) { return primitive == point.primitive; }))
-    return false;
+  if (is_alone) return false;
   return std::any_of(around.begin(), around.end(),
                      [&](int primitive) { return ball_is_before(scene, primitive, line, point); }) ||
-         scene.first_flat(line, kNear_m / in_camera.z(), 1.0 - kRounding, point.primitive) != kNoPrimitive;
+         scene.first_flat(line, kNear_m / place.in_camera.z(), 1.0 - kRounding, point.primitive) !=
+             kNoPrimitive;
 }
 
 /// Follows pixels of one look to another.
+/// @tparam Rays,Places PinholeRays and PinholePlaces, or those of any camera
+template <class Rays, class Places>
 class Follower {
  public:
   Follower(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to)
-      : scene_(scene), from_(from), to_(to), look_{to, to.view.centre_in_world()}, lines_(from.view) {
+      : scene_(scene),
+        camera_m_(from.view.centre_in_world()),
+        lines_(from.view),
+        here_{from.view.camera_from_world, Places(from.view)},
+        other_(to.primitive),
+        other_camera_m_(to.view.centre_in_world()),
+        other_intrinsics_(to.view.intrinsics),
+        there_{to.view.camera_from_world, Places(to.view)} {
     if (!(to.view.lens == vision::Distortion{}))
       field_ = vision::directions_seen(to.view.lens, to.view.intrinsics);
   }
 
-  /// @param primitive that the pixel sees
-  /// @param shift_px set where the point has a place in the other picture's plane
-  Occlusion follow(int primitive, int u, int v, cv::Vec2f& shift_px) const {
-    if (primitive == kNoPrimitive) return Occlusion::kNothing;
-    const SceneGeometry::Seen seen = scene_.seen(primitive, lines_(u, v));
-    const Eigen::Vector3d in_other = to_.view.camera_from_world * seen.on_ray;
-    if (!(in_other.z() > kNear_m) || is_beyond(in_other)) return Occlusion::kOutside;
-    const Eigen::Vector2d there = shown_at(to_.view, in_other);
-    const Eigen::Vector2d here = shown_at(from_.view, from_.view.camera_from_world * seen.on_ray);
-    const Eigen::Vector2f shift = (there - here).cast<float>();
-    shift_px = {shift.x(), shift.y()};
-    if (!vision::is_inside(to_.view.intrinsics, there)) return Occlusion::kOutside;
-    return is_hidden(scene_, look_, {primitive, seen.on_primitive}) ? Occlusion::kHidden : Occlusion::kSeen;
+  /// Follows the pixels of a row that see one primitive.
+  /// @param shifts_px set where the point has a place in the other picture's plane
+  void follow(int primitive, int v, int begin, int end, cv::Vec2f* shifts_px, std::uint8_t* fates) const {
+    const auto follow_all = [&](const auto& seen_by) {
+      for (int u = begin; u < end; ++u)
+        fates[u] = static_cast<std::uint8_t>(follow(primitive, seen_by(lines_(u, v)), shifts_px[u]));
+    };
+    if (primitive == kNoPrimitive)
+      std::fill(fates + begin, fates + end, static_cast<std::uint8_t>(Occlusion::kNothing));
+    else if (is_ball(primitive))
+      follow_all([&](const Ray& ray) { return scene_.seen(primitive, ray); });
+    else
+      follow_all([look = SceneGeometry::FlatLook(scene_, primitive, camera_m_)](const Ray& ray) {
+        return look.seen(ray);
+      });
   }
 
  private:
+  /// A camera that points are looked for with.
+  struct Finder {
+    Eigen::Isometry3d camera_from_world;
+    Places place;
+    PlaceOfPoint operator()(const Eigen::Vector3d& in_world) const {
+      const Eigen::Vector3d in_camera = camera_from_world * in_world;
+      return {in_camera, place(in_camera)};
+    }
+  };
+
+  Occlusion follow(int primitive, const SceneGeometry::Seen& seen, cv::Vec2f& shift_px) const {
+    const PlaceOfPoint there = there_(seen.on_ray);
+    if (!(there.in_camera.z() > kNear_m) || is_beyond(there.in_camera)) return Occlusion::kOutside;
+    const Eigen::Vector2f shift = (there.px - here_(seen.on_ray).px).template cast<float>();
+    shift_px = {shift.x(), shift.y()};
+    if (!vision::is_inside(other_intrinsics_, there.px)) return Occlusion::kOutside;
+    const bool is_same = seen.on_primitive == seen.on_ray;  // nearly always
+    return is_hidden(scene_, other_, other_camera_m_, {primitive, seen.on_primitive},
+                     is_same ? there : there_(seen.on_primitive))
+               ? Occlusion::kHidden
+               : Occlusion::kSeen;
+  }
+
   /// Whether a direction is none of those that the other picture shows: a lens may fold it into it.
   bool is_beyond(const Eigen::Vector3d& in_other) const {
     return field_ && !field_->contains(Eigen::Vector2d(in_other.hnormalized()));
   }
 
   const SceneGeometry& scene_;
-  const IdBuffer& from_;
-  const IdBuffer& to_;
-  OtherLook look_;
-  PixelRays lines_;
+  Eigen::Vector3d camera_m_;  // optical centre, world frame
+  Rays lines_;
+  Finder here_;
+  const cv::Mat& other_;  // primitives
+  Eigen::Vector3d other_camera_m_;
+  vision::Intrinsics other_intrinsics_;
+  Finder there_;
   std::optional<Eigen::AlignedBox2d> field_;  // of the other camera, where it has a lens
 };
+
+template <class Rays, class Places>
+void follow_all(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to,
+                Correspondence& result) {
+  const Follower<Rays, Places> follower(scene, from, to);
+  for (int v = 0; v < from.primitive.rows; ++v) {
+    auto* const shifts_px = result.shift_px.ptr<cv::Vec2f>(v);
+    std::uint8_t* const fates = result.occlusion.ptr(v);
+    for_runs(from.primitive.ptr<int>(v), from.primitive.cols, [&](int primitive, int begin, int end) {
+      follower.follow(primitive, v, begin, end, shifts_px, fates);
+    });
+  }
+}
 
 }  // namespace
 
 Correspondence correspond(const SceneGeometry& scene, const IdBuffer& from, const IdBuffer& to) {
   const cv::Size size = from.primitive.size();
   Correspondence result{cv::Mat(size, CV_32FC2, cv::Scalar::all(kUnknown_px)), cv::Mat(size, CV_8UC1)};
-  const Follower follower(scene, from, to);
-  for (int v = 0; v < size.height; ++v) {
-    const int* primitives = from.primitive.ptr<int>(v);
-    auto* shifts_px = result.shift_px.ptr<cv::Vec2f>(v);
-    std::uint8_t* occlusions = result.occlusion.ptr(v);
-    for (int u = 0; u < size.width; ++u)
-      occlusions[u] = static_cast<std::uint8_t>(follower.follow(primitives[u], u, v, shifts_px[u]));
-  }
+  if (is_straight(from.view) && is_straight(to.view))
+    follow_all<PinholeRays, PinholePlaces>(scene, from, to, result);
+  else
+    follow_all<PixelRays, PixelPlaces>(scene, from, to, result);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "renderer/truth/pixel_truth.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace stereobench::renderer {
@@ -12,26 +13,81 @@ cv::Vec3f vec(const Eigen::Vector3d& v) {
   return {narrow.x(), narrow.y(), narrow.z()};
 }
 
+/// One row of a picture's truth.
+struct TruthRow {
+  int* surfaces;
+  float* ranges_m;
+  cv::Vec3f* normals;
+};
+
+template <class Rays>
+class PixelLooker {
+ public:
+  PixelLooker(const SceneGeometry& scene, const CameraView& view)
+      : scene_(scene),
+        turn_(view.camera_from_world.linear()),
+        camera_m_(view.centre_in_world()),
+        lines_(view) {}
+
+  /// Looks at the pixels of a row that see one primitive.
+  void look(int primitive, int v, int begin, int end, const TruthRow& row) const {
+    if (primitive == kNoPrimitive) return;
+    std::fill(row.surfaces + begin, row.surfaces + end, scene_.surface(primitive));
+    if (is_ball(primitive))
+      look_at_ball(primitive, v, begin, end, row);
+    else
+      look_at_flat(primitive, v, begin, end, row);
+  }
+
+ private:
+  void look_at_ball(int primitive, int v, int begin, int end, const TruthRow& row) const {
+    for (int u = begin; u < end; ++u) {
+      const Ray line = lines_(u, v);
+      const SceneGeometry::Seen seen = scene_.seen(primitive, line);
+      const Eigen::Vector3d normal = scene_.normal(primitive, seen.on_primitive);
+      row.ranges_m[u] = static_cast<float>((seen.on_ray - line.origin_m).norm());
+      row.normals[u] = vec(turn_ * (normal.dot(line.direction) > 0.0 ? -normal : normal));
+    }
+  }
+
+  void look_at_flat(int primitive, int v, int begin, int end, const TruthRow& row) const {
+    const SceneGeometry::FlatLook look(scene_, primitive, camera_m_);
+    const Eigen::Vector3d normal = look.normal();
+    const cv::Vec3f one_way = vec(turn_ * normal), other_way = vec(turn_ * -normal);
+    for (int u = begin; u < end; ++u) {
+      const Ray line = lines_(u, v);
+      row.ranges_m[u] = static_cast<float>((look.seen(line).on_ray - line.origin_m).norm());
+      row.normals[u] = normal.dot(line.direction) > 0.0 ? other_way : one_way;
+    }
+  }
+
+  const SceneGeometry& scene_;
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d camera_m_;
+  Rays lines_;
+};
+
+template <class Rays>
+void look_at_all(const SceneGeometry& scene, const IdBuffer& ids, PixelTruth& truth) {
+  const PixelLooker<Rays> looker(scene, ids.view);
+  for (int v = 0; v < ids.primitive.rows; ++v) {
+    const TruthRow row = {truth.surface.ptr<int>(v), truth.range_m.ptr<float>(v),
+                          truth.normal.ptr<cv::Vec3f>(v)};
+    for_runs(ids.primitive.ptr<int>(v), ids.primitive.cols,
+             [&](int primitive, int begin, int end) { looker.look(primitive, v, begin, end, row); });
+  }
+}
+
 }  // namespace
 
 PixelTruth pixel_truth(const SceneGeometry& scene, const IdBuffer& ids) {
   const cv::Size size = ids.primitive.size();
   PixelTruth truth{cv::Mat(size, CV_32SC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(kNothing_m)),
                    cv::Mat(size, CV_32FC3, cv::Scalar::all(0.0))};
-  const Eigen::Matrix3d turn = ids.view.camera_from_world.linear();
-  const PixelRays lines(ids.view);
-  for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      const int primitive = ids.primitive.at<int>(v, u);
-      if (primitive == kNoPrimitive) continue;
-      const Ray line = lines(u, v);
-      const SceneGeometry::Seen seen = scene.seen(primitive, line);
-      const Eigen::Vector3d normal = scene.normal(primitive, seen.on_primitive);
-      truth.surface.at<int>(v, u) = scene.surface(primitive);
-      truth.range_m.at<float>(v, u) = static_cast<float>((seen.on_ray - line.origin_m).norm());
-      truth.normal.at<cv::Vec3f>(v, u) = vec(turn * (normal.dot(line.direction) > 0.0 ? -normal : normal));
-    }
-  }
+  if (is_straight(ids.view))
+    look_at_all<PinholeRays>(scene, ids, truth);
+  else
+    look_at_all<PixelRays>(scene, ids, truth);
   return truth;
 }
 

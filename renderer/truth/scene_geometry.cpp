@@ -47,12 +47,6 @@ SceneGeometry::Flat::Flat(Shape of_shape, int of_surface, const Eigen::Vector3d&
   dual_up = area.cross(along) / area.squaredNorm();
 }
 
-bool SceneGeometry::Flat::contains(double s, double t) const {
-  if (shape == Shape::kPlane || shape == Shape::kNothing) return shape == Shape::kPlane;
-  if (!(s >= 0.0 && t >= 0.0)) return false;
-  return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
-}
-
 std::vector<SceneGeometry::Flat> SceneGeometry::flats_of(const worlds::World& world, const FormReader& read) {
   std::vector<Flat> flats;
   flats.emplace_back(world.has_floor ? Shape::kPlane : Shape::kNothing, kFloorPrimitive,
@@ -122,28 +116,20 @@ Eigen::Vector3d SceneGeometry::Flat::nearest(const Eigen::Vector3d& in_plane) co
   return corner + s * along + t * up;
 }
 
-SceneGeometry::Seen SceneGeometry::seen(int primitive, const Ray& ray) const {
-  if (is_ball(primitive)) {
-    const Eigen::Vector3d point = ray.origin_m + entry(passage(ball(primitive), ray), ray) * ray.direction;
-    return {point, point};
-  }
-  const Flat& plane = flat(primitive);
-  const double depth = plane.normal.dot(plane.corner - ray.origin_m) / plane.normal.dot(ray.direction);
-  const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
-  if (plane.contains(plane.dual_along.dot(point - plane.corner), plane.dual_up.dot(point - plane.corner)))
-    return {point, point};
-  const Eigen::Vector3d nearest = plane.nearest(point);
+SceneGeometry::Seen SceneGeometry::seen_of(const worlds::Ball& ball, const Ray& ray) {
+  const Eigen::Vector3d point = ray.origin_m + entry(passage(ball, ray), ray) * ray.direction;
+  return {point, point};
+}
+
+SceneGeometry::Seen SceneGeometry::seen_beside(const Flat& flat, const Eigen::Vector3d& in_plane,
+                                               const Ray& ray) {
+  const Eigen::Vector3d nearest = flat.nearest(in_plane);
   const double beside = ray.direction.dot(nearest - ray.origin_m) / ray.direction.squaredNorm();
   return {nearest, ray.origin_m + beside * ray.direction};
 }
 
-Eigen::Vector3d SceneGeometry::normal(int primitive, const Eigen::Vector3d& point_m) const {
-  return is_ball(primitive) ? (point_m - ball(primitive).centre_m).stableNormalized()
-                            : flat(primitive).normal;
-}
-
-int SceneGeometry::surface(int primitive) const {
-  return primitive < kFloorPrimitive ? primitive : flat(primitive).surface;
+Eigen::Vector3d SceneGeometry::normal_of(const worlds::Ball& ball, const Eigen::Vector3d& point_m) {
+  return (point_m - ball.centre_m).stableNormalized();
 }
 
 }  // namespace stereobench::renderer

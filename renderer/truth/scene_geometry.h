@@ -1,4 +1,5 @@
-/// The primitives of a world as equations in double precision: where rays meet them.
+/// The primitives of a world as equations in double precision: where rays meet them. What each pixel asks
+/// is defined here, since calls would cost as much as the answers.
 #pragma once
 
 #include <vector>
@@ -38,12 +39,19 @@ class SceneGeometry {
   /// @param primitive that is seen there, not kNoPrimitive
   Seen seen(int primitive, const Ray& ray) const;
 
+  /// The same of a floor, wall or triangle for many rays of one camera.
+  class FlatLook;
+
   /// The unit normal of a primitive at one of its points, world frame: outwards for balls, either way for
   /// others.
-  Eigen::Vector3d normal(int primitive, const Eigen::Vector3d& point_m) const;
+  Eigen::Vector3d normal(int primitive, const Eigen::Vector3d& point_m) const {
+    return is_ball(primitive) ? normal_of(ball(primitive), point_m) : flat(primitive).normal;
+  }
 
   /// The surface that a primitive is of (primitives.h).
-  int surface(int primitive) const;
+  int surface(int primitive) const {
+    return primitive < kFloorPrimitive ? primitive : flat(primitive).surface;
+  }
 
  private:
   enum class Shape { kNothing, kPlane, kParallelogram, kTriangle };
@@ -51,13 +59,22 @@ class SceneGeometry {
   struct Flat {
     Flat(Shape shape, int surface, const Eigen::Vector3d& corner, const Eigen::Vector3d& along,
          const Eigen::Vector3d& up);
-    bool contains(double s, double t) const;
+    bool contains(double s, double t) const { return contains(shape, s, t); }
+    static bool contains(Shape shape, double s, double t) {
+      if (shape == Shape::kPlane || shape == Shape::kNothing) return shape == Shape::kPlane;
+      if (!(s >= 0.0 && t >= 0.0)) return false;
+      return shape == Shape::kTriangle ? s + t <= 1.0 : s <= 1.0 && t <= 1.0;
+    }
     /// The point of the primitive that is taken for one of its plane which is not on it.
     Eigen::Vector3d nearest(const Eigen::Vector3d& in_plane) const;
     Shape shape;
     int surface;
     Eigen::Vector3d corner, along, up, normal, dual_along, dual_up;
   };
+  static Seen seen_of(const worlds::Ball& ball, const Ray& ray);
+  static Eigen::Vector3d normal_of(const worlds::Ball& ball, const Eigen::Vector3d& point_m);
+  /// What is seen of a flat whose plane is met beside it. @param in_plane where
+  static Seen seen_beside(const Flat& flat, const Eigen::Vector3d& in_plane, const Ray& ray);
   static std::vector<Flat> flats_of(const worlds::World& world, const FormReader& read);
   static std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Flat>& flats);
   const Flat& flat(int primitive) const {
@@ -69,5 +86,44 @@ class SceneGeometry {
   std::vector<Flat> flats_;  // the floor, walls, triangles
   worlds::Bvh tree_;         // of all flats but the floor
 };
+
+class SceneGeometry::FlatLook {
+ public:
+  /// @param primitive that is no ball
+  /// @param camera_m where all rays begin
+  FlatLook(const SceneGeometry& scene, int primitive, const Eigen::Vector3d& camera_m)
+      : FlatLook(scene.flat(primitive), camera_m) {}
+
+  Seen seen(const Ray& ray) const {
+    const double depth = ahead_m_ / normal_.dot(ray.direction);
+    const Eigen::Vector3d point = ray.origin_m + depth * ray.direction;
+    const Eigen::Vector3d place = point - corner_m_;
+    if (Flat::contains(shape_, dual_along_.dot(place), dual_up_.dot(place))) return {point, point};
+    return seen_beside(whole_, point, ray);
+  }
+
+  const Eigen::Vector3d& normal() const { return normal_; }
+
+ private:
+  FlatLook(const Flat& flat, const Eigen::Vector3d& camera_m)
+      : whole_(flat),
+        shape_(flat.shape),
+        corner_m_(flat.corner),
+        normal_(flat.normal),
+        dual_along_(flat.dual_along),
+        dual_up_(flat.dual_up),
+        ahead_m_(flat.normal.dot(flat.corner - camera_m)) {}
+
+  const Flat& whole_;
+  // Copies: in registers, where pixels are written that might lie where the flat does.
+  Shape shape_;
+  Eigen::Vector3d corner_m_, normal_, dual_along_, dual_up_;
+  double ahead_m_;  ///< along the normal
+};
+
+inline SceneGeometry::Seen SceneGeometry::seen(int primitive, const Ray& ray) const {
+  return is_ball(primitive) ? seen_of(ball(primitive), ray)
+                            : FlatLook(*this, primitive, ray.origin_m).seen(ray);
+}
 
 }  // namespace stereobench::renderer

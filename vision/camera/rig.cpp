@@ -59,11 +59,6 @@ Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_i
   return project(rig.intrinsics, distort(rig.distortion, point_in_camera.hnormalized()).homogeneous());
 }
 
-Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
-  return {camera.cx_px + camera.focal_px * point_in_camera.x() / point_in_camera.z(),
-          camera.cy_px + camera.focal_px * point_in_camera.y() / point_in_camera.z()};
-}
-
 std::optional<Eigen::Vector2d> pinhole_point(const StereoRig& rig, const Eigen::Vector2d& taken_px) {
   if (rig.distortion == Distortion{}) return taken_px;
   const auto direction = undistort(rig.distortion, pixel_ray(rig.intrinsics, taken_px).head<2>());
@@ -80,21 +75,11 @@ std::optional<Eigen::Vector2d> rectified_point(const StereoRig& rig, const Eigen
   return project(rig.intrinsics, direction);
 }
 
-bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
-         pixel.y() <= camera.height_px - 0.5;
-}
-
 std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
                                                   const Eigen::Vector3d& point_in_camera) {
   if (!(point_in_camera.z() > 0.0)) return std::nullopt;
   const Eigen::Vector2d pixel = project(camera, point_in_camera);
   return is_inside(camera, pixel) ? std::optional(pixel) : std::nullopt;
-}
-
-Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px) {
-  return {(pixel_px.x() - camera.cx_px) / camera.focal_px, (pixel_px.y() - camera.cy_px) / camera.focal_px,
-          1.0};
 }
 
 bool is_usable(const StereoRig& rig) {

@@ -33,7 +33,10 @@ Eigen::Vector2d image_point(const StereoRig& rig, const Eigen::Vector3d& point_i
 /// The pinhole projection u = f X/Z + cx, v = f Y/Z + cy.
 /// @param point_in_camera metres, Z > 0 (for Z <= 0 the result has no meaning)
 /// @return pixels, (0, 0) is the centre of the top-left pixel; may lie outside the image
-Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera);
+inline Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_in_camera) {
+  return {camera.cx_px + camera.focal_px * point_in_camera.x() / point_in_camera.z(),
+          camera.cy_px + camera.focal_px * point_in_camera.y() / point_in_camera.z()};
+}
 
 /// Where a camera without distortion would show what a pixel of a camera's picture shows.
 /// @return empty where the lens folds its picture
@@ -46,7 +49,10 @@ std::optional<Eigen::Vector2d> rectified_point(const StereoRig& rig, const Eigen
                                                Side side);
 
 /// Whether a place lies within the area of a picture's pixels.
-bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel);
+inline bool is_inside(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.x() <= camera.width_px - 0.5 && pixel.y() >= -0.5 &&
+         pixel.y() <= camera.height_px - 0.5;
+}
 
 /// As project, for points that may be anywhere.
 /// @return pixels within the image's area; empty when the point is behind the camera or outside the image
@@ -56,7 +62,10 @@ std::optional<Eigen::Vector2d> project_if_visible(const Intrinsics& camera,
 /// The line of sight of a pixel.
 /// @param pixel_px (0, 0) is the centre of the top-left pixel; fractions are fine
 /// @return the point of the ray with Z = 1 in the camera frame
-Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px);
+inline Eigen::Vector3d pixel_ray(const Intrinsics& camera, const Eigen::Vector2d& pixel_px) {
+  return {(pixel_px.x() - camera.cx_px) / camera.focal_px, (pixel_px.y() - camera.cy_px) / camera.focal_px,
+          1.0};
+}
 
 /// Whether a rig can be computed with: finite, positive focal length, pixels, baseline and image size.
 bool is_usable(const StereoRig& rig);
