@@ -72,8 +72,8 @@ class EveryExport : public testing::TestWithParam<DatasetFormat> {};
 // right camera's flow for the left one's; numbers of four digits; the time of the step before.
 TEST_P(EveryExport, IsWhatWouldHaveBeenRendered) {
   const RenderedTwice drive(GetParam());
-  const auto written =
-      export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {});
+  const auto written = export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"),
+                                      PictureChange{}, [](double) {});
   EXPECT_EQ(written.front().pairs, 3);
   const auto rendered = bytes_in(drive.folder("rendered")), exported = bytes_in(drive.folder("exported"));
   for (const auto& [name, bytes] : rendered) {
@@ -81,7 +81,8 @@ TEST_P(EveryExport, IsWhatWouldHaveBeenRendered) {
     EXPECT_TRUE(exported.at(name) == bytes) << name;
   }
   EXPECT_EQ(rendered.size(), exported.size());
-  EXPECT_TRUE(export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {})
+  EXPECT_TRUE(export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), PictureChange{},
+                             [](double) {})
                   .front()
                   .was_complete);
 }
@@ -96,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryExport,
 
 std::string complaint_of(const fs::path& folder, const char* format, const fs::path& out) {
   try {
-    export_dataset(folder, {&dataset_format(format)}, out, [](double) {});
+    export_dataset(folder, {&dataset_format(format)}, out, PictureChange{}, [](double) {});
   } catch (const std::runtime_error& error) {
     return error.what();
   }
