@@ -88,7 +88,7 @@ void check_change(const PlainDataset& plain, const nlohmann::ordered_json& ident
         plain.folder.string(), identity[kPictures].dump()));
   if (change.kind == PictureKind::kLinear16)
     throw std::runtime_error(
-        fmt::format("--picture: {} has levels of 8 bits; render it with --picture linear16 instead",
+        fmt::format("{}: has levels of 8 bits, and linear16 needs more; render it with --picture linear16",
                     plain.folder.string()));
   if (change.crop) require_rows(plain);
 }
