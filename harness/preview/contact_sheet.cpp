@@ -94,6 +94,11 @@ SheetColumns columns_of(const DatasetView& view, const std::vector<std::size_t>&
   return columns;
 }
 
+/// The size of a cell. @param picture that of the left camera
+cv::Size cell_size(const cv::Size& picture, int width_px) {
+  return {width_px, std::max(1, width_px * picture.height / picture.width)};
+}
+
 /// Near is red, far is blue, none is black.
 cv::Mat nearness_picture(const cv::Mat& nearness, float most) {
   const cv::Mat none = nearness == std::numeric_limits<float>::infinity();
@@ -124,15 +129,26 @@ cv::Mat ball_picture(const cv::Mat& ball_id, const cv::Mat& picture) {
   return shown;
 }
 
+/// A picture in the width of the sheet, without the noise that PNG cannot pack: five bits a channel look the
+/// same.
+cv::Mat photograph(const cv::Mat& picture, int width_px) {
+  if (picture.empty()) return picture;
+  cv::Mat small;
+  cv::resize(picture, small, cell_size(picture.size(), width_px), 0, 0, cv::INTER_AREA);
+  cv::bitwise_and(small, cv::Scalar::all(0xF8), small);
+  return small;
+}
+
 /// The pictures of a row, left to right; empty ones where the row has none.
-std::vector<cv::Mat> cells_of(const SheetRow& row, const SheetColumns& columns) {
-  std::vector<cv::Mat> cells = {row.pair.left};
-  if (columns.has_right) cells.push_back(row.pair.right);
+std::vector<cv::Mat> cells_of(const SheetRow& row, const SheetColumns& columns, int width_px) {
+  std::vector<cv::Mat> cells = {photograph(row.pair.left, width_px)};
+  if (columns.has_right) cells.push_back(photograph(row.pair.right, width_px));
   if (columns.has_nearness)
     cells.push_back(row.nearness.empty() ? cv::Mat() : nearness_picture(row.nearness, columns.most));
   if (columns.has_balls)
-    cells.push_back(row.ball_id.size() == row.pair.left.size() ? ball_picture(row.ball_id, row.pair.left)
-                                                               : cv::Mat());
+    cells.push_back(row.ball_id.size() == row.pair.left.size()
+                        ? photograph(ball_picture(row.ball_id, row.pair.left), width_px)
+                        : cv::Mat());
   return cells;
 }
 
@@ -140,9 +156,9 @@ std::vector<std::string> titles_of(const SheetColumns& columns) {
   std::vector<std::string> titles = {"left"};
   if (columns.has_right) titles.emplace_back("right");
   if (columns.has_nearness && columns.is_disparity)
-    titles.push_back(fmt::format("disparity, red: {:.1f} px", columns.most));
+    titles.push_back(fmt::format("disparity, dark red is {:.1f} px, black is none", columns.most));
   else if (columns.has_nearness)
-    titles.push_back(fmt::format("depth, red: {:.2f} m", 1.0F / columns.most));
+    titles.push_back(fmt::format("depth, dark red is {:.2f} m, black is none", 1.0F / columns.most));
   if (columns.has_balls) titles.emplace_back("balls");
   return titles;
 }
@@ -159,8 +175,6 @@ class Sheet {
     const cv::Rect place(left_px(column), top_px(row), cell_.width, cell_.height);
     cv::Mat small(cell_, CV_8UC3, cv::Scalar::all(225));
     if (!picture.empty()) cv::resize(picture, small, cell_, 0, 0, cv::INTER_AREA);
-    // Five bits a channel look the same, and leave out noise that PNG cannot pack.
-    cv::bitwise_and(small, cv::Scalar::all(0xF8), small);
     small.copyTo(picture_(place));
   }
   int left_px(std::size_t column) const {
@@ -186,11 +200,9 @@ void write_within(Canvas& canvas, const Point& at, const std::string& text, Text
 std::string drawn(const std::vector<SheetRow>& rows, const SheetColumns& columns, const std::string& name,
                   int width_px) {
   const std::vector<std::string> titles = titles_of(columns);
-  const cv::Size first = rows.front().pair.left.size();
-  const cv::Size cell(width_px, std::max(1, width_px * first.height / first.width));
-  Sheet sheet(titles.size(), rows.size(), cell);
+  Sheet sheet(titles.size(), rows.size(), cell_size(rows.front().pair.left.size(), width_px));
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const std::vector<cv::Mat> cells = cells_of(rows[row], columns);
+    const std::vector<cv::Mat> cells = cells_of(rows[row], columns, width_px);
     for (std::size_t column = 0; column < cells.size(); ++column) sheet.put(row, column, cells[column]);
   }
   Canvas canvas(sheet.picture());
@@ -199,8 +211,8 @@ std::string drawn(const std::vector<SheetRow>& rows, const SheetColumns& columns
   for (std::size_t column = 0; column < titles.size(); ++column)
     write_within(canvas, {static_cast<double>(sheet.left_px(column)), 36.0}, titles[column], {}, width_px);
   for (std::size_t row = 0; row < rows.size(); ++row)
-    write_within(canvas, {kGap_px, sheet.top_px(row) - 0.5 * kLabel_px}, rows[row].name, {.size_px = 11.0},
-                 whole_px);
+    write_within(canvas, {kGap_px, sheet.top_px(row) - 0.5 * kLabel_px},
+                 fmt::format("frame {}", rows[row].name), {.size_px = 11.0}, whole_px);
   return canvas.png();
 }
 
