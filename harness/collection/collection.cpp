@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/collection/picture_keys.h"
 #include "harness/experiment/seeds.h"
 #include "worlds/yaml/fields.h"
 #include "worlds/yaml/yaml_document.h"
@@ -184,6 +185,8 @@ const Fields<Collection>& collection_keys() {
           .by<Collection>(read_truth),
       choice("truth_format", {"exact", "kitti"}, "How disparity, match and flow are written.")
           .fills(&Collection::truth, &TruthRequest::format),
+      group("pictures", picture_keys(), "What is changed of pictures, as by the options of render.")
+          .fills(&Collection::change),
       group("drives", drive_keys(), "What is rendered.").list(1, kMostDrives).needed(),
   });
   return keys;

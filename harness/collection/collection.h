@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/dataset/formats/format_registry.h"
+#include "harness/dataset/pictures/picture_change.h"
 #include "harness/dataset/truth/truth_request.h"
 #include "harness/drive/frame_choice.h"
 
@@ -57,6 +58,7 @@ struct Collection {
   CollectionAbout about;
   std::vector<const DatasetFormat*> formats = {&dataset_formats().front()};
   TruthRequest truth;
+  PictureChange change;  ///< of all drives
   std::vector<DriveGroup> drives;
 };
 

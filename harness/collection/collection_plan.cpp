@@ -22,7 +22,8 @@ RenderRequest request_of(const Collection& collection, const DriveGroup& drives,
                            .backend = backend,
                            .formats = collection.formats,
                            .truth = collection.truth,
-                           .frames = drives.frames};
+                           .frames = drives.frames,
+                           .change = collection.change};
   request.overrides.insert(request.overrides.end(), variation.set.begin(), variation.set.end());
   return request;
 }

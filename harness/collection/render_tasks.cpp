@@ -37,9 +37,10 @@ nlohmann::ordered_json identity_of(const RenderRequest& request, const Experimen
       {"files_sha256", hashes_of_named_files(request.scenario, request.overrides)}};
   identity[kBallSize] = {{"radius_m", scenario.world.ball_radius_m()},
                          {"radius_sd_m", scenario.world.ball_radius_sd_m}};
-  identity[kDrive] = drive_json(drive_of(scenario, scenario.world, 0));
+  identity[kDrive] = drive_json(changed(drive_of(scenario, scenario.world, 0), request.change));
   if (scenario.rows_within_px != vision::ObserverSettings{}.rows_within_px)
     identity[kRowsWithin] = scenario.rows_within_px;
+  if (request.change.changes_anything()) identity[kPictures] = change_json(request.change);
   return identity;
 }
 
@@ -64,8 +65,9 @@ void check_request(const RenderRequest& request, const Experiment& experiment) {
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",
         request.scenario.string()));
-  const DatasetDrive drive = drive_of(scenario, scenario.world, 0, request.frames, request.truth);
-  for (const DatasetFormat* format : request.formats) format->check(drive);
+  const DatasetDrive drive =
+      changed(drive_of(scenario, scenario.world, 0, request.frames, request.truth), request.change);
+  for (const DatasetFormat* format : request.formats) check_format(*format, drive);
   const bool has_plain =
       std::ranges::any_of(request.formats, [](const DatasetFormat* format) { return is_plain(*format); });
   if (!has_plain && !request.truth.kinds.empty())
@@ -86,7 +88,8 @@ std::vector<RenderTask> render_tasks(const RenderRequest& request, const Experim
                      .frames = frames,
                      .truth = request.truth,
                      .backend = request.backend,
-                     .datasets = {}});
+                     .datasets = {},
+                     .change = request.change});
     for (const DatasetFormat* format : request.formats) {
       const std::filesystem::path folder = folder_of(out, *format, request.formats);
       tasks.back().datasets.push_back({format,

@@ -18,6 +18,7 @@ struct RenderRequest {
   std::vector<const DatasetFormat*> formats = {&dataset_formats().front()};
   TruthRequest truth;
   FrameChoice frames;  ///< as it was asked for
+  PictureChange change = {};
 };
 
 /// Makes sure that there are pictures to render, that each format holds the drive, and that one of them has a

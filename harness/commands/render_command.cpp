@@ -15,6 +15,7 @@ struct RenderArguments {
   FrameChoice frames;
   std::vector<const DatasetFormat*> formats = {&dataset_formats().front()};
   TruthRequest truth;
+  std::shared_ptr<PictureChange> change = std::make_shared<PictureChange>();
 };
 
 RenderRequest request_of(const RenderArguments& arguments) {
@@ -23,7 +24,8 @@ RenderRequest request_of(const RenderArguments& arguments) {
           .backend = arguments.scenario.backend,
           .formats = arguments.formats,
           .truth = arguments.truth,
-          .frames = arguments.frames};
+          .frames = arguments.frames,
+          .change = *arguments.change};
 }
 
 int render(const RenderArguments& arguments) {
@@ -84,6 +86,7 @@ void add_render_command(CLI::App& program, Action& action) {
           "which steps of the drive get pictures: 7, 0..90 or 0..90:10, every tenth of them (default: all); "
           "their files are the same as those of the whole drive")
       ->type_name("A..B:STEP");
+  add_picture_options(*command, arguments->change);
   add_format_option(*command, arguments);
   CLI::Option* const truth = command->add_option_function<std::string>(
       "--truth", [arguments](const std::string& text) { arguments->truth.kinds = parse_truth(text); },
@@ -102,6 +105,8 @@ void add_render_command(CLI::App& program, Action& action) {
       "balls.csv and the log that `stereobench slam` reads. --truth adds folders of the same names for\n"
       "each camera (left_flow/...), those of disparity, match and flow with what becomes of each pixel\n"
       "there: 0 nothing, 85 out of the other picture, 170 hidden in it, 255 seen.\n"
+      "--every, --crop, --scale and --picture change what is written: calibration and truth go with it, and\n"
+      "the observations of the log stay those of the whole pictures.\n"
       "Default: the first seed of the scenario, to out/<name>_dataset; of several seeds each has a\n"
       "folder of its own there (seed_0/). Interrupted, it goes on where it was; what is complete is\n"
       "left as it is.\n\n"

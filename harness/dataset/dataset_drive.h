@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/dataset/pictures/picture_kind.h"
 #include "harness/dataset/truth/truth_request.h"
 #include "harness/drive/frame_choice.h"
 #include "worlds/types.h"
@@ -36,6 +37,7 @@ struct DatasetDrive {
   std::vector<DriveStep> steps;                           ///< all of the path
   TruthRequest truth;                                     ///< what was asked for beside the pictures
   std::string draws;                                      ///< what the seed drew (draws_file.h)
+  PictureKind picture_kind = PictureKind::kColour;
 };
 
 /// The drive of a seed through a scenario.

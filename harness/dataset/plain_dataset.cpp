@@ -9,6 +9,7 @@
 #include "harness/dataset/dataset_truth.h"
 #include "harness/dataset/drive_json.h"
 #include "harness/dataset/formats/plain_format.h"
+#include "harness/dataset/pictures/picture_change.h"
 #include "harness/dataset/truth/ball_lines.h"
 #include "harness/io/file_list.h"
 #include "harness/io/float_picture.h"
@@ -36,6 +37,8 @@ void read_marker(const JsonValue& json, DatasetDrive& drive) {
       const auto known = parse_truth(kind.text());
       drive.truth.kinds.insert(drive.truth.kinds.end(), known.begin(), known.end());
     }
+  if (const auto pictures = json.find(kPictures))
+    if (const auto kind = pictures->find("kind")) drive.picture_kind = parse_picture_kind(kind->text());
   if (const auto format = json.find("truth_format")) drive.truth.format = parse_truth_format(format->text());
 }
 
@@ -110,7 +113,7 @@ std::optional<fs::path> PlainPair::file_of(Side side) const {
 
 cv::Mat PlainPair::picture(Side side) {
   const fs::path picture = file(side, "", ".png");
-  return sized(picture, read_picture(picture), CV_8UC3);
+  return sized(picture, read_exact_png(picture), type_of(dataset_.drive.picture_kind));
 }
 
 cv::Mat PlainPair::ball_id(Side side) {

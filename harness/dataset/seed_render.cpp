@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "harness/dataset/pictures/changed_pair.h"
 #include "harness/dataset/truth/frame_truth.h"
 #include "harness/drive/recording.h"
 #include "harness/io/atomic_file.h"
@@ -35,7 +36,8 @@ std::vector<vision::BallObservation> sees_nothing(const DetectorInput&) {
 RenderedSeed render_seed(const RenderTask& task, const std::function<void(double)>& on_progress) {
   const worlds::Scenario& scenario = task.experiment->scenario;
   const worlds::World world = worlds::world_for_seed(scenario, task.seed);
-  const DatasetDrive drive = drive_of(scenario, world, task.seed, task.frames, task.truth);
+  const DatasetDrive drive =
+      changed(drive_of(scenario, world, task.seed, task.frames, task.truth), task.change);
   std::vector<DatasetOutput> outputs;
   for (const WantedDataset& wanted : task.datasets) outputs.emplace_back(wanted, drive);
   RenderedSeed rendered;
@@ -47,13 +49,16 @@ RenderedSeed render_seed(const RenderTask& task, const std::function<void(double
     return keep_outcome();
   keep_freed_memory();
   renderer::MeshCache meshes;  // for the pictures and for the truth
-  FrameTruth truth(scenario, world, meshes.forms());
+  const bool is_linear16 = task.change.kind == PictureKind::kLinear16;
+  FrameTruth truth(scenario, world, meshes.forms(), is_linear16 ? std::optional(task.seed) : std::nullopt);
   Listeners listeners;
-  listeners.is_wanted = [&](std::size_t step) { return task.frames.has(step); };
+  listeners.is_wanted = [&](std::size_t step) { return drive.steps[step].pictures.has_value(); };
   listeners.on_progress = on_progress;
+  listeners.wants_fine_light = is_linear16;
   listeners.on_frame = [&](const FrameEvent& event) {
     truth.look_at(event);
-    for (DatasetOutput& output : outputs) output.write(truth);
+    ChangedPair pair(truth, drive, task.change);
+    for (DatasetOutput& output : outputs) output.write(pair);
   };
   const Recording recording = record(*task.experiment, task.seed, listeners, task.backend,
                                      looks_for_balls(task) ? Detector() : sees_nothing, meshes.forms());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/dataset/dataset_output.h"
+#include "harness/dataset/pictures/picture_change.h"
 #include "harness/dataset/truth/truth_request.h"
 #include "harness/drive/frame_choice.h"
 #include "harness/drive/recording.h"
@@ -25,6 +26,7 @@ struct RenderTask {
   TruthRequest truth;
   renderer::Backend backend = renderer::Backend::kOsmesa;
   std::vector<WantedDataset> datasets;  ///< of the same pictures; at least one
+  PictureChange change = {};            ///< of all data sets
 };
 
 /// What became of a drive.

@@ -36,10 +36,8 @@ struct TakenPair {
 class StereoCamera {
  public:
   StereoCamera(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
-               renderer::Backend backend, const renderer::FormReader& read)
-      : scenario_(scenario),
-        seed_(seed),
-        renderer_(world, scenario.rig, backend, renderer::light_for(scenario.camera), read) {}
+               renderer::Backend backend, renderer::LightDepth light, const renderer::FormReader& read)
+      : scenario_(scenario), seed_(seed), renderer_(world, scenario.rig, backend, light, read) {}
 
   /// @return empty where the frame is lost
   std::optional<TakenPair> take(std::size_t index, Timing& timing) {
@@ -148,6 +146,14 @@ MeasurementLog log_without_sightings(const worlds::Scenario& scenario, const wor
   return log;
 }
 
+/// The light that the cameras and the onlookers need.
+renderer::LightDepth light_of(const std::vector<Onlooker>& onlookers) {
+  const bool is_fine = std::ranges::any_of(
+      onlookers, [](const Onlooker& onlooker) { return onlooker.listeners.wants_fine_light; });
+  return is_fine ? renderer::LightDepth::kSixteenBits
+                 : renderer::light_for(onlookers.front().experiment->scenario.camera);
+}
+
 void put(Sightings seen, LogStep& step) {
   step.measurements = std::move(seen.measurements);
   step.true_landmarks = std::move(seen.balls);
@@ -185,7 +191,8 @@ class SharedDrive {
  public:
   SharedDrive(const std::vector<Onlooker>& onlookers, const worlds::World& world, std::uint64_t seed,
               renderer::Backend backend, const renderer::FormReader& read)
-      : scenario_(onlookers.front().experiment->scenario), camera_(scenario_, world, seed, backend, read) {
+      : scenario_(onlookers.front().experiment->scenario),
+        camera_(scenario_, world, seed, backend, light_of(onlookers), read) {
     for (const Onlooker& onlooker : onlookers) {
       onlookers_.push_back(std::make_unique<StereoOnlooker>(onlooker, world, seed));
       onlookers_.back()->result().recording.log =

@@ -45,6 +45,7 @@ struct Listeners {
   std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
   std::function<void(const FrameEvent&)> on_frame = [](const FrameEvent&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]
+  bool wants_fine_light = false;  ///< a frame's light has 16 bits, also where the camera needs but 8
 };
 
 /// What one seed's drive gave.

@@ -249,17 +249,15 @@ class Encoder {
   std::array<std::uint8_t, 255 * kStepsPerLevel + 1> codes_{};
 };
 
-}  // namespace
-
-cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
-                std::uint64_t sequence) {
+/// Hands on the levels of each row, not yet encoded.
+template <class TakeRow>
+void develop_rows(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                  std::uint64_t sequence, const TakeRow& take) {
   std::optional<Defocus> defocus;
   if (sensor.defocus_sd_px > 0.0) defocus.emplace(light, sensor.defocus_sd_px);
   const float per_level = light.depth() == CV_16U ? float{kStepsOfALevel} : 1.0F;
   Row row(3 * static_cast<std::size_t>(light.cols));
   Chip chip(sensor, seed, sequence, row.size());
-  const Encoder encoder(sensor);
-  cv::Mat levels(light.size(), CV_8UC3);
   for (int y = 0; y < light.rows; ++y) {
     if (defocus)
       defocus->take(y, row);
@@ -269,10 +267,30 @@ cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::u
       for (float& level : row) level /= per_level;
     if (sensor.vignette > 0.0) darken_corners(row, y, light.size(), sensor.vignette);
     chip.develop(row, y);
-    std::uint8_t* stored = levels.ptr(y);
-    for (std::size_t i = 0; i < row.size(); ++i) stored[i] = encoder(row[i]);
+    take(row, y);
   }
+}
+
+}  // namespace
+
+cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                std::uint64_t sequence) {
+  const Encoder encoder(sensor);
+  cv::Mat levels(light.size(), CV_8UC3);
+  develop_rows(light, sensor, seed, sequence,
+               [&](const Row& row, int y) { std::ranges::transform(row, levels.ptr(y), encoder); });
   return levels;
+}
+
+cv::Mat develop_linear16(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                         std::uint64_t sequence) {
+  cv::Mat steps(light.size(), CV_16UC3);
+  develop_rows(light, sensor, seed, sequence, [&](const Row& row, int y) {
+    std::ranges::transform(row, steps.ptr<std::uint16_t>(y), [](float level) {
+      return static_cast<std::uint16_t>(std::clamp(level, 0.0F, kWhite) * float{kStepsOfALevel} + 0.5F);
+    });
+  });
+  return steps;
 }
 
 cv::Mat in_levels(const cv::Mat& light) {

@@ -22,6 +22,11 @@ namespace stereobench::renderer {
 cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
                 std::uint64_t sequence);
 
+/// The same before levels are encoded and rounded, with the same noise.
+/// @return CV_16UC3, linear, in steps of 1/257 level: 65535 is level 255
+cv::Mat develop_linear16(const cv::Mat& light, const worlds::CameraSensor& sensor, std::uint64_t seed,
+                         std::uint64_t sequence);
+
 /// Light in whole levels, rounded. @param light as develop() takes it
 cv::Mat in_levels(const cv::Mat& light);
 

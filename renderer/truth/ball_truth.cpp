@@ -55,10 +55,6 @@ BallTruth truth_of(const worlds::Ball& ball, const Eigen::Vector3d& in_camera,
   truth.centre_in_camera_m = in_camera;
   truth.centre_px = vision::project(camera, in_camera);
   truth.outline = *vision::sphere_outline(camera, in_camera, ball.radius_m);
-  const PixelSet whole = pixels_within(truth.outline);
-  truth.px_count_all = whole.count;
-  truth.bbox_obj = whole.box;
-  truth.truncated = !vision::lies_inside(camera, truth.outline);
   return truth;
 }
 
@@ -94,25 +90,35 @@ cv::Mat mask_within(const vision::OutlineEllipse& outline, const cv::Size& size)
   return mask;
 }
 
+std::vector<BallTruth> counted(std::vector<BallTruth> truths, const vision::Intrinsics& camera,
+                               const cv::Mat& ball_id) {
+  const std::array<PixelSet, 256> seen = pixels_by_id(ball_id);
+  std::erase_if(truths, [&](const BallTruth& truth) { return !meets_picture(camera, truth.outline); });
+  for (BallTruth& truth : truths) {
+    const PixelSet whole = pixels_within(truth.outline);
+    const PixelSet& visible = seen[static_cast<std::size_t>(truth.ball) + 1];
+    truth.px_count_all = whole.count;
+    truth.bbox_obj = whole.box;
+    truth.truncated = !vision::lies_inside(camera, truth.outline);
+    truth.px_count_visib = visible.count;
+    truth.bbox_visib = visible.box;
+    truth.visib_fract =
+        whole.count > 0 ? static_cast<double>(visible.count) / static_cast<double>(whole.count) : 0.0;
+  }
+  return truths;
+}
+
 std::vector<BallTruth> ball_truths(const worlds::World& world, const CameraView& view,
                                    const cv::Mat& ball_id) {
-  const std::array<PixelSet, 256> seen = pixels_by_id(ball_id);
   std::vector<BallTruth> truths;
   for (std::size_t i = 0; i < world.balls.size(); ++i) {
     const worlds::Ball& ball = world.balls[i];
     const Eigen::Vector3d in_camera = view.camera_from_world * ball.centre_m;
     if (!(in_camera.z() - ball.radius_m > kNear_m)) continue;  // not drawn (renderer.h)
-    BallTruth truth = truth_of(ball, in_camera, view.intrinsics);
-    if (!meets_picture(view.intrinsics, truth.outline)) continue;
-    truth.ball = static_cast<int>(i);
-    truth.px_count_visib = seen[i + 1].count;
-    truth.bbox_visib = seen[i + 1].box;
-    if (truth.px_count_all > 0) {
-      truth.visib_fract = static_cast<double>(truth.px_count_visib) / static_cast<double>(truth.px_count_all);
-    }
-    truths.push_back(truth);
+    truths.push_back(truth_of(ball, in_camera, view.intrinsics));
+    truths.back().ball = static_cast<int>(i);
   }
-  return truths;
+  return counted(std::move(truths), view.intrinsics, ball_id);
 }
 
 }  // namespace stereobench::renderer

@@ -40,6 +40,12 @@ struct BallTruth {
   bool truncated = false;                               ///< the outline reaches out of the picture
 };
 
+/// Those of some balls whose outlines meet a picture, with their pixels counted and boxed there.
+/// @param truths of which all but counts, boxes and `truncated` are known
+/// @param camera, ball_id of the picture; ball_id is CV_8UC1
+std::vector<BallTruth> counted(std::vector<BallTruth> truths, const vision::Intrinsics& camera,
+                               const cv::Mat& ball_id);
+
 /// The balls whose outlines meet a camera's picture, hidden ones included, in order of the balls.
 /// @param ball_id CV_8UC1, as rendered from there
 std::vector<BallTruth> ball_truths(const worlds::World& world, const CameraView& view,

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/pictures/picture_change.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -31,6 +33,8 @@ std::string command_of(const DatasetFacts& facts) {
     add("set", change.get<std::string>());
   if (marker.contains("seed")) add("seeds", marker["seed"].dump());
   if (marker.contains("asked_frames")) add("frames", marker["asked_frames"].get<std::string>());
+  if (marker.contains(kPictures))
+    for (const auto& [option, value] : change_options(marker[kPictures])) add(option, value);
   if (marker.contains("backend")) add("backend", marker["backend"].get<std::string>());
   if (marker.contains("format")) add("format", format_of(facts));
   if (marker.contains("truth"))

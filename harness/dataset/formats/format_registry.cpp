@@ -27,9 +27,11 @@
 namespace stereobench::harness {
 namespace {
 
-/// One row a format: name, what it holds, the truth that it needs, what it refuses, how it starts.
+/// One row a format: name, what it holds, the truth that it needs, what it refuses, how it starts, and which
+/// kinds of picture its readers take.
 constexpr auto kFormats = std::to_array<DatasetFormat>({
-    {"plain", "ids, depth, calibration and truth", "", check_plain_format, plain_writer},
+    {"plain", "ids, depth, calibration and truth", "", check_plain_format, plain_writer,
+     "colour, grey, bayer-rggb, linear16"},
     {"kitti-odometry", "poses, as in KITTI odometry", "", check_kitti_odometry_format, kitti_odometry_writer},
     {"kitti-stereo", "disparity, as in KITTI stereo 2015", "disparity,flow", check_kitti_stereo_format,
      kitti_stereo_writer},
@@ -37,22 +39,33 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
      kitti_stereo_2012_writer},
     {"kitti-scene-flow", "disparity and flow, as in KITTI scene flow 2015", "disparity,flow",
      check_kitti_scene_flow_format, kitti_scene_flow_writer},
-    {"euroc", "poses, as in EuRoC MAV", "", check_euroc_format, euroc_writer},
+    {"euroc", "poses, as in EuRoC MAV", "", check_euroc_format, euroc_writer, "colour, grey"},
     {"tum", "depth and poses of the left camera, as in TUM RGB-D", "", check_tum_format, tum_writer},
     {"middlebury", "disparity, as in Middlebury 2014", "disparity", check_middlebury_format,
      middlebury_writer},
-    {"eth3d", "disparity, as in ETH3D's two-view benchmark", "disparity", check_eth3d_format, eth3d_writer},
+    {"eth3d", "disparity, as in ETH3D's two-view benchmark", "disparity", check_eth3d_format, eth3d_writer,
+     "colour, grey"},
     {"sceneflow", "disparity, flow and poses, as in Scene Flow's Monkaa", "disparity,flow",
      check_sceneflow_format, sceneflow_writer},
     {"vslamlab", "poses, as VSLAM-LAB has them", "", check_vslamlab_format, vslamlab_writer},
-    {"colmap", "poses and ball centres, as a model of COLMAP", "", check_colmap_format, colmap_writer},
-    {"coco", "boxes and masks of balls, as in COCO", "balls", check_coco_format, coco_writer},
+    {"colmap", "poses and ball centres, as a model of COLMAP", "", check_colmap_format, colmap_writer,
+     "colour, grey"},
+    {"coco", "boxes and masks of balls, as in COCO", "balls", check_coco_format, coco_writer, "colour, grey"},
     {"bop", "6-D poses, masks and depth, as in BOP", "balls", check_bop_format, bop_writer},
     {"nerfstudio", "poses and depth, as Nerfstudio reads them", "", check_nerfstudio_format,
      nerfstudio_writer},
 });
 
 }  // namespace
+
+void check_format(const DatasetFormat& format, const DatasetDrive& drive) {
+  format.check(drive);
+  const std::string_view kind = name_of(drive.picture_kind);
+  if (format.pictures.find(kind) == std::string_view::npos)
+    throw std::runtime_error(
+        fmt::format("the format {} has no place for pictures of the kind {}; it holds {}", format.name, kind,
+                    format.pictures));
+}
 
 bool is_plain(const DatasetFormat& format) {
   return format.name == kFormats.front().name;

@@ -20,7 +20,11 @@ struct DatasetFormat {
   void (*check)(const DatasetDrive& drive);
   /// Starts on a drive that was checked. @param drive outlives the writer
   std::unique_ptr<DatasetWriter> (*make)(const DatasetDrive& drive);
+  std::string_view pictures = "colour";  ///< the kinds of picture that it holds (picture_kind.h)
 };
+
+/// Refuses what a format cannot hold, its pictures' kind included. @throws std::runtime_error, one line
+void check_format(const DatasetFormat& format, const DatasetDrive& drive);
 
 /// Whether it is the first one, which holds everything.
 bool is_plain(const DatasetFormat& format);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "renderer/camera/sensor_model.h"
 #include "renderer/truth/distorted_ids.h"
 #include "worlds/drive/path.h"
 
@@ -24,8 +25,8 @@ Side other(Side side) {
 }  // namespace
 
 FrameTruth::FrameTruth(const worlds::Scenario& scenario, const worlds::World& world,
-                       renderer::FormReader read)
-    : scenario_(scenario), world_(world), read_(std::move(read)) {}
+                       renderer::FormReader read, std::optional<std::uint64_t> linear16_seed)
+    : scenario_(scenario), world_(world), read_(std::move(read)), linear16_seed_(linear16_seed) {}
 
 void FrameTruth::look_at(const FrameEvent& event) {
   buffers_.erase(buffers_.begin(), buffers_.lower_bound(event.step));
@@ -34,6 +35,9 @@ void FrameTruth::look_at(const FrameEvent& event) {
 }
 
 cv::Mat FrameTruth::picture(Side side) {
+  if (linear16_seed_)
+    return renderer::develop_linear16(image(side).colour, scenario_.camera, *linear16_seed_,
+                                      2 * event_->step + static_cast<std::uint64_t>(side));
   return side == Side::kLeft ? event_->pair.left : event_->pair.right;
 }
 

@@ -19,7 +19,10 @@ class FrameTruth final : public DatasetPair {
  public:
   /// @param scenario, world as they are rendered; they outlive this
   /// @param read meshes, when truth is first asked for
-  FrameTruth(const worlds::Scenario& scenario, const worlds::World& world, renderer::FormReader read);
+  /// @param linear16_seed pictures are linear, of 16 bits (PictureKind::kLinear16), with the noise of this
+  /// seed
+  FrameTruth(const worlds::Scenario& scenario, const worlds::World& world, renderer::FormReader read,
+             std::optional<std::uint64_t> linear16_seed = {});
 
   /// Takes up a pair. Pairs come in the order of their steps, each with its renderer.
   /// @param event outlives what is asked of it
@@ -52,6 +55,7 @@ class FrameTruth final : public DatasetPair {
   const worlds::Scenario& scenario_;
   const worlds::World& world_;
   renderer::FormReader read_;
+  std::optional<std::uint64_t> linear16_seed_;
   std::optional<renderer::SceneGeometry> scene_;
   const FrameEvent* event_ = nullptr;
   std::array<Known, 2> known_;                                   ///< by Side

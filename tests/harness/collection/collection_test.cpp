@@ -127,5 +127,26 @@ TEST(Shard, HasEachDriveOnce) {
     EXPECT_THROW(parse_shard(bad), std::runtime_error) << bad;
 }
 
+// Mutations: the cut's width and height exchanged; what is wrong told as of an option.
+TEST(CollectionFile, ChangesPictures) {
+  const std::string rest = "\ndrives: [{name: one, scenario: one.yaml, seeds: {train: 0}}]\n";
+  const WrittenCollection written(
+      "dataset: trial\npictures: {every: 3, crop: [8, 4, 64, 32], scale: 1/2, kind: bayer-rggb}" + rest);
+  const PictureChange change = written.read().change;
+  EXPECT_EQ(change.every, 3U);
+  EXPECT_EQ(change.crop, cv::Rect(8, 4, 64, 32));
+  EXPECT_EQ(change.divide, 2);
+  EXPECT_EQ(change.kind, PictureKind::kBayer);
+  for (const auto& [line, complaint] :
+       {std::pair("pictures: {scale: 0.5}", "set.yaml:2: pictures.scale: expected 1/N, as 1/2 (got 0.5)"),
+        std::pair("pictures: {crop: [1, 2, 3]}", "set.yaml:2: pictures.crop: expected a list of 4"),
+        std::pair("pictures: {crop: [0, 0, 0, 3]}", "set.yaml:2: pictures.crop[2]: expected a whole number"),
+        std::pair("pictures: {every: 0}", "set.yaml:2: pictures.every: expected a whole number"),
+        std::pair("pictures: {kind: rgb}",
+                  "set.yaml:2: pictures.kind: expected colour, grey, bayer-rggb or")})
+    EXPECT_THAT(WrittenCollection(std::string("dataset: trial\n") + line + rest).complaint(),
+                HasSubstr(complaint));
+}
+
 }  // namespace
 }  // namespace stereobench::harness

@@ -1,12 +1,8 @@
 #include "harness/dataset/dataset_export.h"
 
-#include <map>
-
 #include <gmock/gmock.h>
 
-#include "harness/dataset/drive_json.h"
-#include "harness/dataset/seed_render.h"
-#include "tests/harness/dataset/formats/written_drive.h"
+#include "tests/harness/dataset/rendered_twice.h"
 
 namespace stereobench::harness {
 
@@ -16,64 +12,14 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-std::map<std::string, std::string> bytes_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).generic_string()] = {std::istreambuf_iterator<char>(stream),
-                                                                  std::istreambuf_iterator<char>()};
-  }
-  return files;
-}
-
-/// A drive of odd numbers, rendered in the format plain, and in another one.
-class RenderedTwice {
- public:
-  explicit RenderedTwice(const DatasetFormat& format, const std::string& truth = "balls,disparity,flow",
-                         TruthFormat truth_format = TruthFormat::kExact) {
-    const worlds::Scenario& scenario = experiment_.scenario;
-    nlohmann::ordered_json identity = {{"stereobench", STEREOBENCH_VERSION},
-                                       {"seed", 3},
-                                       {kDrive, drive_json(drive_of(scenario, scenario.world, 3))}};
-    RenderTask task = {.experiment = &experiment_,
-                       .seed = 3,
-                       .frames = {},
-                       .truth = {truth.empty() ? std::vector<TruthKind>() : parse_truth(truth), truth_format},
-                       .datasets = {}};
-    nlohmann::ordered_json plain = identity, other = identity;
-    for (const TruthKind kind : task.truth.kinds) plain["truth"].push_back(name_of(kind));
-    if (truth_format == TruthFormat::kKitti) plain["truth_format"] = "kitti";
-    other["format"] = format.name;
-    task.datasets = {{&dataset_formats().front(), folder("plain"), plain},
-                     {&format, folder("rendered"), other}};
-    render_seeds({task}, 1, "");
-  }
-  fs::path folder(const std::string& name) const { return folder_.path() / name; }
-  const TestFolder& files() const { return folder_; }
-
- private:
-  static worlds::Scenario odd_drive() {
-    worlds::Scenario scenario = tilted_drive();
-    scenario.rig.intrinsics.focal_px = 140.1;
-    scenario.rig.height_m = 0.31;
-    scenario.believed_rig = scenario.rig;
-    for (std::size_t i = 0; i < scenario.path.size(); ++i)
-      scenario.path[i].pose.y_m = 0.1 / 3.0 * static_cast<double>(i);
-    return scenario;
-  }
-  TestFolder folder_;
-  Experiment experiment_ = {.scenario = odd_drive()};
-};
-
 class EveryExport : public testing::TestWithParam<DatasetFormat> {};
 
 // Law: what is exported is what would have been rendered, to the byte, dataset.json and all. Mutations: the
 // right camera's flow for the left one's; numbers of four digits; the time of the step before.
 TEST_P(EveryExport, IsWhatWouldHaveBeenRendered) {
   const RenderedTwice drive(GetParam());
-  const auto written =
-      export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {});
+  const auto written = export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"),
+                                      PictureChange{}, [](double) {});
   EXPECT_EQ(written.front().pairs, 3);
   const auto rendered = bytes_in(drive.folder("rendered")), exported = bytes_in(drive.folder("exported"));
   for (const auto& [name, bytes] : rendered) {
@@ -81,7 +27,8 @@ TEST_P(EveryExport, IsWhatWouldHaveBeenRendered) {
     EXPECT_TRUE(exported.at(name) == bytes) << name;
   }
   EXPECT_EQ(rendered.size(), exported.size());
-  EXPECT_TRUE(export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), [](double) {})
+  EXPECT_TRUE(export_dataset(drive.folder("plain"), {&GetParam()}, drive.folder("exported"), PictureChange{},
+                             [](double) {})
                   .front()
                   .was_complete);
 }
@@ -96,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryExport,
 
 std::string complaint_of(const fs::path& folder, const char* format, const fs::path& out) {
   try {
-    export_dataset(folder, {&dataset_format(format)}, out, [](double) {});
+    export_dataset(folder, {&dataset_format(format)}, out, PictureChange{}, [](double) {});
   } catch (const std::runtime_error& error) {
     return error.what();
   }
