@@ -10,6 +10,7 @@
 #include "harness/dataset_import/imported_rig.h"
 #include "harness/frames/linked_files.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/file_list.h"
 #include "harness/logs/measurement_log_writer.h"
 #include "harness/verify/verify_dataset.h"
 
@@ -124,7 +125,7 @@ std::vector<LogFile> tables_of(const ImportedFrames& imported, const ImportedDat
                                bool has_odometry) {
   std::vector<LogFile> tables;
   if (done.log) tables = has_odometry ? log_files(done.log->log) : time_files(done.log->log);
-  tables.push_back({"pictures.csv", pictures_csv(imported)});
+  tables.push_back({kPicturesFile, pictures_csv(imported)});
   if (done.calibration)
     tables.push_back({kCalibrationFile, calibration_yaml(done.calibration->rig, done.calibration->cameras)});
   return tables;

@@ -112,21 +112,21 @@ ImportedFrames frames_to_import(const DatasetView& view, const std::string& only
 }
 
 void keep_frames_with_poses(const DatasetView& view, ImportedFrames& imported) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(
+        fmt::format("{}: --odometry-from-truth: {} (format {})", view.folder.string(), why, view.format));
+  };
+  if (!imported.have_times) refuse("there are no times");
   const auto has_pose = [](const ViewFrame& frame) { return frame.world_from_body[0].has_value(); };
   std::vector<ViewFrame>& frames = imported.frames;
   const std::size_t before = frames.size();
   const auto first = std::ranges::find_if(frames, has_pose);
-  if (first == frames.end())
-    throw std::runtime_error(fmt::format("{}: --odometry-from-truth: there are no true poses (format {})",
-                                         view.folder.string(), view.format));
+  if (first == frames.end()) refuse("there are no true poses");
   frames.erase(frames.begin(), first);
   while (!has_pose(frames.back())) frames.pop_back();
   const auto gap = std::ranges::find_if_not(frames, has_pose);
   if (gap != frames.end())
-    throw std::runtime_error(
-        fmt::format("{}: --odometry-from-truth: no true pose within 0.25 s of frame {}, between others that "
-                    "have one",
-                    view.folder.string(), gap->name));
+    refuse(fmt::format("no true pose within 0.25 s of frame {}, between others that have one", gap->name));
   imported.left_out += before - frames.size();
   number_from_zero(imported);
 }

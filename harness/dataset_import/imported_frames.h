@@ -29,7 +29,7 @@ struct ImportedFrames {
 ImportedFrames frames_to_import(const DatasetView& view, const std::string& only);
 
 /// Leaves out what is before the first true pose and after the last one, and numbers the others from 0.
-/// @throws std::runtime_error, one line, where there are no poses, or one between them is missing
+/// @throws std::runtime_error, one line, where there are no times or poses, or one between them is missing
 void keep_frames_with_poses(const DatasetView& view, ImportedFrames& imported);
 
 }  // namespace stereobench::harness
