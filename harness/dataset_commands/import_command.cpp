@@ -59,7 +59,7 @@ int import_folder(ImportArguments arguments) {
   ImportRequest& request = arguments.request;
   request.folder = arguments.folder;
   request.reader = &foreign_reader(arguments);
-  if (arguments.pitch_down_deg) request.pitch_down_rad = *arguments.pitch_down_deg / slam::kDegreesPerRad;
+  if (arguments.pitch_down_deg) request.pitch_down_rad = *arguments.pitch_down_deg * slam::kRadPerDegree;
   const std::string name = fs::absolute(arguments.folder / "").parent_path().filename().string();
   ImportedDataset done;
   {
