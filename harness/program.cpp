@@ -75,6 +75,7 @@ int run_command_line(int argc, char** argv) {
   add_merge_command(program, action);
   add_verify_command(program, action);
   add_preview_command(program, action);
+  add_import_command(program, action);
   add_slam_command(program, action);
   add_compare_command(program, action);
   add_test_command(program, action);

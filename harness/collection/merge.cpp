@@ -1,10 +1,10 @@
 #include "harness/collection/merge.h"
 
 #include <optional>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "harness/frames/linked_files.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
@@ -13,8 +13,6 @@ namespace stereobench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kCopiesAtATime = 32;  ///< half of AtomicFile::kMostAtATime
 
 /// Where a data set is taken from.
 struct Source {
@@ -88,7 +86,7 @@ class Placement {
   /// Puts all files and the manifest there, which comes last.
   void place() {
     for (const auto& [name, hash] : source_.files) place(name, hash);
-    copies_.move_into_place();
+    files_.move_into_place();
     sync_file_system(target_);
     write_file_atomically(target_ / kManifest, manifest_text(source_.files));
   }
@@ -101,20 +99,12 @@ class Placement {
       throw std::runtime_error(fmt::format(
           "{}: is not as it was rendered; render its shard again, which restores it", from.string()));
     prepare_output_folder(to.parent_path());
-    std::error_code error;
-    fs::remove(to);
-    fs::create_hard_link(from, to, error);
-    if (!error) return;
-    copies_.write(to, read_text(from));
-    if (++waiting_ < kCopiesAtATime) return;
-    copies_.move_into_place();
-    waiting_ = 0;
+    files_.place(from, to);
   }
 
   const Source& source_;
   fs::path target_;
-  AtomicFiles copies_;
-  std::size_t waiting_ = 0;
+  LinkedFiles files_;
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ void add_dataset_command(CLI::App& program, Action& action);
 void add_merge_command(CLI::App& program, Action& action);
 void add_verify_command(CLI::App& program, Action& action);
 void add_preview_command(CLI::App& program, Action& action);
+void add_import_command(CLI::App& program, Action& action);
 void add_slam_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_test_command(CLI::App& program, Action& action);

@@ -92,7 +92,7 @@ void replay_seeds(const MeasurementLog& log, const std::optional<ScoredDetection
 RunResult result_without_runs(const SlamArguments& arguments) {
   RunResult nothing_yet;
   nothing_yet.recorded.emplace();
-  if (!arguments.detections.empty()) nothing_yet.vision = VisionScore{};
+  if (!arguments.detections.empty() && !is_imported(arguments.log)) nothing_yet.vision = VisionScore{};
   for (const std::string& filter : arguments.run.filters) nothing_yet.filters.push_back({.filter = filter});
   return nothing_yet;
 }
@@ -107,6 +107,17 @@ void print_summary(const RunResult& result, std::size_t seeds, const RecordedLog
   for (const std::string& line : result.assumed) fmt::print("assumed: {}\n", line);
 }
 
+/// Puts detections of a file in place of the log's sightings, where there is one.
+/// @return their score, where the world is known
+std::optional<ScoredDetections> replace_by_detections(const SlamArguments& arguments, MeasurementLog& log) {
+  if (arguments.detections.empty()) return std::nullopt;
+  if (!is_imported(arguments.log))
+    return replace_sightings(log, arguments.log, arguments.detections, arguments.identity,
+                             arguments.run.seeds.front());
+  take_sightings(log, arguments.log, arguments.detections, arguments.identity);
+  return std::nullopt;
+}
+
 int run_slam(SlamArguments arguments) {
   RunArguments& run = arguments.run;
   if (run.filters.empty()) run.filters = slam::usual_filter_names();
@@ -115,10 +126,7 @@ int run_slam(SlamArguments arguments) {
   check_metrics(run.gates, run_json(result_without_runs(arguments)));
   require_as_rendered(arguments.log);
   RecordedLog recorded = read_log(arguments.log, arguments.log_says);
-  std::optional<ScoredDetections> detections;
-  if (!arguments.detections.empty())
-    detections = replace_sightings(recorded.log, arguments.log, arguments.detections, arguments.identity,
-                                   run.seeds.front());
+  const std::optional<ScoredDetections> detections = replace_by_detections(arguments, recorded.log);
   const std::string name = name_of(arguments.log);
   const std::filesystem::path out = output_folder(run, name);
   if (run.dry_run) {
@@ -136,7 +144,7 @@ int run_slam(SlamArguments arguments) {
   RunOutput output(out, RunTally(name, kNoBackend, Seeds::kFilters));
   replay_seeds(recorded.log, detections, arguments, output);
   RunResult result = output.result();
-  if (detections) result.detector = "file";
+  if (!arguments.detections.empty()) result.detector = "file";
   result.recorded = recorded.facts;
   // Factors on the noise would be those of errors that are each their own.
   if (recorded.facts.lasting_errors.time_s.isZero())
@@ -236,13 +244,14 @@ void add_detection_options(CLI::App& command, SlamArguments& arguments) {
                                                          {"none", worlds::Identity::kNone}};
   CLI::Option* file = command.add_option(
       "--detections", arguments.detections,
-      "lines of JSON with what a detector found in the pictures of a data set of `render`: they are scored "
-      "and take the place of the log's sightings");
+      "lines of JSON with what a detector found in the pictures of a data set of `render` or `import`: they "
+      "take the place of the log's sightings, and are scored where `render` says what there is to see");
   command
       .add_option_function<worlds::Identity>(
           "--identity", [&arguments](const worlds::Identity& identity) { arguments.identity = identity; },
-          "how filters tell these landmarks apart (default: known if no two balls share a colour, else "
-          "colour_class)")
+          "how filters tell these landmarks apart (default: known if no two balls of `render` share a "
+          "colour, "
+          "else colour_class)")
       ->transform(CLI::CheckedTransformer(names).description("known, colour_class or none"))
       ->type_name("")
       ->needs(file);

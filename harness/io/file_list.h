@@ -8,6 +8,9 @@
 
 namespace stereobench::harness {
 
+/// Where the pictures of a folder of `import` are from, and their times.
+inline constexpr const char* kPicturesFile = "pictures.csv";
+
 /// What a data set was rendered from.
 inline constexpr const char* kDatasetJson = "dataset.json";
 

@@ -1,5 +1,6 @@
 #include "harness/logs/measurement_log_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -101,11 +102,15 @@ std::vector<LogFile> log_files(const MeasurementLog& log) {
   if (!same(log.start, log.steps.front().truth.value_or(slam::Pose{}))) {
     throw std::invalid_argument("log_files: a reader starts at the first step's truth, this log does not");
   }
-  return {{"odometry.csv", odometry_csv(log)},
-          {"observations.csv", observations_csv(log)},
-          {"landmarks.csv", landmarks_csv(log)},
-          {"groundtruth.csv", truth_csv(log)},
-          {"instants.csv", instants_csv(log)}};
+  std::vector<LogFile> files = {{"odometry.csv", odometry_csv(log)},
+                                {"observations.csv", observations_csv(log)},
+                                {"landmarks.csv", landmarks_csv(log)}};
+  std::ranges::move(time_files(log), std::back_inserter(files));
+  return files;
+}
+
+std::vector<LogFile> time_files(const MeasurementLog& log) {
+  return {{"groundtruth.csv", truth_csv(log)}, {"instants.csv", instants_csv(log)}};
 }
 
 }  // namespace stereobench::harness

@@ -26,4 +26,7 @@ struct LogFile {
 /// @throws std::invalid_argument when it does not so
 std::vector<LogFile> log_files(const MeasurementLog& log);
 
+/// What is known of a log without odometry: `groundtruth.csv` and `instants.csv`, as above.
+std::vector<LogFile> time_files(const MeasurementLog& log);
+
 }  // namespace stereobench::harness

@@ -10,8 +10,11 @@
 #include <fmt/format.h>
 
 #include "harness/dataset/dataset_truth.h"
+#include "harness/dataset/formats/plain_format.h"
 #include "harness/detector/detection_lines.h"
 #include "harness/drive/sightings.h"
+#include "harness/io/calibration_file.h"
+#include "harness/io/file_list.h"
 #include "harness/json/json_line.h"
 #include "harness/vision_scoring/detection_table.h"
 #include "harness/vision_scoring/rig_check.h"
@@ -40,7 +43,47 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
+void forget_sightings(MeasurementLog& log) {
+  for (LogStep& step : log.steps) {
+    step.measurements.clear();
+    step.true_landmarks.clear();
+  }
+}
+
+/// @throws BadLine where a ball of a line has pixels alone
+void require_ranges(const std::string& line) {
+  constexpr std::size_t kMostBalls = 100'000;
+  const nlohmann::json json = parse_line(line);
+  for (const JsonValue& ball : JsonValue(json, "").at("balls").list(0, kMostBalls)) ball.at("range_m");
+}
+
 }  // namespace
+
+bool is_imported(const fs::path& folder) {
+  return fs::exists(folder / kPicturesFile) && !fs::exists(folder / kDatasetJson);
+}
+
+void take_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
+                    std::optional<worlds::Identity> identity) {
+  const BallGeometry geometry = {.rig = read_rig_calibration(folder / kCalibrationFile).rig};
+  const std::vector<std::string> lines = lines_of(detections);
+  if (lines.size() != log.steps.size())
+    refuse(detections, lines.size(),
+           fmt::format("expected a line for each of {} frames (got {})", log.steps.size(), lines.size()));
+  forget_sightings(log);
+  for (std::size_t frame = 0; frame < lines.size(); ++frame) {
+    try {
+      const auto observations = read_detections(lines[frame], frame, geometry);
+      require_ranges(lines[frame]);
+      const std::vector<int> of_no_known_ball(observations.size(), slam::kUnknown);
+      log.steps[frame].measurements =
+          sightings_of(observations, of_no_known_ball, {}, identity.value_or(worlds::Identity::kColourClass))
+              .measurements;
+    } catch (const BadLine& bad) {
+      refuse(detections, frame + 1, bad.what());
+    }
+  }
+}
 
 ScoredDetections replace_sightings(MeasurementLog& log, const fs::path& folder, const fs::path& detections,
                                    std::optional<worlds::Identity> identity, std::uint64_t seed) {
@@ -49,10 +92,7 @@ ScoredDetections replace_sightings(MeasurementLog& log, const fs::path& folder, 
   const vision::BallSize size = {truth.world.ball_radius_m(), truth.world.ball_radius_sd_m};
   const worlds::Identity told = identity.value_or(identity_by_colour(truth.world.balls));
   const std::vector<std::string> lines = lines_of(detections);
-  for (LogStep& step : log.steps) {
-    step.measurements.clear();
-    step.true_landmarks.clear();
-  }
+  forget_sightings(log);
   ScoredDetections scored;
   for (std::size_t i = 0; i < truth.frames.size(); ++i) {
     const std::size_t frame = truth.frames[i];

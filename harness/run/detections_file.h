@@ -30,4 +30,16 @@ ScoredDetections replace_sightings(MeasurementLog& log, const std::filesystem::p
                                    const std::filesystem::path& detections,
                                    std::optional<worlds::Identity> identity, std::uint64_t seed);
 
+/// Whether a folder is of `stereobench import`, with pictures of which nobody knows what they show.
+bool is_imported(const std::filesystem::path& folder);
+
+/// Puts detections in the pictures of an imported folder in place of its log's sightings. There is no truth
+/// to score them against.
+/// @param log of the folder, a step a picture
+/// @param detections as above; each ball has its range, since balls may be of any size
+/// @param identity empty: as colour classes
+/// @throws std::runtime_error as above
+void take_sightings(MeasurementLog& log, const std::filesystem::path& folder,
+                    const std::filesystem::path& detections, std::optional<worlds::Identity> identity);
+
 }  // namespace stereobench::harness

@@ -25,6 +25,11 @@ struct Fault {
   std::string what;   ///< what was found, and what was expected
 };
 
+/// Whether a fault is that a frame has not all of its files: the others are as good as without it.
+inline bool is_missing_frame(const Fault& fault) {
+  return fault.what.starts_with("missing frame");
+}
+
 /// A kind of picture that a frame may have of each camera, and the form in which it is read.
 enum class Channel {
   kPicture,        ///< what the camera stored: CV_8UC1 or CV_8UC3

@@ -18,6 +18,8 @@ constexpr const char* kStates = "mav0/state_groundtruth_estimate0/data.csv";
 
 ViewCamera camera_in(const fs::path& file) {
   const YAML::Node yaml = yaml_in(file);
+  require_word(file, yaml, "camera_model", "pinhole");
+  require_word(file, yaml, "distortion_model", "radial-tangential");
   const std::vector<double> size = numbers_in(file, yaml, "resolution", 2);
   const std::vector<double> pinhole = numbers_in(file, yaml, "intrinsics", 4);
   const std::vector<double> lens = numbers_in(file, yaml, "distortion_coefficients", 4);

@@ -1,5 +1,7 @@
 #include "harness/verify/readers/kitti_calibration.h"
 
+#include <charconv>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -27,6 +29,17 @@ std::map<std::string, std::vector<double>> keyed_numbers(const std::filesystem::
   return all;
 }
 
+double shortest_quotient(double product, double factor) {
+  const double quotient = product / factor;
+  for (int decimals = 0; decimals < std::numeric_limits<double>::digits10; ++decimals) {
+    const std::string text = fmt::format("{:.{}e}", quotient, decimals);
+    double shorter = quotient;
+    std::from_chars(text.data(), text.data() + text.size(), shorter);
+    if (shorter * factor == product) return shorter;
+  }
+  return quotient;
+}
+
 ViewCamera projected_camera(const std::filesystem::path& file,
                             const std::map<std::string, std::vector<double>>& numbers,
                             const std::string& key) {
@@ -39,7 +52,8 @@ ViewCamera projected_camera(const std::filesystem::path& file,
   camera.pinhole = {0, 0, p[0], p[2], p[6]};
   camera.lens.pixel_aspect = p[5] / p[0];
   const double z_m = p[11];
-  camera.body_from_camera.translation() << -(p[3] - p[2] * z_m) / p[0], -(p[7] - p[6] * z_m) / p[5], -z_m;
+  camera.body_from_camera.translation() << -shortest_quotient(p[3] - p[2] * z_m, p[0]),
+      -shortest_quotient(p[7] - p[6] * z_m, p[5]), -z_m;
   return camera;
 }
 

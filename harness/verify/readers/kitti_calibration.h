@@ -15,6 +15,13 @@ namespace stereobench::harness {
 std::map<std::string, std::vector<double>> keyed_numbers(const std::filesystem::path& file,
                                                          char separator = ':');
 
+/// What a rounded product was made of, e.g. the baseline of P1[3] = -f B. A division gives it back but for
+/// its last digit.
+/// @return the shortest decimal number that times `factor` is the product, to the bit; where there is none,
+/// the
+///   quotient
+double shortest_quotient(double product, double factor);
+
 /// A rectified camera of a 3 x 4 projection; the body is KITTI's camera 0.
 /// @throws std::runtime_error "file: P2: expected 12 numbers"
 ViewCamera projected_camera(const std::filesystem::path& file,

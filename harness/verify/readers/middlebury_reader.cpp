@@ -33,7 +33,7 @@ double number_of(const fs::path& file, const Numbers& numbers, const char* key) 
 }
 
 void read_pair_calibration(DatasetView& view, const std::string& name, ViewFrame& frame) {
-  constexpr double kMetres = 1e-3, kRounding_px = 1e-3;
+  constexpr double kMm = 1000.0, kRounding_px = 1e-3;
   const fs::path file = view.folder / name;
   const Numbers numbers = keyed_numbers(file, '=');
   for (std::size_t i = 0; i < 2; ++i) {
@@ -46,7 +46,8 @@ void read_pair_calibration(DatasetView& view, const std::string& name, ViewFrame
                                 static_cast<int>(number_of(file, numbers, "height")), k[0], k[2], k[5]};
     frame.cameras[i].lens.pixel_aspect = k[4] / k[0];
   }
-  frame.cameras[1].body_from_camera.translation().x() = kMetres * number_of(file, numbers, "baseline");
+  frame.cameras[1].body_from_camera.translation().x() =
+      shortest_quotient(number_of(file, numbers, "baseline"), kMm);
   const double shift_px = frame.cameras[1].pinhole.cx_px - frame.cameras[0].pinhole.cx_px;
   const double doffs = number_of(file, numbers, "doffs");
   if (std::abs(doffs - shift_px) > kRounding_px)

@@ -18,6 +18,8 @@ constexpr const char* kTruth = "groundtruth.csv";
 constexpr const char* kRigCameras = "calibration.yaml";
 
 ViewCamera camera_in(const fs::path& file, const YAML::Node& yaml) {
+  require_word(file, yaml, "cam_model", "pinhole");
+  require_word(file, yaml, "distortion_type", "radtan5");
   const std::vector<double> focal = numbers_in(file, yaml, "focal_length", 2);
   const std::vector<double> centre = numbers_in(file, yaml, "principal_point", 2);
   const std::vector<double> lens = numbers_in(file, yaml, "distortion_coefficients", 5);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/io/text_file.h"
+#include "harness/json/json_line.h"
 #include "worlds/yaml/parse_yaml.h"
 
 namespace stereobench::harness {
@@ -40,6 +41,15 @@ std::vector<double> numbers_in(const fs::path& file, const YAML::Node& map, cons
   if (numbers.size() != count || list.size() != count)
     throw std::runtime_error(fmt::format("{}: {}: expected {} numbers", file.string(), key, count));
   return numbers;
+}
+
+void require_word(const fs::path& file, const YAML::Node& map, const std::string& key,
+                  const std::string& word) {
+  const YAML::Node node = map[key];
+  if (!node.IsDefined() || (node.IsScalar() && node.Scalar() == word)) return;
+  throw std::runtime_error(
+      fmt::format("{}: {}: expected {}{}", file.string(), key, word,
+                  node.IsScalar() ? fmt::format(" (got {})", excerpt(node.Scalar())) : ""));
 }
 
 Eigen::Isometry3d transform_in(const fs::path& file, const YAML::Node& map, const std::string& key) {

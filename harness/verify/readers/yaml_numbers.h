@@ -23,6 +23,11 @@ YAML::Node yaml_of(const std::string& text, const std::filesystem::path& name);
 std::vector<double> numbers_in(const std::filesystem::path& file, const YAML::Node& map,
                                const std::string& key, std::size_t count);
 
+/// Makes sure that a key has a value, where the file has the key: the model of a camera or of its lens.
+/// @throws std::runtime_error "file: key: expected pinhole (got omni)"
+void require_word(const std::filesystem::path& file, const YAML::Node& map, const std::string& key,
+                  const std::string& word);
+
 /// Sixteen numbers, row by row, as a transform.
 Eigen::Isometry3d transform_in(const std::filesystem::path& file, const YAML::Node& map,
                                const std::string& key);

@@ -1,0 +1,47 @@
+/// Data sets of any layout, whoever made them, as folders that `detect` and `slam` read.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "harness/dataset_import/imported_log.h"
+#include "harness/io/calibration_file.h"
+#include "harness/verify/readers/reader_registry.h"
+
+namespace stereobench::harness {
+
+struct ImportRequest {
+  std::filesystem::path folder;
+  const DatasetReader* reader = nullptr;
+  std::string only;  ///< a sequence, a scene or a frame; empty: all
+  std::optional<double> pitch_down_rad;
+  bool odometry_from_truth = false;
+  std::filesystem::path out;
+};
+
+/// What was imported.
+struct ImportedDataset {
+  std::string format;
+  std::size_t frames = 0, left_out = 0;
+  bool are_pairs = false;
+  bool are_grey = false;
+  std::optional<RigCalibration> calibration;
+  std::optional<ImportedLog> log;  ///< where the layout has times
+};
+
+/// Writes a folder with
+///
+///     left/000000.png, right/    the pictures: hard links to those of the data set, or copies
+///     pictures.csv               frame,t_s,left,right: of each frame its time, and where its pictures are from
+///     calibration.yaml           the rig (calibration_file.h), where the layout has one; it comes last
+///     instants.csv, groundtruth.csv    times and true poses, where the layout has them
+///     odometry.csv, observations.csv, landmarks.csv    with odometry_from_truth; the latter two are empty
+///
+/// @throws std::runtime_error, one line, for what cannot be read or has no place in such a folder, before
+///   anything is written, and for a folder that is not empty
+ImportedDataset import_dataset(const ImportRequest& request, const std::function<void(double)>& on_progress);
+
+}  // namespace stereobench::harness
