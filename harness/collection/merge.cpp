@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/rendered_dataset.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
@@ -105,7 +106,7 @@ class Placement {
     fs::remove(to);
     fs::create_hard_link(from, to, error);
     if (!error) return;
-    copies_.write(to, read_text(from));
+    copies_.copy(to, from);
     if (++waiting_ < kCopiesAtATime) return;
     copies_.move_into_place();
     waiting_ = 0;
@@ -132,6 +133,7 @@ CollectionTotals merge_shards(const std::vector<fs::path>& shards, const fs::pat
     remove_leftovers(target);
     Placement(sources[i], target).place();
     fs::remove(target / "dataset.unfinished.json");  // of a rendering that was interrupted there
+    remove_used_parts(target);
     on_progress(static_cast<double>(i + 1) / static_cast<double>(sources.size()));
   }
   return finish_collection(out, record);

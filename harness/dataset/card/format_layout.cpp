@@ -187,6 +187,10 @@ constexpr auto kLayout = std::to_array<LayoutEntry>({
     {"nerfstudio", "depth/left/*.png", kDepthMm},
     {"nerfstudio", "depth/right/*.png", kDepthMm},
     {"nerfstudio", "transforms.json", "the camera, and world_from_camera of each picture; y up, z backward"},
+    {"rosbag", "*.bag",
+     "bag of ROS 1: pictures (bgr8), cameras, odometry as measured, detections; truth in /ground_truth/*, "
+     "/tf "
+     "and /tf_static; stamps from 1500000000 s"},
 });
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/formats/container/rosbag_format.h"
 #include "harness/dataset/formats/odometry/euroc_format.h"
 #include "harness/dataset/formats/odometry/kitti_odometry_format.h"
 #include "harness/dataset/formats/odometry/tum_format.h"
@@ -50,6 +51,7 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"bop", "6-D poses, masks and depth, as in BOP", "balls", check_bop_format, bop_writer},
     {"nerfstudio", "poses and depth, as Nerfstudio reads them", "", check_nerfstudio_format,
      nerfstudio_writer},
+    {"rosbag", "odometry, detections and poses, as a bag of ROS 1", "", check_rosbag_format, rosbag_writer},
 });
 
 }  // namespace
