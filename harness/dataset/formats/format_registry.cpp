@@ -9,9 +9,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/formats/container/mcap_format.h"
 #include "harness/dataset/formats/container/rosbag_format.h"
+#include "harness/dataset/formats/container/webdataset_format.h"
 #include "harness/dataset/formats/odometry/euroc_format.h"
 #include "harness/dataset/formats/odometry/kitti_odometry_format.h"
+#include "harness/dataset/formats/odometry/mrclam_format.h"
 #include "harness/dataset/formats/odometry/tum_format.h"
 #include "harness/dataset/formats/odometry/vslamlab_format.h"
 #include "harness/dataset/formats/plain_format.h"
@@ -52,6 +55,11 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"nerfstudio", "poses and depth, as Nerfstudio reads them", "", check_nerfstudio_format,
      nerfstudio_writer},
     {"rosbag", "odometry, detections and poses, as a bag of ROS 1", "", check_rosbag_format, rosbag_writer},
+    {"mcap", "odometry, detections and poses, as a recording of ROS 2", "", check_mcap_format, mcap_writer},
+    {"webdataset", "rigs, poses and balls, as shards of WebDataset", "", check_webdataset_format,
+     webdataset_writer},
+    {"mrclam", "odometry, sightings and poses in place of pictures, as in UTIAS MRCLAM", "",
+     check_mrclam_format, mrclam_writer},
 });
 
 }  // namespace
