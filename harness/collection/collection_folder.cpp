@@ -65,6 +65,7 @@ void begin_collection(const fs::path& folder, const CollectionRecord& record) {
   refuse_strangers(folder, record);
   prepare_output_folder(folder);
   remove_leftovers_in(folder);
+  for (const CollectionEntry& entry : record.datasets) remove_used_parts(folder / entry.folder);
   fs::remove(folder / kManifest);
   const std::string text = collection_json(record);
   if (!fs::exists(folder / kCollectionFile) || read_text(folder / kCollectionFile) != text)

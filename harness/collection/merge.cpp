@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/rendered_dataset.h"
 #include "harness/frames/linked_files.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
@@ -122,6 +123,7 @@ CollectionTotals merge_shards(const std::vector<fs::path>& shards, const fs::pat
     remove_leftovers(target);
     Placement(sources[i], target).place();
     fs::remove(target / "dataset.unfinished.json");  // of a rendering that was interrupted there
+    remove_used_parts(target);
     on_progress(static_cast<double>(i + 1) / static_cast<double>(sources.size()));
   }
   return finish_collection(out, record);

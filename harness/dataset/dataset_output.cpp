@@ -33,7 +33,8 @@ void DatasetOutput::write(DatasetPair& pair) {
 }
 
 void DatasetOutput::finish(const MeasurementLog& log, const CoarseBlur& blur) {
-  if (!written_.was_complete) dataset_.finish(writer_->drive_files(log), blur);
+  if (written_.was_complete) return;
+  dataset_.finish(writer_->drive_files(log), blur, writer_->containers(log));
 }
 
 }  // namespace stereobench::harness

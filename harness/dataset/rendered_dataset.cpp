@@ -66,7 +66,21 @@ std::vector<std::string> differing_keys(const nlohmann::json& one, const nlohman
   return keys;
 }
 
+std::vector<std::string> names_of(const std::vector<DatasetFile>& files) {
+  std::vector<std::string> names;
+  for (const DatasetFile& file : files) names.push_back(file.name);
+  return names;
+}
+
+bool is_part(const std::string& name) {
+  return *std::filesystem::path(name).begin() == kPartsFolder;
+}
+
 }  // namespace
+
+void remove_used_parts(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / kManifest)) std::filesystem::remove_all(folder / kPartsFolder);
+}
 
 bool holds_rendering(const std::filesystem::path& folder) {
   return !markers_in(folder).empty() && holds_files(folder);
@@ -92,6 +106,7 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered
   is_finished_ = std::filesystem::exists(folder_ / kManifest);
   if (is_finished_) spoilt_ = changed_files(folder_, read_manifest(folder_));
   if (std::filesystem::exists(folder_)) remove_leftovers(folder_);
+  if (is_complete()) remove_used_parts(folder_);
   if (is_complete() || !holds_files(folder_)) std::filesystem::remove(folder_ / kUnfinished);
   if (spoilt_.empty()) return;
   begin({});
@@ -101,32 +116,42 @@ RenderedDataset::RenderedDataset(std::filesystem::path folder, nlohmann::ordered
 }
 
 /// Makes the folders of files, and says that there is a data set which is not finished.
-void RenderedDataset::begin(const std::vector<DatasetFile>& files) {
+void RenderedDataset::begin(const std::vector<std::string>& names) {
   prepare_output_folder(folder_);
-  for (const DatasetFile& file : files) {
-    if (is_own(file.name)) throw std::logic_error(fmt::format("{}: is no format's file", file.name));
-    prepare_output_folder((folder_ / file.name).parent_path());
+  for (const std::string& name : names) {
+    if (is_own(name)) throw std::logic_error(fmt::format("{}: is no format's file", name));
+    prepare_output_folder((folder_ / name).parent_path());
   }
   if (!std::filesystem::exists(folder_ / kUnfinished))
     write_file_atomically(folder_ / kUnfinished, identity_.dump(2) + "\n");
 }
 
 void RenderedDataset::write(std::size_t step, const std::vector<DatasetFile>& files) {
-  begin(files);
+  begin(names_of(files));
   frames_.insert(step);
   AtomicFiles written;
   for (const DatasetFile& file : files) {
+    const bool exists = std::filesystem::exists(folder_ / file.name);
+    const std::string bytes = exists ? std::string() : file.bytes();
+    if (!exists) written.write(folder_ / file.name, bytes);
+    if (is_part(file.name)) continue;
     std::string& hash = files_[file.name];
-    if (std::filesystem::exists(folder_ / file.name)) continue;
-    const std::string bytes = file.bytes();
-    written.write(folder_ / file.name, bytes);
-    hash = sha256_of(bytes);  // here, since who reads a large set again reads it from the disk
+    if (!exists) hash = sha256_of(bytes);  // here, since who reads a large set again reads it from the disk
   }
   written.move_into_place();
 }
 
-void RenderedDataset::finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur) {
-  begin(files);
+void RenderedDataset::finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur,
+                             const std::vector<DatasetContainer>& containers) {
+  std::vector<std::string> names = names_of(files);
+  for (const DatasetContainer& container : containers) names.push_back(container.name);
+  begin(names);
+  for (const DatasetContainer& container : containers) {
+    AtomicFile file(folder_ / container.name);
+    container.write(file, folder_);
+    file.move_into_place();
+    files_[container.name];
+  }
   AtomicFiles written;
   for (const DatasetFile& file : files) {
     const std::string bytes = file.bytes();
@@ -140,6 +165,7 @@ void RenderedDataset::finish(const std::vector<DatasetFile>& files, const Coarse
   marker[kBlur] = blur_json(blur);
   hash_others(folder_, files_);
   seal({.folder = folder_, .marker = std::move(marker), .files = files_});
+  remove_used_parts(folder_);
 }
 
 /// Adds what every data set has, and last of all the manifest.

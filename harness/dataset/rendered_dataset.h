@@ -40,16 +40,18 @@ class RenderedDataset {
   /// The files that were removed because they were not as they had been written.
   const std::vector<std::string>& spoilt() const { return spoilt_; }
 
-  /// Writes those files of a step's stereo pair that are not there yet. Every step that has pictures is
-  /// written before `finish`, also where an interrupted rendering goes on.
+  /// Writes those files of a step's stereo pair that are not there yet, parts of containers too. Every step
+  /// that has pictures is written before `finish`, also where an interrupted rendering goes on.
   void write(std::size_t step, const std::vector<DatasetFile>& files);
 
-  /// Writes the files of the drive, dataset.json and the cards, and last of all the manifest.
+  /// Writes the files of the drive, the containers, dataset.json and the cards, and last of all the manifest.
+  /// Then the containers' parts go: whoever is killed before has not lost them.
   /// @param blur of all its pictures
-  void finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur);
+  void finish(const std::vector<DatasetFile>& files, const CoarseBlur& blur,
+              const std::vector<DatasetContainer>& containers = {});
 
  private:
-  void begin(const std::vector<DatasetFile>& files);
+  void begin(const std::vector<std::string>& names);
   void seal(const DatasetFacts& facts);
 
   std::filesystem::path folder_;
@@ -59,6 +61,10 @@ class RenderedDataset {
   std::set<std::size_t> frames_;  ///< that were written
   FileHashes files_;              ///< all of them; hashes of those written just now, others empty
 };
+
+/// Removes the parts of containers that a finished data set has no more use for: whoever wrote it was killed
+/// right after the manifest. Those of an unfinished one stay.
+void remove_used_parts(const std::filesystem::path& folder);
 
 /// Makes sure that a folder holds no other rendering, finished or not, than the one that is asked for. What
 /// was begun and has no file yet is none.

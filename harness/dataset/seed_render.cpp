@@ -23,10 +23,10 @@ STEREOBENCH_ALL_FIELDS(RenderedSeed, datasets, blur)
 
 namespace {
 
-/// Whether some data set has the log of what was observed: that of other formats is nobody's.
+/// Whether some data set says what was observed.
 bool looks_for_balls(const RenderTask& task) {
   return std::ranges::any_of(task.datasets,
-                             [](const WantedDataset& wanted) { return is_plain(*wanted.format); });
+                             [](const WantedDataset& wanted) { return wanted.format->has_sightings; });
 }
 
 std::vector<vision::BallObservation> sees_nothing(const DetectorInput&) {

@@ -1,7 +1,6 @@
 /// Files that are put into a folder without being written anew.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
 #include "harness/io/atomic_file.h"
@@ -21,7 +20,6 @@ class LinkedFiles {
 
  private:
   AtomicFiles copies_;
-  std::size_t waiting_ = 0;
 };
 
 }  // namespace stereobench::harness

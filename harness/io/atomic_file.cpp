@@ -150,6 +150,16 @@ void AtomicFile::append(std::string_view bytes) {
   }
 }
 
+void AtomicFile::overwrite(std::uint64_t at, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path_, "cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    at += static_cast<std::uint64_t>(written);
+  }
+}
+
 void AtomicFile::rename_into_place() {
   if (close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot be written", errno);
   if (std::rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
@@ -163,12 +173,24 @@ void AtomicFile::move_into_place() {
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
 }
 
-void AtomicFiles::write(const fs::path& path, std::string_view bytes) {
+AtomicFile& AtomicFiles::begin(const fs::path& path) {
   constexpr std::size_t kMostTogether = AtomicFile::kMostAtATime / 2;
   if (files_.size() == kMostTogether) move_into_place();
-  auto file = std::make_unique<AtomicFile>(path);
-  file->append(bytes);
-  files_.push_back(std::move(file));
+  return *files_.emplace_back(std::make_unique<AtomicFile>(path));
+}
+
+void AtomicFiles::write(const fs::path& path, std::string_view bytes) {
+  begin(path).append(bytes);
+}
+
+void AtomicFiles::copy(const fs::path& path, const fs::path& from) {
+  constexpr std::size_t kBlock = 1 << 20;
+  AtomicFile& file = begin(path);
+  std::ifstream stream(from, std::ios::binary);
+  std::string block(kBlock, '\0');
+  while (stream.read(block.data(), kBlock) || stream.gcount() > 0)
+    file.append(std::string_view(block).substr(0, static_cast<std::size_t>(stream.gcount())));
+  if (!stream.eof()) throw std::runtime_error(fmt::format("{}: cannot be read", from.string()));
 }
 
 void AtomicFiles::move_into_place() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,6 +31,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   void append(std::string_view bytes);
+  /// Replaces bytes that were appended before, all of them. @param at the first one's place, from 0
+  void overwrite(std::uint64_t at, std::string_view bytes);
   void move_into_place();
 
  private:
@@ -50,11 +53,17 @@ class AtomicFiles {
   /// @throws std::runtime_error as AtomicFile
   void write(const std::filesystem::path& path, std::string_view bytes);
 
+  /// The same with the bytes of another file, of which a block at a time is in memory.
+  /// @throws std::runtime_error as AtomicFile, and where the other file cannot be read
+  void copy(const std::filesystem::path& path, const std::filesystem::path& from);
+
   /// Moves all of them into place. After a power cut some may be missing, but none is there in part: whoever
   /// says that all are there first calls sync_file_system.
   void move_into_place();
 
  private:
+  AtomicFile& begin(const std::filesystem::path& path);
+
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 

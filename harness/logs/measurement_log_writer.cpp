@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/logs/recorded_streams.h"
-
 namespace stereobench::harness {
 
 namespace {
@@ -21,14 +19,14 @@ bool same(const slam::Pose& a, const slam::Pose& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
 }
 
-/// A reading per control, stamped with the time from which it is held.
-void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv) {
+/// A reading per control.
+void append_readings(std::int64_t from_ns, const LogStep& step, std::vector<OdometryReading>& readings) {
   double elapsed_s = 0.0;
   for (const slam::Control& control : step.odometry) {
     if (control.covariance || control.lateral_mps != 0.0)
       throw std::invalid_argument("log_files: odometry.csv has columns for wheels alone");
     const std::int64_t begin_ns = from_ns + std::llround(elapsed_s * 1e9);
-    csv += fmt::format("{},{},{}\n", seconds_of(begin_ns), control.v_mps, control.w_radps);
+    readings.push_back({.stamp_ns = begin_ns, .v_mps = control.v_mps, .w_radps = control.w_radps});
     elapsed_s += control.duration_s;
   }
   if (std::abs(from_ns + std::llround(elapsed_s * 1e9) - step.stamp_ns) > kTolerance_ns) {
@@ -40,13 +38,8 @@ void append_readings(std::int64_t from_ns, const LogStep& step, std::string& csv
 
 std::string odometry_csv(const MeasurementLog& log) {
   std::string csv = "t_s,v_mps,w_radps\n";
-  if (!log.steps.front().odometry.empty()) {
-    throw std::invalid_argument("log_files: the first step has odometry, but there is no time before it");
-  }
-  for (std::size_t i = 1; i < log.steps.size(); ++i) {
-    append_readings(log.steps[i - 1].stamp_ns, log.steps[i], csv);
-  }
-  if (log.steps.size() == 1) csv += fmt::format("{},0,0\n", seconds_of(log.steps.front().stamp_ns));
+  for (const OdometryReading& reading : odometry_readings(log))
+    csv += fmt::format("{},{},{}\n", seconds_of(reading.stamp_ns), reading.v_mps, reading.w_radps);
   return csv;
 }
 
@@ -95,6 +88,17 @@ std::string seconds_of(std::int64_t stamp_ns) {
   const std::int64_t magnitude_ns = std::abs(stamp_ns);
   return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", magnitude_ns / kSecond_ns,
                      magnitude_ns % kSecond_ns);
+}
+
+std::vector<OdometryReading> odometry_readings(const MeasurementLog& log) {
+  if (!log.steps.front().odometry.empty()) {
+    throw std::invalid_argument("log_files: the first step has odometry, but there is no time before it");
+  }
+  std::vector<OdometryReading> readings;
+  for (std::size_t i = 1; i < log.steps.size(); ++i)
+    append_readings(log.steps[i - 1].stamp_ns, log.steps[i], readings);
+  if (log.steps.size() == 1) readings.push_back({.stamp_ns = log.steps.front().stamp_ns});
+  return readings;
 }
 
 std::vector<LogFile> log_files(const MeasurementLog& log) {

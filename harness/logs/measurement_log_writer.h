@@ -5,12 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "harness/logs/recorded_streams.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {
 
 /// A time as logs write it: seconds with nine digits behind the point.
 std::string seconds_of(std::int64_t stamp_ns);
+
+/// The odometry as logs have it: a reading for each control, stamped with the whole nanosecond from which on
+/// it holds. A log of one step has a reading of a robot that stands.
+/// @param log as of log_files
+/// @throws std::invalid_argument as log_files
+std::vector<OdometryReading> odometry_readings(const MeasurementLog& log);
 
 /// A file of a log.
 struct LogFile {

@@ -187,6 +187,20 @@ constexpr auto kLayout = std::to_array<LayoutEntry>({
     {"nerfstudio", "depth/left/*.png", kDepthMm},
     {"nerfstudio", "depth/right/*.png", kDepthMm},
     {"nerfstudio", "transforms.json", "the camera, and world_from_camera of each picture; y up, z backward"},
+    {"rosbag", "*.bag",
+     "bag of ROS 1: pictures (bgr8), cameras, odometry as measured, detections; truth in /ground_truth/*, "
+     "/tf "
+     "and /tf_static; stamps from 1500000000 s"},
+    {"mcap", "*.mcap", "MCAP of ROS 2: the same topics as in a bag of `rosbag`; stamps from 1500000000 s"},
+    {"webdataset", "*.tar",
+     "each pair's .left.png, .right.png and .json: rigs, 4 x 4 poses, the balls that a picture shows"},
+    {"mrclam", "Robot1_Odometry.dat", "time (s), measured speeds: forward (m/s), counter-clockwise (rad/s)"},
+    {"mrclam", "Robot1_Measurement.dat",
+     "what the detector saw: time (s), barcode, range (m), bearing (rad)"},
+    {"mrclam", "Robot1_Groundtruth.dat", "true pose of the robot at each step: time (s), x, y, heading"},
+    {"mrclam", "Landmark_Groundtruth.dat",
+     "true places of the balls: subject, x, y (m), and their deviations"},
+    {"mrclam", "Barcodes.dat", "which subject has which barcode"},
 });
 
 }  // namespace

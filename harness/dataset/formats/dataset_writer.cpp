@@ -27,4 +27,8 @@ DatasetFile text_file(std::string name, std::string text) {
   return {std::move(name), [text = std::move(text)] { return text; }};
 }
 
+std::vector<DatasetContainer> DatasetWriter::containers(const MeasurementLog&) const {
+  return {};
+}
+
 }  // namespace stereobench::harness

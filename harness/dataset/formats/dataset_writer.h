@@ -1,6 +1,7 @@
 /// What a data-set format is: which files there are of a stereo pair and of a drive, and what is in them.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "harness/dataset/dataset_drive.h"
 #include "harness/dataset/dataset_pair.h"
+#include "harness/io/atomic_file.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {
@@ -30,6 +32,19 @@ DatasetFile camera_file(std::string name, DatasetPair& pair, vision::Side side);
 /// A file that is a text.
 DatasetFile text_file(std::string name, std::string text);
 
+/// Parts of containers: files of a stereo pair whose place begins with this folder. They are in no list, and
+/// are removed when the data set is finished.
+inline constexpr std::string_view kPartsFolder = "dataset.parts";
+
+/// A file that holds the whole drive, as a recording or an archive does. It is put together of parts when all
+/// of them are there: a rendering that is interrupted goes on part by part.
+struct DatasetContainer {
+  std::string name;  ///< its place in the folder
+  /// Appends all of it, with a few pairs in memory at a time.
+  /// @param folder of the data set, where the parts lie at the places that frame_files gave them
+  std::function<void(AtomicFile& file, const std::filesystem::path& folder)> write;
+};
+
 /// A data-set format at work on one drive. It names files and says what is in them. The data set that it is
 /// a format of (rendered_dataset.h) makes folders, writes files whole or not at all, leaves those alone that
 /// are there, and lists all files in the manifest.
@@ -45,6 +60,10 @@ class DatasetWriter {
   /// The files of the whole drive, asked for after its last pair. They are always written anew.
   /// @param log the odometry, what was observed, and the true path: every step of the drive
   virtual std::vector<DatasetFile> drive_files(const MeasurementLog& log) const = 0;
+
+  /// The containers of the whole drive, asked for after its last pair. They are always written anew.
+  /// @param log as of drive_files; it outlives the containers
+  virtual std::vector<DatasetContainer> containers(const MeasurementLog& log) const;
 };
 
 }  // namespace stereobench::harness

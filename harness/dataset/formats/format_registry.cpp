@@ -9,8 +9,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/dataset/formats/container/mcap_format.h"
+#include "harness/dataset/formats/container/rosbag_format.h"
+#include "harness/dataset/formats/container/webdataset_format.h"
 #include "harness/dataset/formats/odometry/euroc_format.h"
 #include "harness/dataset/formats/odometry/kitti_odometry_format.h"
+#include "harness/dataset/formats/odometry/mrclam_format.h"
 #include "harness/dataset/formats/odometry/tum_format.h"
 #include "harness/dataset/formats/odometry/vslamlab_format.h"
 #include "harness/dataset/formats/plain_format.h"
@@ -27,11 +31,11 @@
 namespace stereobench::harness {
 namespace {
 
-/// One row a format: name, what it holds, the truth that it needs, what it refuses, how it starts, and which
-/// kinds of picture its readers take.
+/// One row a format: name, what it holds, the truth that it needs, what it refuses, how it starts, which
+/// kinds of picture its readers take, and whether it says what the detector found.
 constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"plain", "ids, depth, calibration and truth", "", check_plain_format, plain_writer,
-     "colour, grey, bayer-rggb, linear16"},
+     "colour, grey, bayer-rggb, linear16", true},
     {"kitti-odometry", "poses, as in KITTI odometry", "", check_kitti_odometry_format, kitti_odometry_writer},
     {"kitti-stereo", "disparity, as in KITTI stereo 2015", "disparity,flow", check_kitti_stereo_format,
      kitti_stereo_writer},
@@ -54,6 +58,14 @@ constexpr auto kFormats = std::to_array<DatasetFormat>({
     {"bop", "6-D poses, masks and depth, as in BOP", "balls", check_bop_format, bop_writer},
     {"nerfstudio", "poses and depth, as Nerfstudio reads them", "", check_nerfstudio_format,
      nerfstudio_writer},
+    {"rosbag", "odometry, detections and poses, as a bag of ROS 1", "", check_rosbag_format, rosbag_writer,
+     "colour", true},
+    {"mcap", "odometry, detections and poses, as a recording of ROS 2", "", check_mcap_format, mcap_writer,
+     "colour", true},
+    {"webdataset", "rigs, poses and balls, as shards of WebDataset", "", check_webdataset_format,
+     webdataset_writer},
+    {"mrclam", "odometry, sightings and poses in place of pictures, as in UTIAS MRCLAM", "",
+     check_mrclam_format, mrclam_writer, "colour", true},
 });
 
 }  // namespace

@@ -21,6 +21,7 @@ struct DatasetFormat {
   /// Starts on a drive that was checked. @param drive outlives the writer
   std::unique_ptr<DatasetWriter> (*make)(const DatasetDrive& drive);
   std::string_view pictures = "colour";  ///< the kinds of picture that it holds (picture_kind.h)
+  bool has_sightings = false;            ///< its files say what the detector found
 };
 
 /// Refuses what a format cannot hold, its pictures' kind included. @throws std::runtime_error, one line

@@ -56,7 +56,7 @@ class StepWriter {
     MeasurementLog log = {.start = scenario_.path.front().pose, .steps = {}, .landmarks = {}};
     for (const worlds::PathStep& step : scenario_.path)
       log.steps.push_back({.stamp_ns = step.stamp_ns, .odometry = step.controls, .truth = step.pose});
-    dataset_.finish(writer_->drive_files(log), {});
+    dataset_.finish(writer_->drive_files(log), {}, writer_->containers(log));
   }
 
  private:
