@@ -55,6 +55,21 @@ class EveryFormat : public testing::TestWithParam<DatasetFormat> {
   }
 };
 
+// Looking takes time, and what was seen is only in the log of the plain format. Mutations: always looked;
+// never looked.
+TEST_P(EveryFormat, AsksADetectorOnlyForALog) {
+  Experiment experiment = experiment_;
+  experiment.detector.command = "exit 1";
+  const RenderTask task = {.experiment = &experiment,
+                           .frames = {},
+                           .truth = {},
+                           .datasets = {{&GetParam(), place_, {{"seed", 0}}}}};
+  if (is_plain(GetParam()))
+    EXPECT_THROW(render_seeds({task}, 1, ""), std::runtime_error);
+  else
+    EXPECT_EQ(render_seeds({task}, 1, "").front().datasets.front().pairs, 3);
+}
+
 // Mutation: a writer's file that is not listed.
 TEST_P(EveryFormat, WritesADriveAndListsAllOfIt) {
   EXPECT_EQ(render().pairs, 3);
