@@ -1,6 +1,7 @@
 #include "harness/dataset/card/data_card.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,6 +44,20 @@ std::string command_of(const DatasetFacts& facts) {
   return command;
 }
 
+/// How pictures differ from what the camera stored.
+std::string changed_text(const nlohmann::ordered_json& change) {
+  constexpr std::array kKinds = {
+      std::pair("grey", "They are grey, of 8 bits: the BT.601 luma of the stored levels."),
+      std::pair("bayer-rggb", "They are mosaics of 8 bits, row 0 red and green, row 1 green and blue."),
+      std::pair("linear16", "They have 16 bits: linear light with the camera's noise, 257 times the level.")};
+  std::string text =
+      "\nPictures were changed when they were written: the command says how. Calibration and truth are those "
+      "of the changed pictures; observations are of the whole ones.";
+  for (const auto& [kind, says] : kKinds)
+    if (change.value("kind", std::string()) == kind) text += fmt::format(" {}", says);
+  return text + "\n";
+}
+
 std::string origin_text(const DatasetFacts& facts) {
   const nlohmann::ordered_json& marker = facts.marker;
   std::string text = fmt::format(
@@ -55,6 +70,7 @@ std::string origin_text(const DatasetFacts& facts) {
       marker.value("stereobench", std::string("(version not known)")), command_of(facts), kDatasetJson);
   if (marker.value("detector", std::string("stereobench")) != "stereobench")
     text += "\nA detector of somebody else's found the balls: the command needs `--detector`.\n";
+  if (marker.contains(kPictures)) text += changed_text(marker[kPictures]);
   return text;
 }
 

@@ -143,7 +143,7 @@ TEST(CollectionFile, ChangesPictures) {
         std::pair("pictures: {crop: [0, 0, 0, 3]}", "set.yaml:2: pictures.crop[2]: expected a whole number"),
         std::pair("pictures: {every: 0}", "set.yaml:2: pictures.every: expected a whole number"),
         std::pair("pictures: {kind: rgb}",
-                  "set.yaml:2: pictures.kind: expected colour, grey, bayer-rggb or")})
+                  "set.yaml:2: pictures.kind: expected one of colour, grey, bayer-rggb, linear16")})
     EXPECT_THAT(WrittenCollection(std::string("dataset: trial\n") + line + rest).complaint(),
                 HasSubstr(complaint));
 }

@@ -35,7 +35,10 @@ class Camera:
 
     @property
     def picture(self) -> np.ndarray:
-        """What the camera stored: uint8, H x W x 3, blue green red as cv2.imread gives it."""
+        """What the camera stored: uint8, H x W x 3, blue green red as cv2.imread gives it.
+
+        Of a set rendered with --picture grey or bayer-rggb: uint8, H x W; with linear16: uint16, H x W x 3.
+        """
         return read_png(self._dataset.files.path(f"{self.side}/{self._step:06d}.png"))
 
     @property

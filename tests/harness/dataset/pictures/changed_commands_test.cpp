@@ -10,6 +10,7 @@ namespace stereobench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 class ChangedCommands : public testing::Test {
@@ -38,7 +39,8 @@ TEST_F(ChangedCommands, WriteTheSameOnBothWays) {
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   EXPECT_EQ(scratch_.read("rendered/manifest-sha256.txt"), scratch_.read("exported/manifest-sha256.txt"));
   EXPECT_THAT(scratch_.read("exported/README.md"),
-              HasSubstr(" --every 2 --crop 7,9,150,105 --scale 1/3 --picture grey "));
+              AllOf(HasSubstr(" --every 2 --crop 7,9,150,105 --scale 1/3 --picture grey "),
+                    HasSubstr("They are grey, of 8 bits: the BT.601 luma of the stored levels.")));
   const Outcome verified = run_stereobench({"verify", place("exported")});
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
