@@ -63,6 +63,8 @@ std::array<ViewCamera, 2> sized_cameras(const DatasetView& view, const ImportedF
                                            size.width, size.height));
     size = picture.size();
   }
+  if (!imported.are_pairs)
+    cameras[1].pinhole.width_px = size.width, cameras[1].pinhole.height_px = size.height;
   return cameras;
 }
 
@@ -143,8 +145,12 @@ ImportedDataset import_dataset(const ImportRequest& request, const std::function
   done.are_pairs = frames.are_pairs;
   const std::array<ViewCamera, 2> cameras = sized_cameras(view, frames, done.are_grey);
   done.calibration = calibration_of(view, frames, cameras);
-  if (done.calibration && request.pitch_down_rad)
+  if (request.pitch_down_rad) {
+    if (!done.calibration)
+      throw std::runtime_error(fmt::format("{}: --pitch-down-deg: there is no rig (format {})",
+                                           view.folder.string(), view.format));
     done.calibration->rig.pitch_down_rad = *request.pitch_down_rad;
+  }
   done.log = log_of(request, frames, done.calibration, cameras[0]);
   const std::vector<LogFile> tables = tables_of(frames, done, request.odometry_from_truth);
   write_pictures(request, view, frames, on_progress);
