@@ -90,9 +90,11 @@ std::string wrong_with_whole(const ViewBallTruth& said, const cv::Mat& visible, 
   if (seen.pixels > said.px_count_all)
     return fmt::format("ball {}: px_count_all is {}, and the whole mask has {} pixels", said.ball,
                        said.px_count_all, seen.pixels);
-  // The mask ends where the picture does; the box does not.
-  const cv::Rect in_picture = said.bbox_obj & cv::Rect({}, whole.size());
-  if (!said.bbox_obj.empty() && seen.pixels > 0 && !is_same_box(in_picture, seen.box, said.box_slack_px))
+  // The mask ends where the picture does, and the box does not.
+  const bool is_cut = (said.bbox_obj & cv::Rect({}, whole.size())) != said.bbox_obj;
+  const bool is_as_said = is_cut ? (said.bbox_obj & seen.box) == seen.box
+                                 : is_same_box(said.bbox_obj, seen.box, said.box_slack_px);
+  if (!said.bbox_obj.empty() && seen.pixels > 0 && !is_as_said)
     return fmt::format("ball {}: bbox_obj is {}, and that of the whole mask {}", said.ball,
                        text(said.bbox_obj), text(seen.box));
   return {};

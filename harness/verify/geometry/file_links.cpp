@@ -176,7 +176,8 @@ CommonPlaces common_places(const ViewFrame& from, Side from_side, const ViewFram
   CommonPlaces common;
   if (from.balls[index_of(from_side)])
     for (const ViewBallTruth& truth : from.balls[index_of(from_side)]->balls)
-      if (const ViewBallTruth* other = find_ball(to, to_side, truth.ball)) common.push_back({&truth, other});
+      if (const ViewBallTruth* other = truth.ball < 0 ? nullptr : find_ball(to, to_side, truth.ball))
+        common.push_back({&truth, other});
   return common;
 }
 
@@ -184,6 +185,7 @@ CommonPlaces common_places(const ViewFrame& from, Side from_side, const ViewFram
 /// @return m; empty where balls seem to move, or there are not two
 std::optional<double> error_of_places_m(const CommonPlaces& common) {
   constexpr double kStandsStill = 0.01;
+  constexpr double kExact_m = 1e-6, kMeasured_m = 0.002;  // by people, or by fitting models to pictures
   double error_m = 0.0, farthest_m = 0.0;
   for (std::size_t i = 0; i < common.size(); ++i)
     for (std::size_t j = i + 1; j < common.size(); ++j) {
@@ -194,7 +196,7 @@ std::optional<double> error_of_places_m(const CommonPlaces& common) {
       farthest_m = std::max(farthest_m, apart_m(0));
     }
   if (!(farthest_m > 0.0) || error_m > kStandsStill * farthest_m) return std::nullopt;
-  return error_m;
+  return error_m > kExact_m ? std::max(error_m, kMeasured_m) : error_m;
 }
 
 void add_ball_places(const DatasetView& view, std::size_t from, Side from_side, std::size_t to, Side to_side,
