@@ -41,6 +41,7 @@ class JsonValue {
   std::string text() const;
   bool flag() const;
   bool is_null() const { return value_->is_null(); }
+  bool is_text() const { return value_->is_string(); }
   /// The entries of a list that has between `least` and `most` of them.
   std::vector<JsonValue> list(std::size_t least, std::size_t most) const;
   /// The keys of an object and their values.

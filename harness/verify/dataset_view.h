@@ -55,7 +55,14 @@ struct ViewCamera {
   Eigen::Isometry3d body_from_camera = Eigen::Isometry3d::Identity();
 };
 
-/// What a file of balls says of one ball in one picture; boxes are [left, top, width, height].
+/// A picture whose pixels are 0 or not: those that belong to a ball.
+struct ViewMask {
+  std::string file;               ///< that messages name
+  std::function<cv::Mat()> read;  ///< CV_8UC1; @throws std::runtime_error, one line, for what cannot be read
+};
+
+/// What a file of balls says of one ball in one picture; boxes are [left, top, width, height]. In formats of
+/// objects and points a ball is one of those.
 struct ViewBallTruth {
   int ball = 0;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
@@ -63,6 +70,10 @@ struct ViewBallTruth {
   cv::Rect bbox_visib;  ///< empty where it is hidden
   std::int64_t px_count_visib = 0;
   std::int64_t px_count_all = 0;
+  std::optional<double> visib_fract;
+  cv::Rect bbox_obj;                                ///< empty where the file does not say
+  std::optional<ViewMask> visible_mask, whole_mask;  ///< where a format has them of each ball
+  int box_slack_px = 0;  ///< other tools count the last row and column, or not
 };
 
 struct BallsFile {
@@ -89,11 +100,20 @@ struct ViewPose {
   std::optional<std::int64_t> stamp_ns;
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   double quaternion_norm = 1.0;  ///< where it was given by one
+  std::string name = {};         ///< of its picture, where the file has no lines
 };
 
 struct ViewBall {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
-  double radius_m = 0.0;
+  double radius_m = 0.0;          ///< 0 for what is no sphere
+  double reprojection_px = 0.0;   ///< by how much pictures are off it: a point that was found in pictures
+};
+
+/// Whose poses a data set has.
+enum class PosesOf {
+  kBody,        ///< which carries both cameras
+  kLeftCamera,  ///< to which the right one is fixed
+  kEachCamera,  ///< of each picture: ViewCamera::body_from_camera says nothing
 };
 
 struct DatasetView {
@@ -103,7 +123,9 @@ struct DatasetView {
   std::vector<ViewPose> poses;  ///< all of the files of poses
   std::vector<ViewBall> balls;
   bool has_calibration = true;      ///< without it nothing is said of geometry
-  bool poses_are_of_camera = true;  ///< of the left one, not of a body that carries both
+  PosesOf poses_of = PosesOf::kLeftCamera;
+  bool poses_are_a_way = true;      ///< from frame to frame; photographs may be taken anywhere
+  bool balls_have_places = true;    ///< in the world; without them only each camera says where a ball is
   double place_precision_m = 0.0;   ///< of the poses, by the decimals of their numbers
   double turn_precision = 0.0;      ///< likewise, rad
   bool rows_look_apart = false;     ///< a rolling shutter: poses hold for the middle row alone

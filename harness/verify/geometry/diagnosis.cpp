@@ -44,9 +44,10 @@ struct Amount {
 
 /// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on
 /// it.
-Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links) {
+Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links,
+              double start = 0.0) {
   constexpr int kRounds = 3;
-  Amount amount;
+  Amount amount = {.value = start};
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Slope> slopes = slopes_of(claims, cause, amount.value, links);
     if (slopes.empty()) return {};
@@ -105,7 +106,7 @@ std::string file_of(const DatasetView& view, Suspect suspect) {
 /// Whether a hypothesis says something that the format can be wrong in.
 bool applies(const DatasetView& view, const Hypothesis& cause) {
   if (file_of(view, cause.suspect).empty()) return false;
-  return view.poses_are_of_camera || !cause.needs_poses_of_camera;
+  return cause.poses_of.contains(view.poses_of);
 }
 
 /// Whether a kind that was bad is as it should be, or nearly: other causes may be left.
@@ -155,14 +156,18 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
   std::vector<Explanation> all;
   for (const Hypothesis& cause : causes) {
     if (!applies(view, cause)) continue;
-    Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
-    if (cause.has_amount) one.amount = fitted(claims, cause, links);
-    if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
-    cause.undo(one.claims, one.amount.value);
-    const Comparison change = compared(claims, one.claims, links);
-    one.mended = mended_by(before, change);
-    one.left = disagreement(change.after, before);
-    if (one.mended > 0) all.push_back(std::move(one));
+    std::optional<Explanation> best;
+    for (const double start : cause.starts) {
+      Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
+      if (cause.has_amount) one.amount = fitted(claims, cause, links, start);
+      if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
+      cause.undo(one.claims, one.amount.value);
+      const Comparison change = compared(claims, one.claims, links);
+      one.mended = mended_by(before, change);
+      one.left = disagreement(change.after, before);
+      if (one.mended > 0 && (!best || one.left < best->left)) best = std::move(one);
+    }
+    if (best) all.push_back(std::move(*best));
   }
   if (all.empty()) return std::nullopt;
   const int most = std::ranges::max_element(all, {}, &Explanation::mended)->mended;
@@ -267,6 +272,7 @@ std::string file_of(const DatasetView& view, const Link& link) {
     case LinkKind::kBallSurface:
       return file(Channel::kDepth);
     case LinkKind::kBallCentre:
+    case LinkKind::kBallPlace:
       return frame.balls[index_of(link.to_side)]->file;
     case LinkKind::kStereoPictures:
     case LinkKind::kEpipolar:

@@ -118,6 +118,13 @@ void add_next_disparity(const DatasetView& view, const Neighbourhood& frames, st
   }
 }
 
+const ViewBallTruth* find_ball(const ViewFrame& frame, Side side, int ball) {
+  const auto& file = frame.balls[index_of(side)];
+  if (!file) return nullptr;
+  const auto found = std::ranges::find(file->balls, ball, &ViewBallTruth::ball);
+  return found == file->balls.end() ? nullptr : &*found;
+}
+
 void add_ball_surfaces(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
                        std::vector<Link>& links) {
   const cv::Mat& ids = frames.now->ball_id[index_of(side)];
@@ -131,24 +138,86 @@ void add_ball_surfaces(const DatasetView& view, const Neighbourhood& frames, Sid
     const int ball = ids.at<std::uint8_t>(pixels[i]) - 1;
     if (ball >= static_cast<int>(view.balls.size()) || !begin(frames, side, pixels[i], link)) continue;
     link.ball = ball;
+    if (!view.balls_have_places) {
+      const ViewBallTruth* truth = find_ball(frame, side, ball);
+      if (truth == nullptr || !(view.balls[static_cast<std::size_t>(ball)].radius_m > 0.0)) continue;
+      link.from_m = truth->centre_in_camera_m;
+    }
     link.tolerance_px = kExact_px + frame.cameras[0].pinhole.focal_px * depth_error(frames, frame, link) +
                         pose_error_px(view, frame, link);
     links.push_back(link);
   }
 }
 
-void add_ball_centres(const DatasetView& view, const Neighbourhood& frames, Side side,
+void add_ball_centres(const DatasetView& view, const Neighbourhood& frames, Side side, std::size_t most,
                       std::vector<Link>& links) {
+  constexpr double kMostOfMean = 4.0;  // of the errors of points that were found in pictures
   const ViewFrame& frame = view.frames[frames.now->index];
   const auto& file = frame.balls[index_of(side)];
-  if (!file) return;
-  for (const ViewBallTruth& truth : file->balls) {
+  if (!file || !view.balls_have_places) return;
+  const std::size_t stride = std::max<std::size_t>(1, file->balls.size() / most);
+  for (std::size_t i = 0; i < file->balls.size(); i += stride) {
+    const ViewBallTruth& truth = file->balls[i];
     if (truth.ball < 0 || truth.ball >= static_cast<int>(view.balls.size())) continue;
     Link link = {.kind = LinkKind::kBallCentre, .from = frames.now->index, .to = frames.now->index};
     link.from_side = link.to_side = side;
     link.ball = truth.ball;
     link.to_px = truth.centre_px;
-    link.tolerance_px = kExact_px + pose_error_px(view, frame, link);
+    link.tolerance_px = kExact_px + pose_error_px(view, frame, link) +
+                        kMostOfMean * view.balls[static_cast<std::size_t>(truth.ball)].reprojection_px;
+    links.push_back(link);
+  }
+}
+
+/// Balls that two pictures say the places of, in each camera's frame.
+using CommonPlaces = std::vector<std::array<const ViewBallTruth*, 2>>;
+
+CommonPlaces common_places(const ViewFrame& from, Side from_side, const ViewFrame& to, Side to_side) {
+  CommonPlaces common;
+  if (from.balls[index_of(from_side)])
+    for (const ViewBallTruth& truth : from.balls[index_of(from_side)]->balls)
+      if (const ViewBallTruth* other = truth.ball < 0 ? nullptr : find_ball(to, to_side, truth.ball))
+        common.push_back({&truth, other});
+  return common;
+}
+
+/// How well two pictures agree on the distances between balls, which no pose changes: how well they know places.
+/// @return m; empty where balls seem to move, or there are not two
+std::optional<double> error_of_places_m(const CommonPlaces& common) {
+  constexpr double kStandsStill = 0.01;
+  constexpr double kExact_m = 1e-6, kMeasured_m = 0.002;  // by people, or by fitting models to pictures
+  double error_m = 0.0, farthest_m = 0.0;
+  for (std::size_t i = 0; i < common.size(); ++i)
+    for (std::size_t j = i + 1; j < common.size(); ++j) {
+      const auto apart_m = [&](std::size_t end) {
+        return (common[i][end]->centre_in_camera_m - common[j][end]->centre_in_camera_m).norm();
+      };
+      error_m = std::max(error_m, std::abs(apart_m(0) - apart_m(1)));
+      farthest_m = std::max(farthest_m, apart_m(0));
+    }
+  if (!(farthest_m > 0.0) || error_m > kStandsStill * farthest_m) return std::nullopt;
+  return error_m > kExact_m ? std::max(error_m, kMeasured_m) : error_m;
+}
+
+void add_ball_places(const DatasetView& view, std::size_t from, Side from_side, std::size_t to, Side to_side,
+                     std::vector<Link>& links) {
+  constexpr double kMostOfError = 3.0;
+  const ViewFrame &here = view.frames[from], &there = view.frames[to];
+  if (view.balls_have_places || !here.world_from_body[index_of(from_side)] ||
+      !there.world_from_body[index_of(to_side)])
+    return;
+  const CommonPlaces common = common_places(here, from_side, there, to_side);
+  const std::optional<double> error_m = error_of_places_m(common);
+  if (!error_m) return;
+  for (const auto& [one, other] : common) {
+    Link link = {.kind = LinkKind::kBallPlace, .from = from, .to = to};
+    link.from_side = from_side, link.to_side = to_side;
+    link.ball = one->ball;
+    link.from_m = one->centre_in_camera_m, link.to_m = other->centre_in_camera_m;
+    const double z_m = other->centre_in_camera_m.z();
+    if (!(z_m > 0.0)) continue;
+    link.tolerance_px = kExact_px + pose_error_px(view, here, link) +
+                        kMostOfError * *error_m * here.cameras[index_of(from_side)].pinhole.focal_px / z_m;
     links.push_back(link);
   }
 }
@@ -180,7 +249,11 @@ void add_file_links(const DatasetView& view, const Neighbourhood& frames, std::s
     add_disparities(view, frames, side, most, links);
     add_flow(view, frames, side, most, links);
     add_ball_surfaces(view, frames, side, most, links);
-    add_ball_centres(view, frames, side, links);
+    add_ball_centres(view, frames, side, most, links);
+    const std::size_t now = frames.now->index;
+    if (side == Side::kLeft) add_ball_places(view, now, side, now, Side::kRight, links);
+    if (frames.after != nullptr && view.frames[now].drive_goes_on)
+      add_ball_places(view, now, side, now + 1, side, links);
   }
   add_next_disparity(view, frames, most, links);
 }

@@ -29,6 +29,10 @@ void scale_baseline(Claims& claims, double factor) {
     const Eigen::Isometry3d& left = frame.cameras[0].body_from_camera;
     Eigen::Isometry3d& right = frame.cameras[1].body_from_camera;
     right.translation() = left.translation() + factor * (right.translation() - left.translation());
+    if (!claims.poses_are_of_each_camera || !frame.world_from_body[0] || !frame.world_from_body[1]) continue;
+    const Eigen::Vector3d origin_m = frame.world_from_body[0]->translation();
+    Eigen::Isometry3d& pose = *frame.world_from_body[1];
+    pose.translation() = origin_m + factor * (pose.translation() - origin_m);
   }
 }
 
@@ -64,7 +68,10 @@ void shift_poses(Claims& claims, int by) {
 }
 
 void swap_cameras(Claims& claims) {
-  for (Claims::Frame& frame : claims.frames) std::swap(frame.cameras[0], frame.cameras[1]);
+  for (Claims::Frame& frame : claims.frames) {
+    std::swap(frame.cameras[0], frame.cameras[1]);
+    if (claims.poses_are_of_each_camera) std::swap(frame.world_from_body[0], frame.world_from_body[1]);
+  }
 }
 
 using Undo = std::function<void(Claims&)>;
@@ -79,16 +86,17 @@ void add_frames(std::vector<Hypothesis>& all) {
   all.push_back(certain(Suspect::kPoses,
                         "camera axes are mixed up: y and z point the other way (OpenGL has y up, z backward)",
                         use_axes_of_gl));
-  all.back().needs_poses_of_camera = true;
+  all.back().poses_of = {PosesOf::kLeftCamera, PosesOf::kEachCamera};
   all.push_back(certain(
       Suspect::kCalibration,
       "camera axes on the body are mixed up: y and z point the other way (OpenGL has y up, z backward)",
       use_axes_of_gl_for_both));
+  all.back().poses_of = {PosesOf::kBody, PosesOf::kLeftCamera};
   all.push_back(certain(
-      Suspect::kPoses, "inverse poses (camera from world instead of world from camera)",
+      Suspect::kPoses, "inverse poses (camera from world and world from camera are mixed up)",
       [](Claims& claims) { change_poses(claims, [](Eigen::Isometry3d& pose) { pose = pose.inverse(); }); }));
   all.push_back(certain(Suspect::kPoses,
-                        "inverse poses, in axes of OpenGL (camera from world instead of world from camera)",
+                        "inverse poses, in axes of OpenGL (camera from world and world from camera are mixed up)",
                         [](Claims& claims) {
                           change_poses(claims, [](Eigen::Isometry3d& pose) {
                             pose = pose.inverse();
@@ -134,6 +142,17 @@ void add_units(std::vector<Hypothesis>& all) {
   }
 }
 
+/// Formats in millimetres, whose readers have made metres of it.
+void add_thousandths(std::vector<Hypothesis>& all) {
+  static constexpr double kThousand = 1000.0;
+  all.push_back(certain(
+      Suspect::kPoses, "places of poses in metres instead of millimetres", [](Claims& claims) {
+        change_poses(claims, [](Eigen::Isometry3d& pose) { pose.translation() *= kThousand; });
+      }));
+  all.push_back(certain(Suspect::kDepth, "depth in metres instead of millimetres",
+                        [](Claims& claims) { claims.depth_scale *= kThousand; }));
+}
+
 /// A camera's number that may be off by an amount: factors as shares, shifts in px.
 void add_amounts(std::vector<Hypothesis>& all) {
   constexpr double kShare = 0.002, kPixel = 0.1, kPercent = 100.0;
@@ -176,6 +195,7 @@ void add_amounts(std::vector<Hypothesis>& all) {
       [](Claims& claims, double px) { claims.disparity_shift_px += px; });
   add(Suspect::kDepth, "depth too large by {}", kShare, true,
       [](Claims& claims, double share) { claims.depth_scale /= 1.0 + share; });
+  all.back().starts = {0.0, 1.0, 4.0, 9.0, -0.5, -0.8, -0.9};  // levels of 0.1, 0.2, 0.5, 1, 2, 5, 10 mm
   add(Suspect::kPoses, "ways between poses too long by {}", kShare, true, [](Claims& claims, double share) {
     change_poses(claims, [&](Eigen::Isometry3d& pose) { pose.translation() /= 1.0 + share; });
   });
@@ -187,6 +207,7 @@ std::vector<Hypothesis> known_hypotheses() {
   std::vector<Hypothesis> all;
   add_frames(all);
   add_units(all);
+  add_thousandths(all);
   add_amounts(all);
   return all;
 }

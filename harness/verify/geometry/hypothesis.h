@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct Hypothesis {
   std::string cause;
   /// Undoes the fault. @param amount found by `fit`; without meaning where there is none
   std::function<void(Claims& claims, double amount)> undo;
-  bool needs_poses_of_camera = false;  ///< it is of the camera's axes, which poses of a body do not have
+  /// Whose poses it can be wrong in.
+  std::set<PosesOf> poses_of = {PosesOf::kBody, PosesOf::kLeftCamera, PosesOf::kEachCamera};
   bool has_amount = false;
   double first_step = 0.0;   ///< of the search for the amount
+  std::vector<double> starts = {0.0};  ///< of the search: amounts that are likely, and far from each other
   double least = 0.0;        ///< a smaller amount is no fault: what a calibration by pictures may be off
   const char* unit = "";     ///< of the amount in messages
   double shown_scale = 1.0;  ///< messages show the amount times this

@@ -17,11 +17,21 @@ Vector2d limited(const Vector2d& residual) {
   return residual;
 }
 
+/// From a camera to the other one of the same frame: by their poses, where they may have looked one after the
+/// other.
+Eigen::Isometry3d other_from(const Claims::Frame& frame, vision::Side side) {
+  const std::size_t here = index_of(side), there = 1 - here;
+  const auto& poses = frame.world_from_body;
+  const Eigen::Isometry3d there_from_here =
+      poses[here] && poses[there] ? poses[there]->inverse() * *poses[here] : Eigen::Isometry3d::Identity();
+  return frame.cameras[there].body_from_camera.inverse() * there_from_here *
+         frame.cameras[here].body_from_camera;
+}
+
 /// The point of a ray that another camera sees in a certain direction across.
 /// @return metres in the first camera's frame; empty where the rays do not meet ahead
-std::optional<Vector3d> triangulated(const ViewCamera& camera, const ViewCamera& other, const Vector3d& ray,
+std::optional<Vector3d> triangulated(const Eigen::Isometry3d& other_from_camera, const Vector3d& ray,
                                      const Vector3d& mate_ray) {
-  const Eigen::Isometry3d other_from_camera = other.body_from_camera.inverse() * camera.body_from_camera;
   const Vector3d turned = other_from_camera.linear() * ray;
   const Vector3d& origin = other_from_camera.translation();
   const double z_m = (mate_ray.x() * origin.z() - origin.x()) / (turned.x() - mate_ray.x() * turned.z());
@@ -66,7 +76,7 @@ std::optional<Vector3d> point_of(const Claims& claims, const Link& link) {
     const ViewCamera& other = cameras[1 - index_of(link.from_side)];
     if (!link.mate_is_measured) mate_px->x() += claims.disparity_shift_px;
     const std::optional<Vector3d> mate_ray = ray_of(other, *mate_px);
-    return mate_ray ? triangulated(camera, other, *ray, *mate_ray) : std::nullopt;
+    return mate_ray ? triangulated(other_from(claims.frames[link.from], link.from_side), *ray, *mate_ray) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -86,13 +96,9 @@ std::size_t frame_of_picture(const Claims& claims, const Link& link, std::size_t
 
 /// From the camera that a link is from to the one that it leads to.
 std::optional<Eigen::Isometry3d> to_from(const Claims& claims, const Link& link) {
-  const Claims::Frame& from = claims.frames[link.from];
-  const ViewCamera& to_camera = claims.frames[link.to].cameras[index_of(link.to_side)];
-  if (link.from == link.to && link.kind != LinkKind::kBallCentre) {
-    const bool moved = link.from_side != link.to_side && from.world_from_body[0] && from.world_from_body[1];
-    if (!moved)
-      return to_camera.body_from_camera.inverse() * from.cameras[index_of(link.from_side)].body_from_camera;
-  }
+  if (link.from == link.to)
+    return link.from_side == link.to_side ? Eigen::Isometry3d::Identity()
+                                          : other_from(claims.frames[link.from], link.from_side);
   const std::size_t here = frame_of_picture(claims, link, link.from);
   const std::size_t there = frame_of_picture(claims, link, link.to);
   if (std::max(here, there) >= claims.frames.size()) return std::nullopt;
@@ -105,11 +111,12 @@ std::optional<Eigen::Isometry3d> to_from(const Claims& claims, const Link& link)
 /// By how many pixels a point lies off the ball that its pixel sees, square to the ball's surface.
 std::optional<Vector2d> off_ball(const Claims& claims, const Link& link) {
   const auto world = world_from_camera(claims, link.from, link.from_side);
-  if (!world || !link.depth_m[claims.depth_instant]) return std::nullopt;
+  if (!(world || link.from_m) || !link.depth_m[claims.depth_instant]) return std::nullopt;
   const std::optional<Vector3d> point = point_of(claims, link);
   if (!point) return kWorst;
   const ViewBall& ball = (*claims.balls)[static_cast<std::size_t>(*link.ball)];
-  const double off_m = (*world * *point - ball.centre_m).norm() - ball.radius_m;
+  const double off_m =
+      (link.from_m ? *point - *link.from_m : *world * *point - ball.centre_m).norm() - ball.radius_m;
   const ViewCamera& camera = claims.frames[link.from].cameras[index_of(link.from_side)];
   return limited({camera.pinhole.focal_px * off_m / point->z(), 0.0});
 }
@@ -120,6 +127,15 @@ std::optional<Vector2d> off_centre(const Claims& claims, const Link& link) {
   const Vector3d centre_m = world->inverse() * (*claims.balls)[static_cast<std::size_t>(*link.ball)].centre_m;
   const auto pixel = pixel_of(claims.frames[link.to].cameras[index_of(link.to_side)], centre_m);
   return pixel ? limited(link.to_px - *pixel) : kWorst;
+}
+
+/// By how many pixels two cameras disagree on where a ball is.
+std::optional<Vector2d> off_place(const Claims& claims, const Link& link) {
+  const std::optional<Eigen::Isometry3d> transform = to_from(claims, link);
+  if (!transform) return std::nullopt;
+  const ViewCamera& camera = claims.frames[link.to].cameras[index_of(link.to_side)];
+  const auto said = pixel_of(camera, *link.to_m), by_poses = pixel_of(camera, *transform * *link.from_m);
+  return said && by_poses ? limited(*said - *by_poses) : kWorst;
 }
 
 /// The disparity that a point of the next frame has.
@@ -161,7 +177,8 @@ std::string_view name_of(LinkKind kind) {
       "the right camera's disparity against its depth and the baseline",
       "flow against depth and poses",
       "the next frame's disparity against poses",
-      "centres of balls against world and poses",
+      "points of the world in pictures, against poses",
+      "places of objects in both cameras and in the next frame, against poses",
       "depth of balls against world and poses",
       "corners of the left picture in the right one",
       "rows of corners in both pictures",
@@ -175,6 +192,7 @@ bool is_measured(LinkKind kind) {
 
 Claims claims_of(const DatasetView& view) {
   Claims claims = {.frames = {}, .balls = &view.balls};
+  claims.poses_are_of_each_camera = view.poses_of == PosesOf::kEachCamera;
   for (const ViewFrame& frame : view.frames) claims.frames.push_back({frame.cameras, frame.world_from_body});
   return claims;
 }
@@ -182,6 +200,7 @@ Claims claims_of(const DatasetView& view) {
 std::optional<Vector2d> residual_px(const Claims& claims, const Link& link) {
   if (link.kind == LinkKind::kBallSurface) return off_ball(claims, link);
   if (link.kind == LinkKind::kBallCentre) return off_centre(claims, link);
+  if (link.kind == LinkKind::kBallPlace) return off_place(claims, link);
   if (claims.pictures_are_swapped && is_measured(link.kind)) {
     if (link.kind == LinkKind::kNextPictures) return std::nullopt;
     if (!link.mate_is_measured && !link.found_depth_m && !link.found_mate_px) return std::nullopt;

@@ -18,13 +18,14 @@ enum class LinkKind {
   kRightDepth,      ///< the right camera's disparity against its depth
   kFlow,            ///< flow against depth (or disparity), cameras and poses
   kNextDisparity,   ///< the disparity of the next frame against depth, cameras and poses
-  kBallCentre,      ///< centres of balls in files of balls against world, poses and cameras
+  kBallCentre,      ///< centres of balls, or points, in pictures against world, poses and cameras
+  kBallPlace,       ///< where two cameras, or frames, say that an object is, against poses
   kBallSurface,     ///< depth of pixels that see a ball against world, poses and cameras
   kStereoPictures,  ///< corners of the left picture found in the right one, against depth or disparity
   kEpipolar,        ///< the same without depth: their row, and that they lie before the cameras
   kNextPictures,    ///< corners found in the next frame's picture, against depth, cameras and poses
 };
-inline constexpr std::size_t kLinkKinds = 9;
+inline constexpr std::size_t kLinkKinds = 10;
 
 /// "disparity against depth and baseline", as messages say it.
 std::string_view name_of(LinkKind kind);
@@ -45,6 +46,8 @@ struct Link {
   std::array<std::optional<Eigen::Vector2d>, 3> mate_px;
   bool mate_is_measured = false;  ///< in pictures, not read from a file of disparities
   std::optional<int> ball;
+  /// Where the file says that the ball is, in the frames of the cameras that the link is from and leads to.
+  std::optional<Eigen::Vector3d> from_m, to_m;
   /// Of corners in both pictures: the same two values for the place that was found in the right picture.
   std::optional<double> found_depth_m;
   std::optional<Eigen::Vector2d> found_mate_px;
@@ -61,6 +64,7 @@ struct Claims {
   };
   std::vector<Frame> frames;
   const std::vector<ViewBall>* balls = nullptr;
+  bool poses_are_of_each_camera = false;
   double depth_scale = 1.0;
   double disparity_shift_px = 0.0;
   bool depth_is_along_ray = false;

@@ -103,7 +103,7 @@ DatasetView read_euroc_view(const fs::path& folder) {
   view.calibration_file = "mav0/cam0/sensor.yaml, mav0/cam1/sensor.yaml";
   view.poses_file = kStates;
   view.pictures_file = "mav0/cam0/data";
-  view.poses_are_of_camera = false;
+  view.poses_of = PosesOf::kBody;
   std::array<ViewCamera, 2> cameras;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string file = std::string(kCameras[i]) + "/sensor.yaml";

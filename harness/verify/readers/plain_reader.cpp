@@ -42,12 +42,14 @@ ViewBallTruth ball_in(const std::string& line) {
   constexpr std::int64_t kMost = std::int64_t{1} << 40;
   const nlohmann::json json = parse_line(line);
   const JsonValue value(json, "");
+  const auto share = value.find("visib_fract");
   return {.ball = static_cast<int>(value.at("ball_id").integer(0, 1 << 20)),
           .centre_px = vector_in<2>(value.at("centre_px")),
           .centre_in_camera_m = vector_in<3>(value.at("centre_in_camera_m")),
           .bbox_visib = box_in(value.at("bbox_visib")),
           .px_count_visib = value.at("px_count_visib").integer(0, kMost),
-          .px_count_all = value.at("px_count_all").integer(0, kMost)};
+          .px_count_all = value.at("px_count_all").integer(0, kMost),
+          .visib_fract = share ? std::optional(share->number(0.0, 1.0)) : std::nullopt};
 }
 
 void read_balls_of(DatasetView& view, ViewFrame& frame, Side side) {
@@ -159,7 +161,7 @@ DatasetView read_plain_view(const fs::path& folder) {
   view.poses_file = kFramesFile;
   view.depth_file = picture_folder(Side::kLeft, "depth");
   view.pictures_file = picture_folder(Side::kLeft);
-  view.poses_are_of_camera = false;
+  view.poses_of = PosesOf::kBody;
   read_or_blame(view, kDatasetJson, [&] { view.rows_look_apart = rows_look_apart(folder); });
   const std::array<ViewCamera, 2> cameras = read_rig_cameras(view, view.calibration_file);
   read_or_blame(view, kBallsFile, [&] {

@@ -11,6 +11,7 @@
 #include "harness/verify/readers/euroc_reader.h"
 #include "harness/verify/readers/kitti_readers.h"
 #include "harness/verify/readers/plain_reader.h"
+#include "harness/verify/readers/scene/scene_readers.h"
 #include "harness/verify/readers/stereo_readers.h"
 #include "harness/verify/readers/tum_reader.h"
 #include "harness/verify/readers/vslamlab_reader.h"
@@ -38,6 +39,10 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"tum", looks_like_tum, read_tum_view},
       DatasetReader{"vslamlab", looks_like_vslamlab, read_vslamlab_view},
       DatasetReader{"sceneflow", looks_like_sceneflow, read_sceneflow_view},
+      DatasetReader{"colmap", looks_like_colmap, read_colmap_view},
+      DatasetReader{"coco", looks_like_coco, read_coco_view},
+      DatasetReader{"bop", looks_like_bop, read_bop_view},
+      DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
   };

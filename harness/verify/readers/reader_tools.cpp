@@ -85,21 +85,28 @@ ViewPose pose_in(const NumberTable& table, const TableRow& row, std::size_t colu
   return pose;
 }
 
-double precision_of(const NumberTable& table, std::size_t first_column, std::size_t count) {
+double precision_of(std::span<const std::string> numbers) {
   int decimals = 0;
-  for (const TableRow& row : table.rows)
-    for (std::size_t i = first_column; i < first_column + count; ++i) {
-      const std::string& cell = row.cells[i];
-      const std::size_t exponent = cell.find_first_of("eE"), point = cell.find('.');
-      if (point == std::string::npos) continue;
-      const std::size_t end = std::min(exponent, cell.size());
-      int places = static_cast<int>(end - point) - 1;
-      if (exponent != std::string::npos) places -= std::atoi(cell.c_str() + exponent + 1);
-      decimals = std::max(decimals, places);
-    }
+  for (const std::string& number : numbers) {
+    const std::size_t exponent = number.find_first_of("eE"), point = number.find('.');
+    if (point == std::string::npos) continue;
+    const std::size_t end = std::min(exponent, number.size());
+    int places = static_cast<int>(end - point) - 1;
+    if (exponent != std::string::npos) places -= std::atoi(number.c_str() + exponent + 1);
+    decimals = std::max(decimals, places);
+  }
   double unit = 0.5;
   for (int i = 0; i < decimals; ++i) unit /= 10.0;
   return decimals == 0 ? 0.0 : unit;
+}
+
+double precision_of(const NumberTable& table, std::size_t first_column, std::size_t count) {
+  double unit = 0.0;
+  for (const TableRow& row : table.rows) {
+    const double of_row = precision_of(std::span(row.cells).subspan(first_column, count));
+    if (of_row > 0.0) unit = unit == 0.0 ? of_row : std::min(unit, of_row);
+  }
+  return unit;
 }
 
 std::optional<Eigen::Isometry3d> pose_at(const std::vector<ViewPose>& poses, std::int64_t stamp_ns) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ ViewPose pose_in(const NumberTable& table, const TableRow& row, std::size_t colu
 
 /// Half a unit of the last decimal that any of some cells has: how far off they may be.
 double precision_of(const NumberTable& table, std::size_t first_column, std::size_t count);
+/// The same of numbers as text: "1.25", "1e-3".
+double precision_of(std::span<const std::string> numbers);
 
 /// The pose of a time, between those that are listed. @return empty where they are too far apart, or end
 std::optional<Eigen::Isometry3d> pose_at(const std::vector<ViewPose>& poses, std::int64_t stamp_ns);

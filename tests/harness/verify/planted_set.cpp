@@ -189,7 +189,9 @@ std::string faults_of(const fs::path& folder, const std::string& format) {
 }
 
 PlantedSet::PlantedSet(const std::string& format) : format_(format) {
-  const fs::path from = rendered(kBend, kAllFormats, kBendFrames) / format;
+  const bool is_scene = kSceneFormats.find(format) != std::string::npos;
+  const fs::path from =
+      rendered(kBend, is_scene ? kSceneFormats : kAllFormats, is_scene ? kSceneFrames : kBendFrames) / format;
   fs::copy(from, folder_.path() / format, fs::copy_options::recursive);
   for (const char* name : {"dataset.json", "manifest-sha256.txt"}) fs::remove(path(name));
 }

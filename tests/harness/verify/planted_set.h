@@ -19,6 +19,8 @@ namespace stereobench::harness {
 inline const std::string kBend = STEREOBENCH_SOURCE_DIR "/tests/harness/verify/bend.yaml";
 inline const std::vector<std::string> kBendFrames = {"--frames", "2..7", "--truth", "balls,disparity,flow"};
 
+inline const std::vector<std::string> kSceneFrames = {"--frames", "2..7"};
+
 /// The folder that has a data set in each of some formats.
 /// @param scenario its file
 /// @param arguments of `render` behind the scenario
@@ -31,6 +33,9 @@ inline const std::string kAllFormats =
     "sceneflow,"
     "vslamlab";
 
+/// The formats of scenes; rendered apart, since they take other drives than the others.
+inline const std::string kSceneFormats = "colmap,coco,bop,nerfstudio";
+
 /// All faults of a folder, a line each.
 std::string faults_of(const std::filesystem::path& folder, const std::string& format);
 
@@ -39,6 +44,7 @@ class PlantedSet {
  public:
   explicit PlantedSet(const std::string& format);
 
+  const std::string& format() const { return format_; }
   std::string faults() const { return faults_of(folder_.path() / format_, format_); }
   std::filesystem::path path(const std::string& name) const { return folder_.path() / format_ / name; }
   std::string text(const std::string& name) const { return folder_.read(format_ + "/" + name); }
