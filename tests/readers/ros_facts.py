@@ -1,8 +1,7 @@
 """What recordings of a drive must hold, by the plain data set beside them: the same of ROS 1 and of ROS 2.
 
-A message is an object with the fields of its type. Meant to catch: P[3] of the wrong sign; the right camera's pictures
-for the left one's; a stamp a step late; odometry that begins at the origin; truth for the measured odometry; hidden
-balls; bearings to the right.
+A message is an object with the fields of its type. Meant to catch: P[3] of the wrong sign; the left camera's pictures
+for the right one's; stamps that differ; truth for the measured odometry; hidden balls; bearings to the right.
 """
 
 import collections

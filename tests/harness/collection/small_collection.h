@@ -13,10 +13,11 @@
 namespace stereobench::harness {
 
 // Six drives of four frames: three seeds, each with a good and with a noisy camera. @return the file
-inline std::filesystem::path write_collection(const TestFolder& folder, const std::string& more = "") {
+inline std::filesystem::path write_collection(const TestFolder& folder, const std::string& more = "",
+                                              const std::string& formats = "plain, tum") {
   return folder.write("small.yaml", fmt::format(R"(dataset: small
 about: {{description: A test., licence: CC0-1.0}}
-formats: [plain, tum]
+formats: [{}]
 {}drives:
   - name: circle
     scenario: {}
@@ -24,7 +25,7 @@ formats: [plain, tum]
     seeds: {{train: 0..1, test: 7}}
     variations: [{{name: good}}, {{name: noisy, set: [camera.noise_sd_levels=6]}}]
 )",
-                                                more, scenario_path("ball_circle")));
+                                                formats, more, scenario_path("ball_circle")));
 }
 
 // The bytes of all files by their place.

@@ -1,6 +1,7 @@
 #include "harness/dataset/rendered_dataset.h"
 
 #include <cstdlib>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
@@ -206,6 +207,97 @@ TEST(RenderedDataset, HasAManifestThatSha256sumChecks) {
     }
   folder.write("README.md", "another");
   EXPECT_NE(std::system(check.c_str()), 0);
+}
+
+/// Of the parts of two steps, one after the other.
+std::vector<DatasetContainer> archive() {
+  return {
+      {"drive.txt", [](AtomicFile& file, const std::filesystem::path& folder) {
+         for (const char* name : {"0", "1"}) {
+           std::ifstream part(folder / "dataset.parts" / name);
+           file.append(std::string{std::istreambuf_iterator<char>(part), std::istreambuf_iterator<char>()});
+         }
+       }}};
+}
+
+void write_part(RenderedDataset& dataset, std::size_t step, const std::string& text) {
+  dataset.write(step, {text_file("dataset.parts/" + std::to_string(step), text)});
+}
+
+// Mutations: parts in the manifest; parts that stay; bytes replaced at another place.
+TEST(RenderedDataset, PutsContainersTogetherOfParts) {
+  const TestFolder folder;
+  RenderedDataset dataset(folder.path(), kOne);
+  write_part(dataset, 0, "one ");
+  write_part(dataset, 1, "two");
+  auto containers = archive();
+  containers.push_back({"head.txt", [](AtomicFile& file, const std::filesystem::path&) {
+                          file.append("....tail");
+                          file.overwrite(1, "ea");
+                        }});
+  dataset.finish({text_file("poses.txt", "poses")}, {}, containers);
+  EXPECT_EQ(folder.read("drive.txt"), "one two");
+  EXPECT_EQ(folder.read("head.txt"), ".ea.tail");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.parts"));
+  EXPECT_THAT(folder.read("manifest-sha256.txt"),
+              testing::AllOf(HasSubstr("  drive.txt\n"), HasSubstr("  head.txt\n"),
+                             HasSubstr("  poses.txt\n"), testing::Not(HasSubstr("dataset.parts"))));
+  EXPECT_EQ(nlohmann::json::parse(folder.read("dataset.json"))["frames"], nlohmann::json({0, 1}));
+  EXPECT_TRUE(RenderedDataset(folder.path(), kOne).is_complete());
+}
+
+// Whoever ends while a container is written has lost no part, nor leaves half a container. Mutations: parts
+// removed before the manifest is there; the container's file at its place at once.
+TEST(RenderedDataset, KeepsPartsUntilTheManifestIsThere) {
+  const TestFolder folder;
+  {
+    RenderedDataset begun(folder.path(), kOne);
+    write_part(begun, 0, "one ");
+    write_part(begun, 1, "two");
+    std::vector<DatasetContainer> containers = archive();
+    containers.push_back({"other.txt", [](AtomicFile& file, const std::filesystem::path&) {
+                            file.append("half");
+                            throw std::runtime_error("full");
+                          }});
+    EXPECT_THROW(begun.finish({}, {}, containers), std::runtime_error);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "other.txt"));
+  EXPECT_EQ(folder.read("dataset.parts/1"), "two");
+  RenderedDataset again(folder.path(), kOne);
+  write_part(again, 0, "another");  // is there: kept
+  write_part(again, 1, "another");
+  again.finish({}, {}, archive());
+  EXPECT_EQ(folder.read("drive.txt"), "one two");
+}
+
+// Killed right after the manifest: the parts go when the folder is looked at again. Those of an unfinished
+// data set stay. Mutations: each for the other.
+TEST(RenderedDataset, RemovesPartsThatAreOfNoMoreUse) {
+  const TestFolder folder;
+  RenderedDataset dataset(folder.path(), kOne);
+  write_part(dataset, 0, "one ");
+  remove_used_parts(folder.path());
+  EXPECT_EQ(folder.read("dataset.parts/0"), "one ");
+  write_part(dataset, 1, "two");
+  dataset.finish({}, {}, archive());
+  folder.write("dataset.parts/0", "one ");
+  EXPECT_TRUE(RenderedDataset(folder.path(), kOne).is_complete());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.parts"));
+}
+
+// Mutation: a container that is not among the files that are looked at.
+TEST(RenderedDataset, WritesASpoiltContainerAgain) {
+  const TestFolder folder;
+  for (int round = 0; round < 2; ++round) {
+    RenderedDataset dataset(folder.path(), kOne);
+    EXPECT_EQ(dataset.spoilt(),
+              round == 0 ? std::vector<std::string>() : std::vector<std::string>{"drive.txt"});
+    write_part(dataset, 0, "one ");
+    write_part(dataset, 1, "two");
+    dataset.finish({}, {}, archive());
+    EXPECT_EQ(folder.read("drive.txt"), "one two");
+    folder.write("drive.txt", "one twp");
+  }
 }
 
 // Mutations: no check of the identity; none while the data set is unfinished.

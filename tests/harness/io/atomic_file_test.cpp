@@ -43,6 +43,21 @@ TEST(AtomicFile, ReplacesAnOldFileAndHonoursTheCreationMask) {
   EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
+// Mutations: appended in place of replaced; the last block left out; blocks one after the other in one place.
+TEST(AtomicFiles, CopiesALargeFileBlockByBlock) {
+  const TestFolder folder;
+  std::string bytes((std::size_t{5} << 19) + 3, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 251);
+  folder.write("from", bytes);
+  AtomicFiles files;
+  files.copy(folder.path() / "to", folder.path() / "from");
+  EXPECT_FALSE(fs::exists(folder.path() / "to"));
+  files.move_into_place();
+  EXPECT_TRUE(folder.read("to") == bytes);
+  EXPECT_THAT([&] { files.copy(folder.path() / "to", folder.path() / "nowhere"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("nowhere: cannot be read")));
+}
+
 // Mutation: writing to the final name directly. The reader that holds the old file would see it change.
 TEST(AtomicFile, AReaderOfTheOldFileKeepsIt) {
   const TestFolder folder;

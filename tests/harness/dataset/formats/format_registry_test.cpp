@@ -20,6 +20,10 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+bool is_picture(const std::string& name) {
+  return name.ends_with(".png") || name.ends_with(".pfm");
+}
+
 std::vector<DatasetFormat> all_formats() {
   std::vector<DatasetFormat> all(dataset_formats().begin(), dataset_formats().end());
   all.push_back(kExampleFormat);
@@ -95,14 +99,16 @@ TEST_P(EveryFormat, WritesTheSameOfSomeSteps) {
   const std::map<std::string, std::string> whole = files();
   std::size_t pictures = 0;
   for (const auto& [name_of_some, bytes] : some) {
-    if (!name_of_some.ends_with(".png") && !name_of_some.ends_with(".pfm")) continue;
+    if (!is_picture(name_of_some)) continue;
     std::string name = name_of_some;
     if (GetParam().name == "kitti-odometry") ++name.at(name.size() - 5);  // of 000000.png
     ++pictures;
     ASSERT_TRUE(whole.contains(name)) << name;
     EXPECT_EQ(whole.at(name), bytes) << name;
   }
-  EXPECT_GE(pictures, 4U);
+  const bool has_pictures =
+      std::ranges::any_of(whole, is_picture, &std::pair<const std::string, std::string>::first);
+  EXPECT_GE(pictures, has_pictures ? 4U : 0U);  // those in containers: tests/readers
 }
 
 // Mutation: what is there already left out of the list.
@@ -118,10 +124,12 @@ TEST_P(EveryFormat, GoesOnAfterAnInterruption) {
     } else if (first_picture.empty()) {
       first_picture = place_ / name;
     }
-  const auto written = fs::last_write_time(first_picture);
+  const auto written = first_picture.empty() ? fs::file_time_type() : fs::last_write_time(first_picture);
   EXPECT_EQ(render().pairs, 3);
   EXPECT_EQ(files(), whole);
-  EXPECT_EQ(fs::last_write_time(first_picture), written);
+  if (!first_picture.empty()) {
+    EXPECT_EQ(fs::last_write_time(first_picture), written);
+  }
 }
 
 // Mutation: names of a format that the manifest takes for no files of its own.
