@@ -40,7 +40,6 @@ cv::Mat decoded(const std::string& png) {
   return cv::imdecode(std::vector<std::uint8_t>(png.begin(), png.end()), cv::IMREAD_COLOR);
 }
 
-// Mutations: the last one left out; one twice.
 TEST(ContactSheet, TakesPairsEvenly) {
   EXPECT_THAT(evenly_spaced(10, 4), ElementsAre(0, 3, 6, 9));
   EXPECT_THAT(evenly_spaced(72, 2), ElementsAre(0, 71));
@@ -55,8 +54,7 @@ TEST(ContactSheet, TakesPairsEvenly) {
     }
 }
 
-// Columns are left, right, disparity, balls: 320 px each where that weighs little. Mutations: cameras
-// swapped; far red; the same colour for two balls; none drawn as far.
+// Columns are left, right, disparity, balls: 320 px each where that weighs little.
 TEST(ContactSheet, ShowsWhatTheSetHas) {
   const cv::Mat sheet = decoded(contact_sheet(view_of(2), {0, 1}, "test"));
   ASSERT_EQ(sheet.cols, 8 + 4 * 328);
@@ -88,7 +86,7 @@ TEST(ContactSheet, LeavesOutWhatTheSetHasNot) {
   EXPECT_EQ(complaint_of([&] { contact_sheet(view, {0}, "test"); }), "frame 000000: has no left picture");
 }
 
-// Law: a sheet weighs less than it may, however noisy its pictures. Mutation: the largest cells always.
+// Law: a sheet weighs less than it may, however noisy its pictures.
 TEST(ContactSheet, WeighsLessThanAMegabyte) {
   DatasetView view = view_of(12, {640, 480});
   cv::Mat noise(480, 640, CV_8UC3);

@@ -35,7 +35,6 @@ class PreviewCommand : public testing::Test {
   }
 };
 
-// Mutation: one format alone is read.
 TEST_F(PreviewCommand, MakesASheetOfAnyFormat) {
   const Outcome plain = preview({"--out", place("new/sheet.png")});
   EXPECT_EQ(plain.exit_code, 0) << plain.err;
@@ -46,8 +45,7 @@ TEST_F(PreviewCommand, MakesASheetOfAnyFormat) {
   EXPECT_EQ(tum.out, fmt::format("tum: 1 of 2 pairs in {}\n", place("tum.png"))) << tum.err;
 }
 
-// The program gets each picture whole, 320 x 120 of both: here it counts the bytes. Mutations: one camera
-// alone; a failure taken for a film.
+// The program gets each picture whole, 320 x 120 of both: here it counts the bytes.
 TEST_F(PreviewCommand, HandsAFilmToFfmpeg) {
   put_ffmpeg("for last; do :; done\nprintf '%s ' \"$@\" > '" + place("words") + "'\nwc -c > \"$last\"\n");
   const std::string path = place("bin") + ":/usr/bin:/bin";
@@ -64,7 +62,6 @@ TEST_F(PreviewCommand, HandsAFilmToFfmpeg) {
   EXPECT_FALSE(fs::exists(place("other.mp4")));
 }
 
-// Mutation: the sheet written before the program is looked for.
 TEST_F(PreviewCommand, RefusesInOneLine) {
   fs::create_directory(scratch_.path() / "empty");
   const Outcome none = preview({"--out", place("sheet.png"), "--video", place("film.mp4")}, place("empty"));

@@ -26,7 +26,7 @@ class ChangedCommands : public testing::Test {
 };
 
 // Law: the commands of a changed set's card, and `export --as plain`, write the same bytes; `verify` finds
-// nothing. Mutations: an option left out of the card; one that only render knows.
+// nothing.
 TEST_F(ChangedCommands, WriteTheSameOnBothWays) {
   const std::vector<std::string> options = {"--every", "2",   "--crop",    "7,9,150,105",
                                             "--scale", "1/3", "--picture", "grey"};
@@ -45,7 +45,6 @@ TEST_F(ChangedCommands, WriteTheSameOnBothWays) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
 
-// Mutations: found out after the folder was made; the format's kinds not asked for.
 TEST_F(ChangedCommands, RefuseInOneLineAndMakeNothing) {
   for (const auto& [options, complaint] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"--scale", "1/7"},
@@ -69,7 +68,7 @@ TEST_F(ChangedCommands, RefuseInOneLineAndMakeNothing) {
   }
 }
 
-// A mosaic and 16 bits are proved as other pictures are. Mutation: levels of 16 bits taken for 8.
+// A mosaic and 16 bits are proved as other pictures are.
 TEST_F(ChangedCommands, OtherKindsOfPictureAreProved) {
   for (const char* kind : {"bayer-rggb", "linear16"}) {
     ASSERT_EQ(render({"--picture", kind}, kind).exit_code, 0);

@@ -24,7 +24,7 @@ DatasetDrive room_of(const TruthRequest& truth = {}) {
 }
 
 // Law: where a changed camera shows a point is where the whole picture's pixel went that shows it; pixel c
-// covers what lies around N (c + 0.5) - 0.5. Mutations: cx / N; the cut after the scale; focal length not
+// covers what lies around N (c + 0.5) - 0.5. Mutations: cx / N; focal length not
 // divided.
 TEST(PictureChange, MovesPixelsAndCameraAlike) {
   vision::StereoRig rig;
@@ -65,7 +65,7 @@ TEST(AreaMean, KeepsTheMean) {
     }
 }
 
-// A pixel is the mean of its own pixels. Mutation: rows and columns swapped.
+// A pixel is the mean of its own pixels.
 TEST(AreaMean, IsOfThePixelsThatAPixelCovers) {
   const cv::Mat picture = speckled(CV_8UC3);
   const cv::Mat small = area_mean(picture, 4);
@@ -95,7 +95,6 @@ TEST(PictureKinds, MosaicTakesRedFirstAndGreyIsBt601) {
     }
 }
 
-// Mutations: each check left out.
 TEST(PictureChange, RefusesWordsThatItDoesNotKnow) {
   for (const char* text : {"", "0", "-1", "2.5", "3x", "1,2"})
     EXPECT_EQ(complaint_of([&] { parse_every(text); }),
@@ -114,7 +113,6 @@ TEST(PictureChange, RefusesWordsThatItDoesNotKnow) {
   EXPECT_EQ(parse_scale("1/3"), 3);
 }
 
-// Mutations: each check left out.
 TEST(PictureChange, RefusesWhatADriveHasNotTheTruthOf) {
   const auto of = [](const DatasetDrive& drive, const PictureChange& change) {
     return complaint_of([&] { changed(drive, change); });
