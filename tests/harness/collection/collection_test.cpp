@@ -127,7 +127,6 @@ TEST(Shard, HasEachDriveOnce) {
     EXPECT_THROW(parse_shard(bad), std::runtime_error) << bad;
 }
 
-// Mutations: the cut's width and height exchanged; what is wrong told as of an option.
 TEST(CollectionFile, ChangesPictures) {
   const std::string rest = "\ndrives: [{name: one, scenario: one.yaml, seeds: {train: 0}}]\n";
   const WrittenCollection written(

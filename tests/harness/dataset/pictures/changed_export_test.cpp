@@ -21,8 +21,7 @@ std::vector<WrittenDataset> export_changed(const RenderedTwice& drive, const Dat
 class EveryChangedExport : public testing::TestWithParam<DatasetFormat> {};
 
 // Law: a changed export is what a changed rendering would have been, to the byte, dataset.json and all.
-// Mutations: observations of pairs that are left out; the key `pictures` after `format`; ids of the whole
-// picture.
+// Mutations: observations of pairs that are left out; the key `pictures` after `format`.
 TEST_P(EveryChangedExport, IsWhatWouldHaveBeenRendered) {
   const bool is_grey = GetParam().pictures.find("grey") != std::string_view::npos;
   const bool has_pairs_in_a_row = GetParam().name != "kitti-scene-flow";
@@ -48,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryChangedExport,
                            return name;
                          });
 
-// Law: each K-th pair has the bytes that it has in the whole drive. Mutation: pairs numbered anew.
+// Law: each K-th pair has the bytes that it has in the whole drive.
 TEST(ChangedExport, KeepsTheBytesOfEachSoManiethPair) {
   const DatasetFormat& plain = dataset_formats().front();
   const RenderedTwice drive(plain, kTruth, TruthFormat::kExact, {.every = 2});
@@ -82,7 +81,6 @@ TEST(ChangedExport, GoesOnFromAChangedSet) {
                         drive.folder("rendered").string()));
 }
 
-// Mutations: each check left out.
 TEST(ChangedExport, RefusesWhatASetDoesNotTell) {
   const DatasetFormat& plain = dataset_formats().front();
   const RenderedTwice drive(dataset_format("tum"), "balls,normal");
@@ -112,7 +110,7 @@ TEST(ChangedExport, DoesNotCutDisparityWithoutRows) {
 }
 
 // Law: 16 bits are those of the same camera, noise and all: rounded to 8, they are what it stores; and there
-// are more than 256 of them. Mutations: noise of the other camera; the light of 8 bits that the camera needs.
+// are more than 256 of them. Mutation: noise of the other camera.
 TEST(Linear16, IsWhatTheCameraRounds) {
   const RenderedTwice drive(
       dataset_formats().front(), "", TruthFormat::kExact, {.kind = PictureKind::kLinear16},
