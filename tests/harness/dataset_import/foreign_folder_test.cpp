@@ -57,7 +57,7 @@ class ForeignEuroc : public testing::Test {
 std::unique_ptr<TestFolder> ForeignEuroc::folder_;
 
 // Law: where the balls are, painted by hand through two lenses, is where `detect` finds them from the robot
-// between the cameras. Mutations: the lens left out; T_BS inverted; the cameras' turns left out.
+// between the cameras. Mutation: the lens left out.
 TEST_F(ForeignEuroc, BallsAreFoundWhereTheyWerePainted) {
   const PaintedEuroc set;
   const TestFolder scratch;
@@ -84,8 +84,7 @@ TEST_F(ForeignEuroc, BallsAreFoundWhereTheyWerePainted) {
   }
 }
 
-// Mutations: the truth of the nearest line in place of the time's; the body in place of the robot; a first
-// picture without truth that is kept.
+// The first picture was taken before the truth begins. Mutation: the robot at the left camera.
 TEST_F(ForeignEuroc, TruthIsThatOfTheRobotBetweenTheCameras) {
   const PaintedEuroc set;
   const TestFolder scratch;
@@ -152,7 +151,7 @@ class ForeignKitti : public testing::Test {
   TestFolder folder_;
 };
 
-// Mutations: the left camera in place of the robot; the axes of the camera's world kept.
+// Mutation: the left camera in place of the robot.
 TEST_F(ForeignKitti, GreySequenceIsImportedByItsName) {
   const TestFolder scratch;
   const Outcome imported = import_from(folder_, scratch, {"--only", "04"});

@@ -37,7 +37,7 @@ Vector2d distorted(const std::array<double, 4>& lens, const Vector2d& p) {
 Vector3d direction_of(const PaintedCamera& camera, double u, double v) {
   const Vector2d seen((u - camera.cu) / camera.fu, (v - camera.cv) / camera.fv);
   Vector2d straight = seen;
-  for (int i = 0; i < 30; ++i) straight += seen - distorted(camera.lens, straight);
+  for (int i = 0; i < 15; ++i) straight += seen - distorted(camera.lens, straight);
   return straight.homogeneous().normalized();
 }
 
@@ -61,7 +61,7 @@ Vector3d light_along(const std::vector<PaintedBall>& balls, const Vector3d& from
 
 cv::Mat painted(const PaintedEuroc& set, const PaintedCamera& camera,
                 const Eigen::Isometry3d& world_from_body) {
-  constexpr int kRays = 5;
+  constexpr int kRays = 4;
   const Eigen::Isometry3d pose = world_from_body * camera.body_from_camera;
   cv::Mat picture(PaintedEuroc::kHeight, PaintedEuroc::kWidth, CV_8UC3);
   for (int v = 0; v < picture.rows; ++v)

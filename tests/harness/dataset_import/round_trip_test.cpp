@@ -74,8 +74,7 @@ class CarriedDrive : public testing::TestWithParam<Carried> {};
 // Law: what `detect` finds in a folder that went through a layout and back is what it finds in the plain
 // folder, to the byte. Layouts say nothing of balls, whose size is told; and those of one calibration a pair
 // nothing of how the cameras look down. kitti-scene-flow has no pair of the last step, which leads nowhere.
-// Mutations: a baseline that is P1[3] / f; frames of sceneflow numbered from 1; the right camera's turn the
-// other way round; the lens left out.
+// Mutations: a baseline that is P1[3] / f; the right camera's turn the other way round.
 TEST_P(CarriedDrive, DetectWritesTheSameBytes) {
   const fs::path sets = rendered_bend(GetParam().formats, GetParam().render);
   const std::string plain = detected(sets / "plain", {});
@@ -168,7 +167,7 @@ void drive_exactly(const fs::path& folder) {
 // Law: poses, times and detections that went through a layout and back give the filters what the plain
 // folder's give them, where its odometry is exact as well. Poses are equal to the last digits of quaternions
 // and matrices, not to the byte: poses are held to 1e-12, what filters make of them to a part in 1e9.
-// Mutations: the robot at the left camera; poses of the robot taken for the camera's; a pose late.
+// Mutation: the robot at the left camera.
 TEST(RoundTrip, SlamOnTruePathsFindsTheSame) {
   const TestFolder scratch;
   // All of the drive: the plain folder's log has every step, with a picture or not.
