@@ -1,6 +1,5 @@
 #include "harness/io/file_list.h"
 
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,21 +15,35 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kGap = "  ";  ///< between hash and name, as sha256sum has it
 
-/// Whether a name is a file's place within a folder, in the one form that names it: left_depth/000012.pfm.
-bool is_place_within(const std::string& name) {
-  const fs::path path(name);
-  return path.is_relative() && path.has_filename() && path == path.lexically_normal() &&
-         *path.begin() != ".." && *path.begin() != ".";
+/// A name as BagIt writes it: line ends and % are %0A, %0D, %25.
+std::string bag_name(std::string name) {
+  for (const auto& [code, letter] : {std::pair("%0A", "\n"), std::pair("%0D", "\r"), std::pair("%25", "%")})
+    for (std::size_t at = name.find(code); at != std::string::npos; at = name.find(code, at + 1))
+      name.replace(at, 3, letter);
+  return name;
 }
 
-bool is_hash(std::string_view text) {
-  return text.size() == kSha256Digits &&
-         std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+bool is_within(const fs::path& place) {
+  return place.is_relative() && place.has_filename() && *place.begin() != ".." && *place.begin() != ".";
 }
 
-bool is_as_listed(const fs::path& file, const std::string& hash) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && sha256_of_file(file) == hash;
+/// 64 hexadecimal digits, blanks and perhaps an asterisk, and a name.
+ListedFile listed_file(const fs::path& folder, const std::string& text, long line) {
+  ListedFile file = {.line = line, .name = {}, .hash = text.substr(0, kSha256Digits), .expected = {}};
+  const std::size_t name_at = text.find_first_not_of(" \t*", kSha256Digits);
+  if (file.hash.size() != kSha256Digits || name_at == kSha256Digits ||
+      file.hash.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
+    file.expected = "64 hexadecimal digits and the name of a file";
+    return file;
+  }
+  for (char& digit : file.hash)
+    if (digit >= 'A' && digit <= 'F') digit = static_cast<char>(digit - 'A' + 'a');
+  std::string name = name_at == std::string::npos ? "" : text.substr(name_at);
+  if (!fs::exists(folder / name)) name = bag_name(name);  // sha256sum has them as they are
+  const fs::path place = fs::path(name).lexically_normal();
+  file.name = place.generic_string();
+  if (!is_within(place)) file.expected = "the name of a file in the folder";
+  return file;
 }
 
 }  // namespace
@@ -46,24 +59,28 @@ std::string manifest_text(const FileHashes& files) {
   return text;
 }
 
+std::vector<ListedFile> listed_files(const fs::path& folder) {
+  std::istringstream lines(read_text(folder / kManifest));
+  std::vector<ListedFile> files;
+  for (std::string line; std::getline(lines, line);)
+    files.push_back(listed_file(folder, line, std::ssize(files) + 1));
+  return files;
+}
+
 FileHashes read_manifest(const fs::path& folder) {
-  const fs::path manifest = folder / kManifest;
-  std::istringstream lines(read_text(manifest));
   FileHashes files;
-  long number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    const auto refuse = [&](const char* expected) {
-      throw std::runtime_error(fmt::format("{}:{}: expected {}", manifest.string(), number, expected));
-    };
-    const std::string hash = line.substr(0, kSha256Digits);
-    if (!is_hash(hash) || line.compare(kSha256Digits, kGap.size(), kGap) != 0)
-      refuse("a SHA-256, two spaces and the name of a file");
-    const std::string name = line.substr(kSha256Digits + kGap.size());
-    if (!is_place_within(name)) refuse("the name of a file in the folder");
-    if (!files.emplace(name, hash).second) refuse("each file once");
+  for (const ListedFile& file : listed_files(folder)) {
+    const bool is_new = !file.expected.empty() || files.emplace(file.name, file.hash).second;
+    if (!file.expected.empty() || !is_new)
+      throw std::runtime_error(fmt::format("{}:{}: expected {}", (folder / kManifest).string(), file.line,
+                                           is_new ? file.expected : "each file once"));
   }
   return files;
+}
+
+bool is_as_listed(const fs::path& file, const std::string& hash) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) && sha256_of_file(file) == hash;
 }
 
 std::vector<std::string> changed_files(const fs::path& folder, const FileHashes& files) {

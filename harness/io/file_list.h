@@ -32,6 +32,21 @@ void hash_others(const std::filesystem::path& folder, FileHashes& files);
 /// The manifest: a line for each file, sorted by name.
 std::string manifest_text(const FileHashes& files);
 
+/// A line of a manifest, whoever wrote it: blanks may be other ones, digits large, names as BagIt writes
+/// them.
+struct ListedFile {
+  long line = 0;         ///< from 1
+  std::string name;      ///< its place in the folder
+  std::string hash;      ///< small letters
+  std::string expected;  ///< what the line had to be; empty where it is that
+};
+
+/// The lines of a folder's manifest. @throws std::runtime_error when it cannot be read
+std::vector<ListedFile> listed_files(const std::filesystem::path& folder);
+
+/// Whether a file is there and holds what its hash says.
+bool is_as_listed(const std::filesystem::path& file, const std::string& hash);
+
 /// Reads a folder's manifest.
 /// @throws std::runtime_error "file:line: what was expected" where it is none, or a name leads out of the
 ///   folder

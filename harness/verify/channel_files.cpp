@@ -67,6 +67,7 @@ cv::Mat float_flow(const fs::path& file) {
 cv::Mat read_channel(const fs::path& file, Channel channel, double step) {
   switch (channel) {
     case Channel::kPicture:
+    case Channel::kNextPicture:
       return read_levels(file);
     case Channel::kBallId: {
       cv::Mat ids = read_exact_png(file);

@@ -38,6 +38,7 @@ enum class Channel {
   kRange,          ///< CV_32FC1, metres along the ray; +inf = none
   kFlow,           ///< CV_32FC2, px to the next frame's picture; +inf = none
   kNextDisparity,  ///< CV_32FC1, px that a pixel's point has at the next frame; +inf = none
+  kNextPicture,    ///< as kPicture: what the camera stored at the next instant
   kBallId,         ///< CV_8UC1, 0 = no ball, k = ball k - 1
 };
 
@@ -71,9 +72,9 @@ struct ViewBallTruth {
   std::int64_t px_count_visib = 0;
   std::int64_t px_count_all = 0;
   std::optional<double> visib_fract;
-  cv::Rect bbox_obj;                                ///< empty where the file does not say
+  cv::Rect bbox_obj;                                 ///< empty where the file does not say
   std::optional<ViewMask> visible_mask, whole_mask;  ///< where a format has them of each ball
-  int box_slack_px = 0;  ///< other tools count the last row and column, or not
+  int box_slack_px = 0;                              ///< other tools count the last row and column, or not
 };
 
 struct BallsFile {
@@ -89,6 +90,8 @@ struct ViewFrame {
   std::array<ViewCamera, 2> cameras;
   std::array<std::map<Channel, ChannelFile>, 2> channels;
   std::array<std::optional<BallsFile>, 2> balls;
+  /// Pictures, and those of which they are a part: the same values, or none.
+  std::vector<std::pair<ChannelFile, ChannelFile>> parts;
   bool drive_goes_on = true;  ///< the frame that is listed next is of the same drive
   bool next_follows = true;  ///< flow and disparities of the next frame lead to the frame that is listed next
 };
@@ -105,8 +108,8 @@ struct ViewPose {
 
 struct ViewBall {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
-  double radius_m = 0.0;          ///< 0 for what is no sphere
-  double reprojection_px = 0.0;   ///< by how much pictures are off it: a point that was found in pictures
+  double radius_m = 0.0;         ///< 0 for what is no sphere
+  double reprojection_px = 0.0;  ///< by how much pictures are off it: a point that was found in pictures
 };
 
 /// Whose poses a data set has.
@@ -122,14 +125,14 @@ struct DatasetView {
   std::vector<ViewFrame> frames;
   std::vector<ViewPose> poses;  ///< all of the files of poses
   std::vector<ViewBall> balls;
-  bool has_calibration = true;      ///< without it nothing is said of geometry
+  bool has_calibration = true;  ///< without it nothing is said of geometry
   PosesOf poses_of = PosesOf::kLeftCamera;
-  bool poses_are_a_way = true;      ///< from frame to frame; photographs may be taken anywhere
-  bool balls_have_places = true;    ///< in the world; without them only each camera says where a ball is
-  double place_precision_m = 0.0;   ///< of the poses, by the decimals of their numbers
-  double turn_precision = 0.0;      ///< likewise, rad
-  bool rows_look_apart = false;     ///< a rolling shutter: poses hold for the middle row alone
-  std::string calibration_file;     ///< that messages name; likewise below
+  bool poses_are_a_way = true;     ///< from frame to frame; photographs may be taken anywhere
+  bool balls_have_places = true;   ///< in the world; without them only each camera says where a ball is
+  double place_precision_m = 0.0;  ///< of the poses, by the decimals of their numbers
+  double turn_precision = 0.0;     ///< likewise, rad
+  bool rows_look_apart = false;    ///< a rolling shutter: poses hold for the middle row alone
+  std::string calibration_file;    ///< that messages name; likewise below
   std::string poses_file;
   std::string depth_file;            ///< or of disparities: a folder
   std::string pictures_file;         ///< a folder

@@ -51,12 +51,15 @@ std::unique_ptr<LoadedFrame> load(const DatasetView& view, std::size_t index, st
     loaded->depth_m[i] = load(view, frame, side, Channel::kDepth, faults);
     loaded->flow_px[i] = load(view, frame, side, Channel::kFlow, faults);
     loaded->ball_id[i] = load(view, frame, side, Channel::kBallId, faults);
+    loaded->next_picture[i] = load(view, frame, side, Channel::kNextPicture, faults);
     const cv::Mat range_m = load(view, frame, side, Channel::kRange, faults);
     if (!range_m.empty()) append(faults, check_range(view, *loaded, range_m, side));
   }
   loaded->next_disparity_px = load(view, frame, Side::kLeft, Channel::kNextDisparity, faults);
   append(faults, check_pictures(view, *loaded));
   append(faults, check_boxes(view, *loaded));
+  append(faults, check_parts(view, *loaded));
+  append(faults, check_next_instant(view, *loaded));
   return loaded;
 }
 

@@ -48,8 +48,8 @@ std::string text(const cv::Rect& box) {
 /// @param shown "no pixel of the identities", "the identities": where the pixels are from
 std::string wrong_with(const ViewBallTruth& said, const SeenBall& seen, const char* shown) {
   if (seen.pixels == 0 && (!said.bbox_visib.empty() || said.px_count_visib != 0))
-    return fmt::format("ball {}: box {} and {} pixels of a hidden ball: no pixel of the {} shows it", said.ball,
-                       text(said.bbox_visib), said.px_count_visib, shown);
+    return fmt::format("ball {}: box {} and {} pixels of a hidden ball: no pixel of the {} shows it",
+                       said.ball, text(said.bbox_visib), said.px_count_visib, shown);
   if (said.px_count_visib != seen.pixels)
     return fmt::format("ball {}: px_count_visib is {}, and the {} shows it in {} pixels", said.ball,
                        said.px_count_visib, shown, seen.pixels);
@@ -85,7 +85,8 @@ std::optional<cv::Mat> pixels_of(const ViewMask& mask, const cv::Size& size, con
 std::string wrong_with_whole(const ViewBallTruth& said, const cv::Mat& visible, const cv::Mat& whole) {
   const int outside = visible.empty() ? 0 : cv::countNonZero(visible & (whole == 0));
   if (outside > 0)
-    return fmt::format("ball {}: {} pixels of its visible mask are outside of its whole mask", said.ball, outside);
+    return fmt::format("ball {}: {} pixels of its visible mask are outside of its whole mask", said.ball,
+                       outside);
   const SeenBall seen = seen_in(whole);
   if (seen.pixels > said.px_count_all)
     return fmt::format("ball {}: px_count_all is {}, and the whole mask has {} pixels", said.ball,
@@ -101,8 +102,8 @@ std::string wrong_with_whole(const ViewBallTruth& said, const cv::Mat& visible, 
 }
 
 /// One ball that has masks of its own.
-void check_masks(const ViewBallTruth& said, const cv::Size& size, const BallsFile& file, const std::string& frame,
-                 std::vector<Fault>& faults) {
+void check_masks(const ViewBallTruth& said, const cv::Size& size, const BallsFile& file,
+                 const std::string& frame, std::vector<Fault>& faults) {
   std::optional<cv::Mat> visible, whole;
   if (said.visible_mask) visible = pixels_of(*said.visible_mask, size, frame, faults);
   if (said.whole_mask) whole = pixels_of(*said.whole_mask, visible ? visible->size() : size, frame, faults);
@@ -121,9 +122,9 @@ void check_identities(const ViewFrame& frame, const BallsFile& file, const cv::M
     seen.erase(said.ball);
   }
   for (const auto& [ball, pixels] : seen)
-    faults.push_back(
-        {file.file, frame.name,
-         fmt::format("ball {}: no line, and the picture of identities shows it in {} pixels", ball, pixels.pixels)});
+    faults.push_back({file.file, frame.name,
+                      fmt::format("ball {}: no line, and the picture of identities shows it in {} pixels",
+                                  ball, pixels.pixels)});
 }
 
 }  // namespace

@@ -27,6 +27,14 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& frame
 /// What files of balls say of pixels, against identities: boxes, counts, balls that are hidden.
 std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& frame);
 
+/// Pictures of what only some pixels have, against those of all pixels: KITTI's `noc` and `occ`.
+std::vector<Fault> check_parts(const DatasetView& view, const LoadedFrame& frame);
+
+/// The next instant of a frame that no other frame is: whether flow and both disparities are of one rigid
+/// motion, which most pixels must share, and whether flow and disparity lead to where the second pictures
+/// show the same.
+std::vector<Fault> check_next_instant(const DatasetView& view, const LoadedFrame& frame);
+
 /// Times of frames and poses: in order, equal between cameras.
 std::vector<Fault> check_stamps(const DatasetView& view);
 

@@ -45,7 +45,7 @@ std::vector<Fault> check_pictures(const DatasetView& view, const LoadedFrame& lo
     for (const Read& read :
          {Read{Channel::kPicture, loaded.picture[i]}, Read{Channel::kDisparity, loaded.disparity_px[i]},
           Read{Channel::kDepth, loaded.depth_m[i]}, Read{Channel::kFlow, loaded.flow_px[i]},
-          Read{Channel::kBallId, loaded.ball_id[i]}}) {
+          Read{Channel::kNextPicture, loaded.next_picture[i]}, Read{Channel::kBallId, loaded.ball_id[i]}}) {
       if (read.picture.empty()) continue;
       const std::string& file = find_channel(frame, side, read.channel)->file;
       const cv::Size size =

@@ -181,7 +181,8 @@ CommonPlaces common_places(const ViewFrame& from, Side from_side, const ViewFram
   return common;
 }
 
-/// How well two pictures agree on the distances between balls, which no pose changes: how well they know places.
+/// How well two pictures agree on the distances between balls, which no pose changes: how well they know
+/// places.
 /// @return m; empty where balls seem to move, or there are not two
 std::optional<double> error_of_places_m(const CommonPlaces& common) {
   constexpr double kStandsStill = 0.01;

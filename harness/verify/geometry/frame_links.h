@@ -11,7 +11,7 @@ namespace stereobench::harness {
 /// The channels of a frame that could be read. Arrays are by vision::Side; empty where there is none.
 struct LoadedFrame {
   std::size_t index = 0;
-  std::array<cv::Mat, 2> picture, disparity_px, depth_m, flow_px, ball_id;
+  std::array<cv::Mat, 2> picture, disparity_px, depth_m, flow_px, ball_id, next_picture;
   cv::Mat next_disparity_px;
 };
 

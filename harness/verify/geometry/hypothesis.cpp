@@ -95,15 +95,16 @@ void add_frames(std::vector<Hypothesis>& all) {
   all.push_back(certain(
       Suspect::kPoses, "inverse poses (camera from world and world from camera are mixed up)",
       [](Claims& claims) { change_poses(claims, [](Eigen::Isometry3d& pose) { pose = pose.inverse(); }); }));
-  all.push_back(certain(Suspect::kPoses,
-                        "inverse poses, in axes of OpenGL (camera from world and world from camera are mixed up)",
-                        [](Claims& claims) {
-                          change_poses(claims, [](Eigen::Isometry3d& pose) {
-                            pose = pose.inverse();
-                            pose.translation() = kAxesOfGl.cwiseProduct(pose.translation());
-                            pose.linear() = kAxesOfGl.asDiagonal() * pose.linear() * kAxesOfGl.asDiagonal();
-                          });
-                        }));
+  all.push_back(
+      certain(Suspect::kPoses,
+              "inverse poses, in axes of OpenGL (camera from world and world from camera are mixed up)",
+              [](Claims& claims) {
+                change_poses(claims, [](Eigen::Isometry3d& pose) {
+                  pose = pose.inverse();
+                  pose.translation() = kAxesOfGl.cwiseProduct(pose.translation());
+                  pose.linear() = kAxesOfGl.asDiagonal() * pose.linear() * kAxesOfGl.asDiagonal();
+                });
+              }));
   all.push_back(certain(Suspect::kCalibration, "swapped cameras: left is right", swap_cameras));
   all.push_back(
       certain(Suspect::kCalibration, "inverse places of the cameras on the body", [](Claims& claims) {
@@ -145,8 +146,8 @@ void add_units(std::vector<Hypothesis>& all) {
 /// Formats in millimetres, whose readers have made metres of it.
 void add_thousandths(std::vector<Hypothesis>& all) {
   static constexpr double kThousand = 1000.0;
-  all.push_back(certain(
-      Suspect::kPoses, "places of poses in metres instead of millimetres", [](Claims& claims) {
+  all.push_back(
+      certain(Suspect::kPoses, "places of poses in metres instead of millimetres", [](Claims& claims) {
         change_poses(claims, [](Eigen::Isometry3d& pose) { pose.translation() *= kThousand; });
       }));
   all.push_back(certain(Suspect::kDepth, "depth in metres instead of millimetres",

@@ -76,7 +76,8 @@ std::optional<Vector3d> point_of(const Claims& claims, const Link& link) {
     const ViewCamera& other = cameras[1 - index_of(link.from_side)];
     if (!link.mate_is_measured) mate_px->x() += claims.disparity_shift_px;
     const std::optional<Vector3d> mate_ray = ray_of(other, *mate_px);
-    return mate_ray ? triangulated(other_from(claims.frames[link.from], link.from_side), *ray, *mate_ray) : std::nullopt;
+    return mate_ray ? triangulated(other_from(claims.frames[link.from], link.from_side), *ray, *mate_ray)
+                    : std::nullopt;
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/verify/channel_files.h"
 #include "harness/verify/readers/kitti_calibration.h"
 #include "harness/verify/readers/kitti_readers.h"
 #include "harness/verify/readers/reader_tools.h"
@@ -37,6 +38,24 @@ const KittiFolders k2012 = {"kitti-stereo-2012",
                             {"colored_0", "colored_1"},
                             {"disp_noc", "disp_occ", "image_0", "image_1"},
                             "disp_occ"};
+
+/// What pixels have that the other picture shows too, and what all have.
+constexpr std::array kParts = {std::pair("disp_noc", "disp_occ"), std::pair("disp_noc_0", "disp_occ_0"),
+                               std::pair("disp_noc_1", "disp_occ_1"), std::pair("flow_noc", "flow_occ")};
+
+void add_part(const DatasetView& view, ViewFrame& frame, const std::string& part, const std::string& whole) {
+  const auto file_of = [&](const std::string& kind) {
+    const std::string file = fmt::format("{}/{}{}", kind, frame.name, kEnding);
+    const bool is_flow = kind.starts_with("flow");
+    const double step = is_flow ? kFlowLevel_px : kDisparityLevel_px;
+    return ChannelFile{file, step, [path = view.folder / file, is_flow, step] {
+                         return read_channel(path, is_flow ? Channel::kFlow : Channel::kDisparity, step);
+                       }};
+  };
+  std::pair<ChannelFile, ChannelFile> files = {file_of(part), file_of(whole)};
+  if (fs::exists(view.folder / files.first.file) && fs::exists(view.folder / files.second.file))
+    frame.parts.push_back(std::move(files));
+}
 
 fs::path root_of(const fs::path& folder) {
   return fs::is_directory(folder / "training") ? folder / "training" : folder;
@@ -122,7 +141,13 @@ DatasetView read_layout(const fs::path& folder, const KittiFolders& layout) {
     };
     add(Channel::kDisparity, layout.disparity, kDisparityLevel_px);
     if (&layout != &k2012) add(Channel::kNextDisparity, "disp_occ_1", kDisparityLevel_px);
-    if (&layout == &kSceneFlow) add(Channel::kFlow, "flow_occ", kFlowLevel_px);
+    if (&layout == &kSceneFlow) {
+      add(Channel::kFlow, "flow_occ", kFlowLevel_px);
+      for (const Side side : {Side::kLeft, Side::kRight})
+        add_channel(view, frame, side, Channel::kNextPicture,
+                    fmt::format("{}/{}_11.png", layout.pictures[index_of(side)], name));
+    }
+    for (const auto& [part, whole] : kParts) add_part(view, frame, part, whole);
     view.frames.push_back(std::move(frame));
   }
   if (fs::exists(view.folder / "calib_cam_to_cam"))

@@ -57,7 +57,7 @@ TEST(FilesOfASet, HaveTheBytesThatABagItManifestLists) {
   EXPECT_THAT(set.faults(),
               HasSubstr("100%.txt: checksum: its bytes are not those that manifest-sha256.txt lists"));
   set.write("manifest-sha256.txt", hash + "  ../tum/rgb.txt\nnothing\n");
-  EXPECT_THAT(set.faults(), AllOf(HasSubstr("line 1: expected a file in the folder"),
+  EXPECT_THAT(set.faults(), AllOf(HasSubstr("line 1: expected the name of a file in the folder"),
                                   HasSubstr("line 2: expected 64 hexadecimal digits")));
 }
 

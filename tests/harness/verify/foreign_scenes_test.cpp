@@ -21,8 +21,8 @@ cv::Mat rectangle(const cv::Rect& box) {
   return mask;
 }
 
-/// Reconstructed from photographs: points are seen half a pixel beside where they are, some corners are of no point,
-/// one picture shows none, and one picture of the folder was not used.
+/// Reconstructed from photographs: points are seen half a pixel beside where they are, some corners are of no
+/// point, one picture shows none, and one picture of the folder was not used.
 class ReconstructedScene {
  public:
   ReconstructedScene() {
@@ -73,8 +73,9 @@ TEST(ColmapOfOthers, IsReadWithItsErrorsAndWithoutFaults) {
 
 TEST(ColmapOfOthers, IsSaidNotToBeReadWhereItIs) {
   const ReconstructedScene fisheye;
-  fisheye.folder().write("sparse/0/cameras.txt",
-                         "7 OPENCV_FISHEYE 640 480 500 500 320 240 0 0 0 0\n3 THIN_PRISM_FISHEYE 640 480 1\n");
+  fisheye.folder().write(
+      "sparse/0/cameras.txt",
+      "7 OPENCV_FISHEYE 640 480 500 500 320 240 0 0 0 0\n3 THIN_PRISM_FISHEYE 640 480 1\n");
   const Verification result = verify_dataset(fisheye.path(), dataset_reader("colmap"), [](double) {});
   EXPECT_TRUE(result.faults.empty());
   EXPECT_THAT(result.cannot, testing::Contains(HasSubstr("the camera model OPENCV_FISHEYE is not read")));
@@ -89,8 +90,9 @@ TEST(ColmapOfOthers, IsSaidNotToBeReadWhereItIs) {
 // Errors of a focal length that is 2 % off are larger than what the model says that they are.
 TEST(ColmapOfOthers, HasAFaultWhereItsErrorsAreLargerThanItSays) {
   const ReconstructedScene scene;
-  scene.folder().write("sparse/0/cameras.txt", "7 SIMPLE_RADIAL 640 480 600 320 240 -0.05\n"
-                                               "3 FULL_OPENCV 640 480 600 601 320 240 0 0 0 0 0 0 0 0\n");
+  scene.folder().write("sparse/0/cameras.txt",
+                       "7 SIMPLE_RADIAL 640 480 600 320 240 -0.05\n"
+                       "3 FULL_OPENCV 640 480 600 601 320 240 0 0 0 0 0 0 0 0\n");
   EXPECT_THAT(faults_of(scene.path(), "colmap"), HasSubstr("focal length too long by 2"));
 }
 
@@ -110,20 +112,23 @@ TEST(CocoOfOthers, HasPolygonsCrowdsAndNoPictures) {
                 "date_captured": "2013-11-19 21:22:42", "flickr_url": "f", "id": 785},
                {"file_name": "000000000139.jpg", "height": 48, "width": 64, "id": 139}],
     "categories": [{"supercategory": "person", "id": 1, "name": "person"}, {"id": 90, "name": "toothbrush"}]})");
-  set.write("annotations/captions_val2017.json", R"({"images": [], "annotations": [{"id": 1, "caption": "x"}]})");
+  set.write("annotations/captions_val2017.json",
+            R"({"images": [], "annotations": [{"id": 1, "caption": "x"}]})");
   EXPECT_EQ(reader_of(set.path()).format, "coco");
   EXPECT_EQ(faults_of(set.path(), "coco"), "");
-  for (const char* name : {"val2017/000000000785.jpg", "val2017/000000000139.jpg"}) set.write(name, grey_png(64, 48));
+  for (const char* name : {"val2017/000000000785.jpg", "val2017/000000000139.jpg"})
+    set.write(name, grey_png(64, 48));
   EXPECT_EQ(faults_of(set.path(), "coco"), "");
   std::filesystem::remove(set.path() / "val2017/000000000139.jpg");
-  EXPECT_THAT(faults_of(set.path(), "coco"), HasSubstr("val2017/000000000139.jpg: frame 000000000139: missing frame"));
+  EXPECT_THAT(faults_of(set.path(), "coco"),
+              HasSubstr("val2017/000000000139.jpg: frame 000000000139: missing frame"));
   set.write("annotations/instances_val2017.json", "{\"images\": []}");
   EXPECT_THAT([&] { faults_of(set.path(), "coco"); },
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("instances_val2017.json: ")));
 }
 
-/// Scanned objects before a sensor: grey pictures, two of the same object, annotations that are a millimetre off,
-/// boxes whose last column does not count.
+/// Scanned objects before a sensor: grey pictures, two of the same object, annotations that are a millimetre
+/// off, boxes whose last column does not count.
 class ScannedScene {
  public:
   ScannedScene() {
@@ -134,15 +139,16 @@ class ScannedScene {
           R"({}"{}": {{"elev": 45, "mode": 0, "depth_scale": 0.1, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1],
               "cam_t_w2c": [{}, 0, 0], "cam_K": [300, 0, 32, 0, 301, 24, 0, 0, 1]}})",
           comma, 10 * picture, -50.0 * picture);
-      poses += fmt::format(R"({}"{}": [{}, {}, {}, {}])", comma, 10 * picture, object(5, -20 - 50 * picture, picture),
-                           object(5, 40 - 50 * picture, 0), object(2, 10 - 50 * picture, -picture),
-                           object(8, 60 - 50 * picture, 0));
+      poses += fmt::format(R"({}"{}": [{}, {}, {}, {}])", comma, 10 * picture,
+                           object(5, -20 - 50 * picture, picture), object(5, 40 - 50 * picture, 0),
+                           object(2, 10 - 50 * picture, -picture), object(8, 60 - 50 * picture, 0));
       std::string list;
       for (int i = 0; i < 4; ++i) {
         list += fmt::format(
             R"({}{{"bbox_obj": [10, 5, 19, 9], "bbox_visib": [{}, 5, {}, 9], "px_count_all": 210,
                 "px_count_valid": 180, "px_count_visib": {}, "visib_fract": {}}})",
-            i == 0 ? "" : ", ", i == 3 ? -1 : 10, i == 3 ? -1 : 19, i == 3 ? 0 : 200, i == 3 ? 0.0 : 0.952381);
+            i == 0 ? "" : ", ", i == 3 ? -1 : 10, i == 3 ? -1 : 19, i == 3 ? 0 : 200,
+            i == 3 ? 0.0 : 0.952381);
         const std::string name = fmt::format("{:06}_{:06}.png", 10 * picture, i);
         const cv::Rect box(10, 5, 20, 10);
         set_.write("test_primesense/000004/mask/" + name, encoded(".png", rectangle(box)));
@@ -180,8 +186,9 @@ TEST(BopOfOthers, IsReadWithItsErrorsAndWithoutFaults) {
   scene.write_infos();
   EXPECT_EQ(faults_of(scene.path(), "bop"), "");
   const Verification result = verify_dataset(scene.path(), dataset_reader("bop"), [](double) {});
-  EXPECT_THAT(result.checked, testing::Contains(HasSubstr("places of objects in both cameras and in the next frame, "
-                                                          "against poses (4 points)")));
+  EXPECT_THAT(result.checked,
+              testing::Contains(HasSubstr("places of objects in both cameras and in the next frame, "
+                                          "against poses (4 points)")));
 }
 
 TEST(NerfstudioOfOthers, HasCamerasOfItsOwnAndNoDepth) {
@@ -191,27 +198,31 @@ TEST(NerfstudioOfOthers, HasCamerasOfItsOwnAndNoDepth) {
         R"({{"transform_matrix": [[1, 0, 0, 0.5], [0, 0, -1, 2], [0, 1, 0, 3], [0, 0, 0, 1]], "file_path": "{}"{}}})",
         file, more);
   };
-  const std::string own = R"(, "fl_x": 400, "fl_y": 401, "cx": 32, "cy": 24, "w": 64, "h": 48, "colmap_im_id": 3)";
+  const std::string own =
+      R"(, "fl_x": 400, "fl_y": 401, "cx": 32, "cy": 24, "w": 64, "h": 48, "colmap_im_id": 3)";
   set.write("transforms.json", fmt::format(R"({{"aabb_scale": 16, "applied_transform": [[1, 0, 0, 0]],
     "ply_file_path": "sparse_pc.ply", "train_filenames": [], "frames": [{}, {}]}})",
                                            frame("images/frame_00002.JPG", own.c_str()),
                                            frame("./images/frame_00001.JPG", own.c_str())));
-  for (const char* name : {"images/frame_00001.JPG", "images/frame_00002.JPG"}) set.write(name, grey_png(64, 48));
+  for (const char* name : {"images/frame_00001.JPG", "images/frame_00002.JPG"})
+    set.write(name, grey_png(64, 48));
   EXPECT_EQ(reader_of(set.path()).format, "nerfstudio");
   EXPECT_EQ(faults_of(set.path(), "nerfstudio"), "");
   set.write("transforms.json", fmt::format(R"({{"camera_angle_x": 0.69, "frames": [{}]}})",
                                            frame("./train/r_0", R"(, "rotation": 0.01, "time": 0.0)")));
   set.write("train/r_0.png", grey_png(80, 80));
   EXPECT_EQ(faults_of(set.path(), "nerfstudio"), "");
-  set.write("transforms.json",
-            fmt::format(R"({{"camera_model": "OPENCV_FISHEYE", "fl_x": 400, "w": 80, "h": 80, "frames": [{}]}})",
-                        frame("train/r_0.png", "")));
+  set.write(
+      "transforms.json",
+      fmt::format(R"({{"camera_model": "OPENCV_FISHEYE", "fl_x": 400, "w": 80, "h": 80, "frames": [{}]}})",
+                  frame("train/r_0.png", "")));
   EXPECT_EQ(faults_of(set.path(), "nerfstudio"), "");
   const Verification result = verify_dataset(set.path(), dataset_reader("nerfstudio"), [](double) {});
   EXPECT_THAT(result.cannot, testing::Contains(HasSubstr("or of a model that is not read")));
   set.write("transforms.json", "{\"frames\": []}");
-  EXPECT_THAT([&] { faults_of(set.path(), "nerfstudio"); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr("transforms.json: frames: expected a list")));
+  EXPECT_THAT(
+      [&] { faults_of(set.path(), "nerfstudio"); },
+      testing::ThrowsMessage<std::runtime_error>(HasSubstr("transforms.json: frames: expected a list")));
 }
 
 }  // namespace

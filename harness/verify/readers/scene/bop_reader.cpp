@@ -115,8 +115,9 @@ void read_infos(DatasetView& view, Scene& scene) {
       std::vector<SeenObject>& objects = scene.pictures[number].objects;
       const auto entries = json.list(0, kMostObjects);
       if (entries.size() != objects.size())
-        view.faults.push_back({file, fmt::format("{:06}", number),
-                               fmt::format("{} objects, and {} in scene_gt.json", entries.size(), objects.size())});
+        view.faults.push_back(
+            {file, fmt::format("{:06}", number),
+             fmt::format("{} objects, and {} in scene_gt.json", entries.size(), objects.size())});
       for (std::size_t i = 0; i < std::min(entries.size(), objects.size()); ++i) {
         ViewBallTruth& truth = objects[i].truth;
         read_numbers(entries[i], truth);
@@ -151,7 +152,8 @@ Scene scene_in(DatasetView& view, const std::string& folder, std::vector<std::st
       for_each_picture(view.folder / poses, [&](int number, const JsonValue& json) {
         const auto picture = scene.pictures.find(number);
         if (picture == scene.pictures.end())
-          view.faults.push_back({cameras, fmt::format("{:06}", number), "missing frame: scene_gt.json lists it"});
+          view.faults.push_back(
+              {cameras, fmt::format("{:06}", number), "missing frame: scene_gt.json lists it"});
         else
           read_objects(json, picture->second);
       });
@@ -176,7 +178,8 @@ std::map<std::int64_t, double> radii_in(DatasetView& view) {
 }
 
 /// The file of a picture, whose ending the layout leaves open. @return empty without one
-std::string find_file(const DatasetView& view, const std::string& folder, const char* kind, const std::string& name) {
+std::string find_file(const DatasetView& view, const std::string& folder, const char* kind,
+                      const std::string& name) {
   for (const char* ending : {".png", ".jpg", ".tif"}) {
     std::string file = fmt::format("{}/{}/{}{}", folder, kind, name, ending);
     if (fs::exists(view.folder / file)) return file;
@@ -273,7 +276,8 @@ void add_scene(DatasetView& view, std::array<Scene, 2>& scenes, ObjectNumbers& o
       objects.number(picture.objects);
     }
   for (const int number : numbers) {
-    ViewFrame frame = {.name = fmt::format("{}/{:06}", fs::path(scenes[0].folder).filename().string(), number)};
+    ViewFrame frame = {.name =
+                           fmt::format("{}/{:06}", fs::path(scenes[0].folder).filename().string(), number)};
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const Scene& scene = scenes[index_of(side)];
       if (scene.pictures.contains(number))

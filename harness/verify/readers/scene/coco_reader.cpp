@@ -85,8 +85,9 @@ double off_polygons(const JsonValue& polygons, const cv::Rect2d& box) {
 
 /// What the segmentation says; a mask is worked out when it is looked at.
 /// @return what is wrong with it; empty where nothing is
-std::string read_segmentation(const JsonValue& segmentation, const Instances& all, const ListedPicture& picture,
-                              const cv::Rect2d& box, const std::string& what, ViewBallTruth& truth) {
+std::string read_segmentation(const JsonValue& segmentation, const Instances& all,
+                              const ListedPicture& picture, const cv::Rect2d& box, const std::string& what,
+                              ViewBallTruth& truth) {
   constexpr double kPolygonSlack_px = 2.0;
   if (!segmentation.find("counts")) {
     if (segmentation.list(0, kMostEntries).empty()) return {};
@@ -107,7 +108,8 @@ std::string read_segmentation(const JsonValue& segmentation, const Instances& al
 
 /// What COCO's own keys and those of BOP say of the same.
 std::string contradiction(const JsonValue& entry, const ViewBallTruth& truth) {
-  if (const auto visible = entry.find("bbox_visib"); visible && whole_box(box_of(*visible)) != truth.bbox_visib)
+  if (const auto visible = entry.find("bbox_visib");
+      visible && whole_box(box_of(*visible)) != truth.bbox_visib)
     return "bbox and bbox_visib are two boxes";
   if (const auto count = entry.find("px_count_visib");
       count && count->integer(0, kMostId) != truth.px_count_visib)
@@ -116,7 +118,8 @@ std::string contradiction(const JsonValue& entry, const ViewBallTruth& truth) {
 }
 
 void read_annotation(DatasetView& view, const JsonValue& entry, Instances& all, std::set<std::int64_t>& ids) {
-  const std::int64_t id = entry.at("id").integer(0, kMostId), image = entry.at("image_id").integer(0, kMostId);
+  const std::int64_t id = entry.at("id").integer(0, kMostId),
+                     image = entry.at("image_id").integer(0, kMostId);
   const auto blame = [&](const std::string& frame, const std::string& what) {
     if (!what.empty()) view.faults.push_back({all.file, frame, fmt::format("annotation {}: {}", id, what)});
   };
@@ -136,8 +139,9 @@ void read_annotation(DatasetView& view, const JsonValue& entry, Instances& all, 
   if (!picture.size.empty() &&
       (box.x < -kSlack_px || box.y < -kSlack_px || box.x + box.width > picture.size.width + kSlack_px ||
        box.y + box.height > picture.size.height + kSlack_px))
-    blame(picture.name, fmt::format("bbox [{:g}, {:g}, {:g}, {:g}] reaches out of the picture of {} x {}", box.x,
-                                    box.y, box.width, box.height, picture.size.width, picture.size.height));
+    blame(picture.name,
+          fmt::format("bbox [{:g}, {:g}, {:g}, {:g}] reaches out of the picture of {} x {}", box.x, box.y,
+                      box.width, box.height, picture.size.width, picture.size.height));
   ViewBallTruth truth;
   const auto ball = entry.find("ball_id");
   truth.ball = static_cast<int>(ball ? ball->integer(0, 1 << 20) : std::ssize(picture.shown));
@@ -153,8 +157,8 @@ void read_annotation(DatasetView& view, const JsonValue& entry, Instances& all, 
   blame(picture.name, contradiction(entry, truth));
   const auto segmentation = entry.find("segmentation");
   if (segmentation && !segmentation->is_null())
-    blame(picture.name, read_segmentation(*segmentation, all, picture, box,
-                                          fmt::format("annotation {}", id), truth));
+    blame(picture.name,
+          read_segmentation(*segmentation, all, picture, box, fmt::format("annotation {}", id), truth));
   picture.shown.push_back(std::move(truth));
 }
 
@@ -170,7 +174,8 @@ Instances instances_in(DatasetView& view, const std::string& file) {
   return all;
 }
 
-/// Where the pictures of a list are: COCO has them beside annotations/, in a folder that ends the list's name.
+/// Where the pictures of a list are: COCO has them beside annotations/, in a folder that ends the list's
+/// name.
 std::optional<std::string> pictures_of(const fs::path& folder, const Instances& all) {
   const std::string stem = fs::path(all.file).stem().string();
   const std::string named = stem.substr(stem.find('_') == std::string::npos ? 0 : stem.find('_') + 1);
@@ -214,7 +219,9 @@ std::vector<std::string> lists_in(const fs::path& folder) {
     lists.push_back(fmt::format("annotations/{}.json", stem));
   for (const char* name : {"_annotations.coco.json", "instances.json", "annotations.json"})
     if (lists.empty() && fs::exists(folder / name)) lists.emplace_back(name);
-  const auto is_of_instances = [](const std::string& list) { return list.find("instances") != std::string::npos; };
+  const auto is_of_instances = [](const std::string& list) {
+    return list.find("instances") != std::string::npos;
+  };
   if (std::ranges::any_of(lists, is_of_instances))  // captions and key points are of the same pictures
     std::erase_if(lists, [&](const std::string& list) { return !is_of_instances(list); });
   return lists;

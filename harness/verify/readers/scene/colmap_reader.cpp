@@ -37,9 +37,9 @@ struct ModelPicture {
   std::string name;
   std::string number;
   std::string camera;
-  ViewPose pose;  ///< world_from_camera
-  std::vector<std::string> points;        ///< all, in order
-  std::vector<ViewBallTruth> shown;       ///< of those that are points of the model
+  ViewPose pose;                     ///< world_from_camera
+  std::vector<std::string> points;   ///< all, in order
+  std::vector<ViewBallTruth> shown;  ///< of those that are points of the model
 };
 
 struct Model {
@@ -209,9 +209,10 @@ void compare_tracks(DatasetView& view, const Model& model, const std::vector<Tra
       const auto picture = by_number.find(number);
       if (picture == by_number.end()) {
         if (missing.insert(number).second)
-          view.faults.push_back({pictures_file, "",
-                                 fmt::format("missing frame: line {} of {} says that picture {} shows a point",
-                                             track.line, points_file, number)});
+          view.faults.push_back(
+              {pictures_file, "",
+               fmt::format("missing frame: line {} of {} says that picture {} shows a point", track.line,
+                           points_file, number)});
         continue;
       }
       ++tracked[number];
@@ -225,9 +226,10 @@ void compare_tracks(DatasetView& view, const Model& model, const std::vector<Tra
     const auto listed = static_cast<std::size_t>(
         std::ranges::count_if(picture.points, [](const std::string& point) { return point != "-1"; }));
     if (!wrong.contains(picture.number) && listed != tracked[picture.number])
-      view.faults.push_back({pictures_file, picture.name,
-                             fmt::format("line {}: it shows {} points, and {} tracks of {} lead to it",
-                                         picture.pose.line + 1, listed, tracked[picture.number], points_file)});
+      view.faults.push_back(
+          {pictures_file, picture.name,
+           fmt::format("line {}: it shows {} points, and {} tracks of {} lead to it", picture.pose.line + 1,
+                       listed, tracked[picture.number], points_file)});
   }
   view.checked.push_back("tracks of points against the pictures that show them");
 }
@@ -278,10 +280,11 @@ bool looks_like_colmap(const fs::path& folder) {
 DatasetView read_colmap_view(const fs::path& folder) {
   const auto place = model_in(folder, ".txt");
   if (!place)
-    throw std::runtime_error(fmt::format(
-        "{}: expected a model as text, cameras.txt and images.txt: where it is one of bytes (.bin), write it by "
-        "colmap model_converter --output_type TXT",
-        (folder / model_in(folder, ".bin").value_or("sparse/0")).string()));
+    throw std::runtime_error(
+        fmt::format("{}: expected a model as text, cameras.txt and images.txt: where it is one of bytes "
+                    "(.bin), write it by "
+                    "colmap model_converter --output_type TXT",
+                    (folder / model_in(folder, ".bin").value_or("sparse/0")).string()));
   DatasetView view = {.format = "colmap", .folder = folder};
   const auto file = [&](const char* name) { return (*place / name).lexically_normal().string(); };
   view.calibration_file = file("cameras.txt");
@@ -291,7 +294,8 @@ DatasetView read_colmap_view(const fs::path& folder) {
   view.poses_are_a_way = false;
   Model model;
   std::vector<Track> tracks;
-  read_or_blame(view, view.calibration_file, [&] { read_cameras(view, folder / view.calibration_file, model); });
+  read_or_blame(view, view.calibration_file,
+                [&] { read_cameras(view, folder / view.calibration_file, model); });
   const std::string points = file("points3D.txt");
   const bool has_points = fs::exists(folder / points);
   if (has_points) read_or_blame(view, points, [&] { tracks = read_points(view, folder / points, model); });

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using vision::Side;
 
 constexpr const char* kTransforms = "transforms.json";
-constexpr double kFirstPixel_px = 0.5;    // where Nerfstudio has the centre of the first pixel
+constexpr double kFirstPixel_px = 0.5;  // where Nerfstudio has the centre of the first pixel
 constexpr double kDepthLevel_m = 1e-3;
 
 /// A frame of transforms.json.
@@ -138,7 +138,8 @@ DatasetView read_nerfstudio_view(const fs::path& folder) {
     view.poses.back().name = frame.picture;
   }
   if (!view.has_calibration)
-    view.cannot.push_back("depth against poses: cameras without fl_x, w and h, or of a model that is not read");
+    view.cannot.push_back(
+        "depth against poses: cameras without fl_x, w and h, or of a model that is not read");
   add_scene_frames(view, frames);
   if (view.depth_file.empty()) view.cannot.push_back("depth: no frame has a depth_file_path");
   return view;

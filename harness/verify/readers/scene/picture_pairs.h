@@ -11,12 +11,13 @@ namespace stereobench::harness {
 
 /// One instant of a list of pictures.
 struct PicturePair {
-  std::string name;  ///< "000004": without ending and the camera's folder
+  std::string name;                                 ///< "000004": without ending and the camera's folder
   std::array<std::optional<std::size_t>, 2> place;  ///< in the list, by vision::Side
 };
 
 /// Pictures whose names differ in a folder `left` or `right` alone are a pair; others are left ones alone.
-/// @param names "left/000004.png", "images/right/000004.png", "frame_00001.jpg"; a name that is there again is
+/// @param names "left/000004.png", "images/right/000004.png", "frame_00001.jpg"; a name that is there again
+/// is
 ///   left out
 /// @return in order of the names
 std::vector<PicturePair> picture_pairs(const std::vector<std::string>& names);

@@ -16,7 +16,8 @@ std::vector<std::int64_t> runs_of_text(const JsonValue& text) {
   int shift = 0;
   for (const char letter : text.text()) {
     const std::int64_t code = letter - '0';
-    if (code < 0 || code >= 2 * kGoesOn || shift >= kMostShift) text.refuse("runs as pycocotools writes them");
+    if (code < 0 || code >= 2 * kGoesOn || shift >= kMostShift)
+      text.refuse("runs as pycocotools writes them");
     number |= (code & kDigits) << shift;
     shift += kBits;
     if ((code & kGoesOn) != 0) continue;
@@ -46,7 +47,8 @@ RunLengths run_lengths_of(const JsonValue& segmentation) {
   constexpr std::int64_t kMostSize = 1 << 15, kMostPixels = kMostSize * kMostSize;
   const auto size = segmentation.at("size").list(2, 2);
   RunLengths lengths;
-  lengths.size = {static_cast<int>(size[1].integer(0, kMostSize)), static_cast<int>(size[0].integer(0, kMostSize))};
+  lengths.size = {static_cast<int>(size[1].integer(0, kMostSize)),
+                  static_cast<int>(size[0].integer(0, kMostSize))};
   const JsonValue counts = segmentation.at("counts");
   if (counts.is_text()) {
     lengths.runs = runs_of_text(counts);
