@@ -61,14 +61,14 @@ class EveryFormat : public testing::TestWithParam<DatasetFormat> {
 
 // Looking takes time, and what was seen is only in the log of the plain format. Mutations: always looked;
 // never looked.
-TEST_P(EveryFormat, AsksADetectorOnlyForALog) {
+TEST_P(EveryFormat, AsksADetectorOnlyForSightings) {
   Experiment experiment = experiment_;
   experiment.detector.command = "exit 1";
   const RenderTask task = {.experiment = &experiment,
                            .frames = {},
                            .truth = {},
                            .datasets = {{&GetParam(), place_, {{"seed", 0}}}}};
-  if (is_plain(GetParam()))
+  if (GetParam().has_sightings)
     EXPECT_THROW(render_seeds({task}, 1, ""), std::runtime_error);
   else
     EXPECT_EQ(render_seeds({task}, 1, "").front().datasets.front().pairs, 3);
