@@ -30,7 +30,6 @@ constexpr std::array kModels = {CameraModel{"SIMPLE_PINHOLE", 3, 0, 0, 1, 2, -1,
                                 CameraModel{"RADIAL", 5, 0, 0, 1, 2, 3, 4, -1, -1, -1},
                                 CameraModel{"OPENCV", 8, 0, 1, 2, 3, 4, 5, 6, 7, -1},
                                 CameraModel{"FULL_OPENCV", 12, 0, 1, 2, 3, 4, 5, 6, 7, 8}};
-constexpr double kFirstPixel_px = 0.5;  // where COLMAP has the centre of the first pixel
 
 /// A picture of images.txt.
 struct ModelPicture {

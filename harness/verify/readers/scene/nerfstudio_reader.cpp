@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 using vision::Side;
 
 constexpr const char* kTransforms = "transforms.json";
-constexpr double kFirstPixel_px = 0.5;  // where Nerfstudio has the centre of the first pixel
 constexpr double kDepthLevel_m = 1e-3;
 
 /// A frame of transforms.json.

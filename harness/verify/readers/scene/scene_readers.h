@@ -5,6 +5,9 @@
 
 namespace stereobench::harness {
 
+/// Where COLMAP and Nerfstudio have the centre of the first pixel.
+inline constexpr double kFirstPixel_px = 0.5;
+
 /// A model of text or of bytes; those of bytes are recognised, and refused by the reader.
 bool looks_like_colmap(const std::filesystem::path& folder);
 /// Each picture has a pose, and points that it shows. Pictures are pairs where their folders are called left
