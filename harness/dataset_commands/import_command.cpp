@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,12 +24,19 @@ struct ImportArguments {
   std::optional<double> pitch_down_deg;
 };
 
+/// Layouts of pictures that have a pose each, as if all cameras were apart.
+constexpr std::array<std::string_view, 4> kWithoutRig = {"colmap", "coco", "bop", "nerfstudio"};
+
 const DatasetReader& foreign_reader(const ImportArguments& arguments) {
   const DatasetReader& reader =
       arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
   if (reader.format == "plain")
     throw std::runtime_error(fmt::format(
         "{}: is of the format plain, which `detect` and `slam` read as it is", arguments.folder.string()));
+  if (std::ranges::find(kWithoutRig, reader.format) != kWithoutRig.end())
+    throw std::runtime_error(
+        fmt::format("{}: the format {} does not say how two cameras are mounted; expected a layout of a rig",
+                    arguments.folder.string(), reader.format));
   return reader;
 }
 

@@ -126,6 +126,15 @@ TEST_F(ForeignEuroc, OtherModelsAreRefused) {
   EXPECT_FALSE(fs::exists(scratch.path() / "in"));
 }
 
+TEST(Import, TakesNoLayoutWithoutARig) {
+  const TestFolder folder, scratch;
+  folder.write("transforms.json", "{}");
+  const Outcome refused = import_from(folder, scratch);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the format nerfstudio does not say how two cameras are mounted"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "in"));
+}
+
 // KITTI odometry as the download of grey pictures has it; numbers as it prints them.
 class ForeignKitti : public testing::Test {
  protected:
