@@ -46,6 +46,7 @@ constexpr auto kMediaTypes = std::to_array<MediaType>({
     {".pfm", "image/x-portable-floatmap"},
     {".csv", "text/csv"},
     {".txt", "text/plain"},
+    {".dat", "text/plain"},
     {".md", "text/markdown"},
     {".json", "application/json"},
     {".jsonl", "application/jsonlines"},
@@ -172,9 +173,9 @@ std::string croissant_of(const DatasetFacts& facts,
   const std::size_t pairs = facts.marker.value("frames", Json::array()).size();
   return croissant_text({.name = title_of(facts),
                          .description = fmt::format(
-                             "{} rendered stereo pairs of one drive, with exact truth, in the layout {}. "
+                             "{} rendered stereo pairs of one drive{}, with exact truth, in the layout {}. "
                              "{} describes it; {} has the SHA-256 of each file.",
-                             pairs, format_of(facts), kCardFile, kManifest),
+                             pairs, lack_of_pictures(facts), format_of(facts), kCardFile, kManifest),
                          .version = facts.marker.value("stereobench", std::string()),
                          .licence = {},
                          .creator = {},

@@ -118,13 +118,14 @@ std::string data_card(const DatasetFacts& facts) {
   const std::size_t pairs = facts.marker.value("frames", nlohmann::ordered_json::array()).size();
   return fmt::format(
       "# {}\n\n"
-      "{} stereo pairs of one drive, with exact truth.\n\n{}\n{}\n{}\n"
+      "{} stereo pairs of one drive{}, with exact truth.\n\n{}\n{}\n{}\n"
       "## Splits\n\n"
       "This is one drive through one world. Its frames resemble each other: do not split them between "
       "training "
       "and test. Split by world, that is by scenario and seed.\n\n"
       "## Licence\n\n{}\n",
-      title_of(facts), pairs, origin_text(facts), files_text(facts), conventions_text(), kLicenceText);
+      title_of(facts), pairs, lack_of_pictures(facts), origin_text(facts), files_text(facts),
+      conventions_text(), kLicenceText);
 }
 
 }  // namespace stereobench::harness

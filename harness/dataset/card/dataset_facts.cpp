@@ -31,6 +31,10 @@ std::string format_of(const DatasetFacts& facts) {
   return facts.marker.value("format", std::string("plain"));
 }
 
+std::string lack_of_pictures(const DatasetFacts& facts) {
+  return has_pictures(format_of(facts)) ? "" : " as a log, without the pictures";
+}
+
 std::string drive_name_of(const DatasetFacts& facts) {
   const auto drive = facts.marker.find(kDrive);
   return drive == facts.marker.end() ? "drive" : drive->at("name").get<std::string>();

@@ -43,6 +43,9 @@ std::vector<FileGroup> file_groups(const DatasetFacts& facts);
 /// The format's name.
 std::string format_of(const DatasetFacts& facts);
 
+/// What follows on the number of stereo pairs where their pictures are not there; empty where they are.
+std::string lack_of_pictures(const DatasetFacts& facts);
+
 /// The drive's name; "drive" where the marker has none.
 std::string drive_name_of(const DatasetFacts& facts);
 

@@ -209,6 +209,10 @@ std::span<const LayoutEntry> layout_entries() {
   return kLayout;
 }
 
+bool has_pictures(std::string_view format) {
+  return format != "mrclam";
+}
+
 const LayoutEntry* layout_entry_of(std::string_view format, std::string_view file) {
   const std::string name(file);
   const auto fits = [&](const LayoutEntry& entry) {

@@ -16,6 +16,9 @@ struct LayoutEntry {
 /// All formats' entries. Of several that fit a file, the first one counts.
 std::span<const LayoutEntry> layout_entries();
 
+/// Whether a format has pictures, also in a container; one is of logs alone.
+bool has_pictures(std::string_view format);
+
 /// @return the entry of a file; none where nobody has said what it holds
 const LayoutEntry* layout_entry_of(std::string_view format, std::string_view file);
 

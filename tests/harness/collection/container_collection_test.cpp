@@ -9,8 +9,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Law: joined from parts it is the same folder as in one piece, of recordings, archives and logs too; whoever
-// was killed right after a manifest left parts, which go. Mutations: parts that were left are linked; that of
-// a finished drive stay.
+// was killed right after a manifest left parts, which go. Meant to catch: parts that were left are linked;
+// that of a finished drive stay.
 TEST(ContainerCollection, IsTheSameInPartsAndJoined) {
   const TestFolder scratch;
   const fs::path file = write_collection(scratch, "", "rosbag, mcap, webdataset, mrclam");

@@ -224,7 +224,7 @@ void write_part(RenderedDataset& dataset, std::size_t step, const std::string& t
   dataset.write(step, {text_file("dataset.parts/" + std::to_string(step), text)});
 }
 
-// Mutations: parts in the manifest; parts that stay; bytes replaced at another place.
+// Meant to catch: parts in the manifest; parts that stay; bytes replaced at another place.
 TEST(RenderedDataset, PutsContainersTogetherOfParts) {
   const TestFolder folder;
   RenderedDataset dataset(folder.path(), kOne);
@@ -271,7 +271,7 @@ TEST(RenderedDataset, KeepsPartsUntilTheManifestIsThere) {
 }
 
 // Killed right after the manifest: the parts go when the folder is looked at again. Those of an unfinished
-// data set stay. Mutations: each for the other.
+// data set stay. Meant to catch: each for the other.
 TEST(RenderedDataset, RemovesPartsThatAreOfNoMoreUse) {
   const TestFolder folder;
   RenderedDataset dataset(folder.path(), kOne);
@@ -285,7 +285,7 @@ TEST(RenderedDataset, RemovesPartsThatAreOfNoMoreUse) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "dataset.parts"));
 }
 
-// Mutation: a container that is not among the files that are looked at.
+// Meant to catch: a container that is not among the files that are looked at.
 TEST(RenderedDataset, WritesASpoiltContainerAgain) {
   const TestFolder folder;
   for (int round = 0; round < 2; ++round) {

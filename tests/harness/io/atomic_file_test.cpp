@@ -43,7 +43,8 @@ TEST(AtomicFile, ReplacesAnOldFileAndHonoursTheCreationMask) {
   EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// Mutations: appended in place of replaced; the last block left out; blocks one after the other in one place.
+// Meant to catch: appended in place of replaced; the last block left out; blocks one after the other in one
+// place.
 TEST(AtomicFiles, CopiesALargeFileBlockByBlock) {
   const TestFolder folder;
   std::string bytes((std::size_t{5} << 19) + 3, '\0');

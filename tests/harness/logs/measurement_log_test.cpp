@@ -73,7 +73,7 @@ void expect_same_odometry(const LogStep& a, const LogStep& b, double duration_to
 class AnyLog : public testing::TestWithParam<std::uint64_t> {};
 
 // Law: a log that was written and read has the same readings, to the nanosecond: what is made of them is the
-// same when it is exported. Mutation: stamps cut in place of rounded.
+// same when it is exported. Meant to catch: stamps cut in place of rounded.
 TEST_P(AnyLog, HasTheSameReadingsWhenItIsReadBack) {
   const TestFolder folder;
   const MeasurementLog log = random_log(GetParam());

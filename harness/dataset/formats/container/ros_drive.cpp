@@ -11,6 +11,7 @@
 #include "harness/logs/measurement_log_writer.h"
 #include "slam/models/motion.h"
 #include "vision/camera/rig.h"
+#include "vision/palette.h"
 #include "worlds/generate/paint.h"
 
 namespace stereobench::harness {
@@ -31,6 +32,10 @@ std::size_t topic_of(std::string_view name) {
 
 std::string colour_name(int colour) {
   return colour == slam::kUnknown ? "ball" : fmt::format("ball_{}", colour);
+}
+
+bool is_of_palette(int colour) {
+  return colour >= 0 && static_cast<std::size_t>(colour) < vision::kPalette.size();
 }
 
 class RosPlayer {
@@ -151,7 +156,7 @@ void RosPlayer::play_balls(std::size_t step) {
     detected.push_back({colour_name(colour), static_cast<int>(detected.size()),
                         Eigen::Vector3d(seen.range_m * turn.cosine, seen.range_m * turn.sine, 0.0),
                         drive_.world.ball_radius_m(),
-                        colour == slam::kUnknown ? Eigen::Vector3d::Ones() : worlds::palette_rgb(colour)});
+                        is_of_palette(colour) ? worlds::palette_rgb(colour) : Eigen::Vector3d::Ones()});
   }
   send("/detections", stamp_ns,
        ros_spheres(version_, header("/detections", stamp_ns, kRobot), detected, lifetime_ns));

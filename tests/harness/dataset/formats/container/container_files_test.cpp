@@ -57,8 +57,8 @@ std::string bag_of(const std::vector<std::tuple<std::size_t, std::int64_t, std::
   return folder.read("a.bag");
 }
 
-// Law: each entry of an index leads to its message. Mutations: offsets from the file's begin; from behind the
-// message; the place of the chunk a record later; the index's place left at 0.
+// Law: each entry of an index leads to its message. Meant to catch: offsets from the file's begin; from
+// behind the message; the place of the chunk a record later; the index's place left at 0.
 TEST(BagFile, LeadsToEachMessage) {
   const std::string large(800'000, 'x');
   const std::string bytes =
@@ -93,14 +93,14 @@ TEST(BagFile, LeadsToEachMessage) {
   EXPECT_THAT(found, testing::ElementsAre("one", "xxxxx", "three"));
 }
 
-// A topic without messages is in no list. Mutation: all of them listed.
+// A topic without messages is in no list. Meant to catch: all of them listed.
 TEST(BagFile, NamesTheTopicsThatHaveMessages) {
   const BagRecord head = record_at(bag_of({{1, 5'000'000'001, "one"}}), kMagicBytes);
   EXPECT_EQ(head.number("conn_count"), 1U);
   EXPECT_EQ(record_at(bag_of({}), kMagicBytes).number("chunk_count"), 0U);
 }
 
-// Mutations: a sum over what stands in its place; the size in decimal digits; no padding.
+// Meant to catch: a sum over what stands in its place; the size in decimal digits; no padding.
 TEST(TarFile, HasTheHeaderOfPosix) {
   const TestFolder folder;
   AtomicFile file(folder.path() / "a.tar");
@@ -132,7 +132,7 @@ struct RefusedChange {
 
 class ContainerRefuses : public testing::TestWithParam<RefusedChange> {};
 
-// Mutations: each check left out.
+// Meant to catch: each check left out.
 TEST_P(ContainerRefuses, WhatItHasNoPlaceFor) {
   worlds::Scenario scenario = tilted_drive();
   GetParam().change(scenario);

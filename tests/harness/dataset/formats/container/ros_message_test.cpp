@@ -26,7 +26,8 @@ Eigen::Isometry3d shifted() {
   return pose;
 }
 
-// seq, seconds, nanoseconds, length and letters of the frame, then seven numbers. Mutation: no sequence.
+// seq, seconds, nanoseconds, length and letters of the frame, then seven numbers. Meant to catch: no
+// sequence.
 TEST(RosMessage, OfRos1HasValuesOneAfterTheOther) {
   const std::string bytes = ros_pose(RosVersion::kOne, {9, kStamp_ns, "odom"}, shifted());
   ASSERT_EQ(bytes.size(), 4U + 8U + 4U + 4U + 7U * 8U);
@@ -51,7 +52,7 @@ TEST(RosMessage, OfRos2IsAligned) {
   EXPECT_EQ(number_at<double>(bytes, 28), 1.5);
 }
 
-// A picture that is a part of a larger one has rows that do not touch. Mutation: its memory as it lies.
+// A picture that is a part of a larger one has rows that do not touch. Meant to catch: its memory as it lies.
 TEST(RosMessage, HasThePixelsOfAPictureRowByRow) {
   cv::Mat large(4, 5, CV_8UC3);
   for (int i = 0; i < 60; ++i) large.data[i] = static_cast<std::uint8_t>(i);

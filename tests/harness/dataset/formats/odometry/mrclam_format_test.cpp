@@ -37,7 +37,7 @@ RecordedLog read_back(const TestFolder& folder, const MeasurementLog& log) {
   return read_log(folder.path(), {.odometry_delay_s = 0.0});
 }
 
-// Law: what the layout holds is read back exactly. Mutations: six digits; subjects from 1 on, which are
+// Law: what the layout holds is read back exactly. Meant to catch: six digits; subjects from 1 on, which are
 // robots; no reading at the end: the last step is lost; v and w exchanged.
 TEST(MrclamFormat, IsReadBackAsItWasMeasured) {
   const TestFolder folder;
@@ -70,7 +70,7 @@ TEST(MrclamFormat, IsReadBackAsItWasMeasured) {
   }
 }
 
-// Mutation: the identity of nothing written as that of a robot, 5.
+// Meant to catch: the identity of nothing written as that of a robot, 5.
 TEST(MrclamFormat, GivesSightingsWithoutIdentityABarcodeOfNobody) {
   const TestFolder folder;
   MeasurementLog log = sighted_log();
