@@ -113,7 +113,7 @@ double off_rigid_motion_px(const Pair& pair, std::vector<MovedPoint> points) {
 /// How far corners of the left picture are found off where flow, and the next disparity, lead to.
 /// @return the middle of all, px; empty where too few are found
 std::optional<double> off_second_picture_px(const LoadedFrame& loaded, Side side) {
-  constexpr std::size_t kMostCorners = 60, kFewest = 12;
+  constexpr std::size_t kMostCorners = 240, kFewest = 20;
   constexpr int kAcross = 4, kDown = 6;
   const cv::Mat &flow = loaded.flow_px[0], &next = loaded.next_disparity_px;
   const cv::Mat& second = loaded.next_picture[index_of(side)];

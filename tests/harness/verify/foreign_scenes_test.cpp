@@ -29,16 +29,19 @@ class ReconstructedScene {
     folder_.write("sparse/0/cameras.txt",
                   "# Camera list\n# Number of cameras: 2\n7 SIMPLE_RADIAL 640 480 500 320 240 -0.05\n"
                   "3 FULL_OPENCV 640 480 500 501 320 240 0 0 0 0 0 0 0 0\n");
-    folder_.write("sparse/0/images.txt",
-                  fmt::format("# Image list\n12 1 0 0 0 0 0 0 7 first photo.JPG\n{}\n4 1 0 0 0 -0.5 0 0 3 "
+    std::string images = fmt::format("# Image list\n12 1 0 0 0 0 0 0 7 first photo.JPG\n{}\n4 1 0 0 0 -0.5 0 0 3 "
                               "night/b.JPG\n{}\n9 1 0 0 0 -300 0 0 3 far.JPG\n\n",
                               points(0.0, -0.05), points(0.5, 0.0)));
+    for (int i = 0; i < 4; ++i)  // near the others: the one that is far off is no leap
+      images += fmt::format("{} 1 0 0 0 -0.{} 0 0 3 near_{}.JPG\n\n", 20 + i, i + 1, i);
+    folder_.write("sparse/0/images.txt", images);
     std::string text = "# 3D point list\n";
     for (int i = 0; i < 25; ++i)
       text += fmt::format("{} {} {} 4 200 100 0 0.6 4 {} 12 {}\n", i + 100, x_of(i), y_of(i), 2 * i, 2 * i);
     folder_.write("sparse/0/points3D.txt", text);
     folder_.write("sparse/0/cameras.bin", "bytes");
-    for (const char* name : {"first photo.JPG", "night/b.JPG", "far.JPG", "unused.JPG"})
+    for (const char* name : {"first photo.JPG", "night/b.JPG", "far.JPG", "near_0.JPG", "near_1.JPG",
+                             "near_2.JPG", "near_3.JPG", "unused.JPG"})
       folder_.write(std::string("images/") + name, grey_png(640, 480));
   }
   const std::filesystem::path& path() const { return folder_.path(); }
