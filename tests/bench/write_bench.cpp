@@ -124,17 +124,17 @@ void hash_pair(benchmark::State& state) {
   });
 }
 
-constexpr WrittenSet kPoses = {"euroc", ""};
+constexpr WrittenSet kPosesAlone = {"euroc", ""};
 constexpr WrittenSet kIdsAndDepth = {"plain", ""};
 constexpr WrittenSet kAllTruth = {"plain", "all"};
 
 #define STEREOBENCH_WRITE(function, name, set) \
   BENCHMARK_CAPTURE(function, name, set)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(3)
 
-STEREOBENCH_WRITE(write_set, poses, kPoses);
+STEREOBENCH_WRITE(write_set, poses, kPosesAlone);
 STEREOBENCH_WRITE(write_set, ids_and_depth, kIdsAndDepth);
 STEREOBENCH_WRITE(write_set, all_truth, kAllTruth);
-STEREOBENCH_WRITE(write_pair, poses, kPoses);
+STEREOBENCH_WRITE(write_pair, poses, kPosesAlone);
 STEREOBENCH_WRITE(write_pair, ids_and_depth, kIdsAndDepth);
 STEREOBENCH_WRITE(write_pair, all_truth, kAllTruth);
 
