@@ -29,9 +29,10 @@ class ReconstructedScene {
     folder_.write("sparse/0/cameras.txt",
                   "# Camera list\n# Number of cameras: 2\n7 SIMPLE_RADIAL 640 480 500 320 240 -0.05\n"
                   "3 FULL_OPENCV 640 480 500 501 320 240 0 0 0 0 0 0 0 0\n");
-    std::string images = fmt::format("# Image list\n12 1 0 0 0 0 0 0 7 first photo.JPG\n{}\n4 1 0 0 0 -0.5 0 0 3 "
-                              "night/b.JPG\n{}\n9 1 0 0 0 -300 0 0 3 far.JPG\n\n",
-                              points(0.0, -0.05), points(0.5, 0.0)));
+    std::string images = fmt::format(
+        "# Image list\n12 1 0 0 0 0 0 0 7 first photo.JPG\n{}\n4 1 0 0 0 -0.5 0 0 3 "
+        "night/b.JPG\n{}\n9 1 0 0 0 -300 0 0 3 far.JPG\n\n",
+        points(0.0, -0.05), points(0.5, 0.0));
     for (int i = 0; i < 4; ++i)  // near the others: the one that is far off is no leap
       images += fmt::format("{} 1 0 0 0 -0.{} 0 0 3 near_{}.JPG\n\n", 20 + i, i + 1, i);
     folder_.write("sparse/0/images.txt", images);
