@@ -41,6 +41,8 @@ class SceneGeometry {
 
   /// The same of a floor, wall or triangle for many rays of one camera.
   class FlatLook;
+  /// The same along a row of a picture without distortion (flat_row.h).
+  class FlatRow;
 
   /// The unit normal of a primitive at one of its points, world frame: outwards for balls, either way for
   /// others.

@@ -121,7 +121,7 @@ void compare_fates(const Room& room, const IdBuffer& ids, const IdBuffer& other,
     for (int u = 0; u < found.occlusion.cols; ++u) {
       if (!is_same_primitive(room, ids.primitive.at<int>(v, u), from, {u, v}, tally)) continue;
       Eigen::Vector2d place_px = Eigen::Vector2d::Zero();
-      const Occlusion occlusion = followed(from.look(u, v), to, ids.view.intrinsics, place_px);
+      const Occlusion occlusion = followed(from.look(u, v), to, other.view.intrinsics, place_px);
       const Eigen::Vector2d shift = Eigen::Vector2f(found.shift_px.at<cv::Vec2f>(v, u).val).cast<double>();
       const Eigen::Vector2d off = shift - (place_px - Eigen::Vector2d(u, v));
       if (occlusion == Occlusion::kSeen || occlusion == Occlusion::kHidden)
@@ -173,6 +173,22 @@ TEST_P(EveryPixel, FlowsToWhereARayFromTheNextPoseMeetsIt) {
   EXPECT_LE(tally.wrong_fates, 2);
   EXPECT_GT(tally.occlusions[Occlusion::kHidden], 100);
   EXPECT_GT(tally.occlusions[Occlusion::kOutside], 10000);
+}
+
+// Mutation: without other_x_ or other_y_ of RowShift this turns red.
+TEST_P(EveryPixel, IsInAPictureOfAnotherFocalLengthWhereARaySaysItIs) {
+  const Room room(GetParam());
+  Room zoomed(GetParam());
+  zoomed.rig.intrinsics.focal_px *= 1.2;
+  zoomed.rig.intrinsics.cx_px += 5.0;
+  zoomed.rig.intrinsics.cy_px -= 3.0;
+  const IdBuffer left = Renderer(room.world, room.rig).id_buffers(room.pose, room.pose).left;
+  const IdBuffer other = Renderer(room.world, zoomed.rig).id_buffers(room.moved, room.moved).left;
+  PixelTally tally;
+  compare_fates(room, left, other, room.caster(room.pose, Side::kLeft),
+                zoomed.caster(room.moved, Side::kLeft), tally);
+  EXPECT_EQ(tally.wrong_shifts, 0);
+  EXPECT_LE(tally.wrong_fates, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, EveryPixel, testing::Range(std::uint64_t{0}, std::uint64_t{6}));
