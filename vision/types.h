@@ -59,6 +59,7 @@ struct BallObservation {
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
   double left_radius_px = 0.0;  ///< of the circle of the same area
   double right_radius_px = 0.0;
+  bool has_radii = true;   ///< false: radii are made up of where the ball is
   bool has_pixels = true;  ///< false: range and bearing are all that was seen, and the pixels are made up
   Eigen::Vector3d ball_in_camera = Eigen::Vector3d::Zero();  ///< centre in the left camera's frame, m
   slam::RangeBearing range_bearing;  ///< in the robot frame; colour_class is set, landmark_id is not

@@ -50,14 +50,24 @@ Eigen::Vector3d at_camera_height(const vision::StereoRig& rig, const slam::Range
          Eigen::Vector3d(seen.range_m * c, seen.range_m * s, rig.height_m);
 }
 
+/// The outlines that a ball must have where it is.
+struct ExpectedOutlines {
+  std::optional<vision::OutlineEllipse> left, right;  // none where a camera cannot see it
+};
+
+ExpectedOutlines expected_outlines(const BallGeometry& geometry, const BallObservation& ball) {
+  const vision::Intrinsics& camera = geometry.rig.intrinsics;
+  const Eigen::Vector3d in_right =
+      vision::camera_point(geometry.rig, ball.ball_in_camera, vision::Side::kRight);
+  return {vision::sphere_outline(camera, ball.ball_in_camera, geometry.radius_m),
+          vision::sphere_outline(camera, in_right, geometry.radius_m)};
+}
+
 /// The pixels and radii that a ball must have where only its place is known; false where a camera cannot see
 /// it.
 bool imagine_pixels(const BallGeometry& geometry, BallObservation& ball) {
   const vision::Intrinsics& camera = geometry.rig.intrinsics;
-  const auto left = vision::sphere_outline(camera, ball.ball_in_camera, geometry.radius_m);
-  const auto right = vision::sphere_outline(
-      camera, vision::camera_point(geometry.rig, ball.ball_in_camera, vision::Side::kRight),
-      geometry.radius_m);
+  const auto [left, right] = expected_outlines(geometry, ball);
   if (!left || !right) return false;
   ball.left_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, left->centre_px));
   ball.right_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, right->centre_px));
@@ -99,11 +109,15 @@ void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallO
   if (!place || place->z() > kMost_m)
     value.at("left_px").refuse("a column to the right of right_px's: a ball that is ahead");
   ball.ball_in_camera = *place;
+  const auto expected = expected_outlines(geometry, ball);
   const auto left = value.find("left_radius_px");
   const auto right = value.find("right_radius_px");
-  const double expected_px = geometry.rig.intrinsics.focal_px * geometry.radius_m / place->z();
-  ball.left_radius_px = left ? left->number(kLeastPositive, kMost_px) : expected_px;
-  ball.right_radius_px = right ? right->number(kLeastPositive, kMost_px) : expected_px;
+  const auto radius_px = [](const auto& stated, const auto& outline) {
+    return stated ? stated->number(kLeastPositive, kMost_px) : outline ? outline->radius_px() : 0.0;
+  };
+  ball.left_radius_px = radius_px(left, expected.left);
+  ball.right_radius_px = radius_px(right, expected.right);
+  ball.has_radii = left && right;
 }
 
 void place_by_range(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
@@ -127,6 +141,7 @@ BallObservation read_ball(const JsonValue& value, const BallGeometry& geometry) 
   const bool has_range = value.find("range_m") || value.find("bearing_rad");
   if (!ball.has_pixels && !has_range)
     value.refuse("\"range_m\" and \"bearing_rad\", or \"left_px\" and \"right_px\"");
+  ball.has_radii = false;
   if (ball.has_pixels) place_by_pixels(value, geometry, ball);
   if (has_range) place_by_range(value, geometry, ball);
   const auto covariance = value.find("covariance");
@@ -168,6 +183,8 @@ Json ball_json(const BallObservation& ball) {
   if (ball.has_pixels) {
     json["left_px"] = pixel_json(ball.left_px);
     json["right_px"] = pixel_json(ball.right_px);
+  }
+  if (ball.has_radii) {
     json["left_radius_px"] = ball.left_radius_px;
     json["right_radius_px"] = ball.right_radius_px;
   }

@@ -44,7 +44,7 @@ CalibrationSample compare(const BallInPair& ball, const vision::BallObservation&
   sample.disparity_error_px = disparity_error_px(ball, observation);
   sample.radius_error_px = {observation.left_radius_px - ball.left.radius_px(),
                             observation.right_radius_px - ball.right.radius_px()};
-  if (!observation.has_pixels) sample.radius_error_px.fill(std::numeric_limits<double>::quiet_NaN());
+  if (!observation.has_radii) sample.radius_error_px.fill(std::numeric_limits<double>::quiet_NaN());
   sample.whole = is_whole(ball);
   return sample;
 }

@@ -73,26 +73,28 @@ RigCheck& RigCheck::operator+=(const RigCheck& other) {
     baseline_m = other.baseline_m;
   }
   watch += other.watch;
+  sized += other.sized;
   return *this;
 }
 
 RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& size,
                    std::span<const vision::BallObservation> observations) {
   constexpr double kOfRows = 2.0 * kOutline_px * kOutline_px;
-  RigCheck check{believed.intrinsics, believed.baseline_m, {}};
+  RigCheck check{believed.intrinsics, believed.baseline_m};
   for (const vision::BallObservation& seen : observations) {
     if (!seen.trusted() || !seen.has_pixels) continue;
     const auto left_px = vision::rectified_point(believed, seen.left_px, vision::Side::kLeft);
     const auto right_px = vision::rectified_point(believed, seen.right_px, vision::Side::kRight);
     if (!left_px || !right_px) continue;
     vision::BallApart apart{*left_px, *right_px, kOfRows, left_px->x() - right_px->x(), kUnknownRadius};
-    if (seen.left_radius_px > 0.0 && seen.right_radius_px > 0.0) {
+    if (seen.has_radii && seen.left_radius_px > 0.0 && seen.right_radius_px > 0.0) {
       apart.disparity_by_size_px =
           vision::disparity_by_size_px(believed, outline_at(*left_px, seen.left_radius_px),
                                        outline_at(*right_px, seen.right_radius_px), size.radius_m);
       const double per_radius = apart.disparity_by_size_px / (seen.left_radius_px + seen.right_radius_px);
       const double made_px = apart.disparity_by_size_px * size.radius_sd_m / size.radius_m;
       apart.disparity_variance_px2 = kOfRows * (1.0 + per_radius * per_radius) + made_px * made_px;
+      ++check.sized;
     }
     check.watch.add(believed.intrinsics, apart, {});
   }
@@ -100,15 +102,17 @@ RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& si
 }
 
 nlohmann::ordered_json rig_json(const RigCheck& check) {
-  if (check.watch.balls == 0)
-    return {{"rows_off_px", {{"left", nullptr}, {"right", nullptr}, {"sd", nullptr}}},
-            {"size_disagrees", {{"share", nullptr}, {"sd", nullptr}}}};
+  nlohmann::ordered_json json = {{"rows_off_px", {{"left", nullptr}, {"right", nullptr}, {"sd", nullptr}}},
+                                 {"size_disagrees", {{"share", nullptr}, {"sd", nullptr}}}};
+  if (check.watch.balls == 0) return json;
   const vision::RigBelief belief = check.watch.estimate();
   const Rows rows = rows_of(check.camera, belief);
+  json["rows_off_px"] = {{"left", rows.left_px}, {"right", rows.right_px}, {"sd", rows.sd_px}};
+  if (check.sized == 0) return json;
   const double variance = belief.variances_px2(check.camera, middle_of(check.camera), kUsualDisparity_px).y();
-  return {{"rows_off_px", {{"left", rows.left_px}, {"right", rows.right_px}, {"sd", rows.sd_px}}},
-          {"size_disagrees",
-           {{"share", share_of(check.camera, belief)}, {"sd", std::sqrt(variance) / kUsualDisparity_px}}}};
+  json["size_disagrees"] = {{"share", share_of(check.camera, belief)},
+                            {"sd", std::sqrt(variance) / kUsualDisparity_px}};
+  return json;
 }
 
 std::vector<std::string> rig_warnings(const RigCheck& check) {

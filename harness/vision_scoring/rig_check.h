@@ -18,12 +18,14 @@ struct RigCheck {
   vision::Intrinsics camera;
   double baseline_m = 0.0;  ///< as believed; 0 while nothing was detected
   vision::RigWatch watch;
+  long sized = 0;  ///< detections whose radii were measured
 
   RigCheck& operator+=(const RigCheck& other);
 };
 
-/// What trusted detections tell of their rig; those without pixels tell nothing, those without radii of rows
-/// alone. Any detector's are alike: each difference counts as if outlines were known to 0.02 px.
+/// What trusted detections tell of their rig; those without pixels tell nothing, those without measured
+/// radii of rows alone. Any detector's are alike: each difference counts as if outlines were known to 0.02
+/// px.
 /// @param believed the rig by which they were detected
 /// @param size that balls are made to
 RigCheck check_rig(const vision::StereoRig& believed, const vision::BallSize& size,

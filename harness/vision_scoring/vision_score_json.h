@@ -11,7 +11,7 @@ STEREOBENCH_ALL_FIELDS(RigWatch, rows, sizes, balls)
 }  // namespace stereobench::vision
 
 namespace stereobench::harness {
-STEREOBENCH_ALL_FIELDS(RigCheck, camera, baseline_m, watch)
+STEREOBENCH_ALL_FIELDS(RigCheck, camera, baseline_m, watch, sized)
 STEREOBENCH_ALL_FIELDS(VisionScore, visible, found, observations, right, misidentified, spurious, repeated,
                        flagged, range_errors_m, bearing_errors_rad, disparity_errors_px, normalised_errors,
                        rig)

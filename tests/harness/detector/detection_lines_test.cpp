@@ -52,6 +52,7 @@ void expect_same(const BallObservation& a, const BallObservation& b) {
   EXPECT_EQ(a.left_radius_px, b.left_radius_px);
   EXPECT_EQ(a.right_radius_px, b.right_radius_px);
   EXPECT_EQ(a.has_pixels, b.has_pixels);
+  EXPECT_EQ(a.has_radii, b.has_radii);
   EXPECT_EQ(a.range_bearing.range_m, b.range_bearing.range_m);
   EXPECT_EQ(a.range_bearing.bearing_rad, b.range_bearing.bearing_rad);
   EXPECT_EQ(a.range_bearing.covariance, b.range_bearing.covariance);
@@ -130,6 +131,28 @@ TEST(DetectionLines, PixelsOfARigWithFaultsAreRectified) {
     EXPECT_EQ(seen[0].left_px, left);
     EXPECT_NEAR(seen[0].range_bearing.range_m, ball.range_bearing.range_m, 1e-7);
     EXPECT_NEAR(seen[0].range_bearing.bearing_rad, ball.range_bearing.bearing_rad, 1e-10);
+  }
+}
+
+// Law: a radius that is not stated is that of the ball's outline, and is not taken for measured. Mutation: f
+// R / Z, which is too small away from the middle.
+TEST(DetectionLines, RadiiThatAreNotStatedAreThoseOfTheOutline) {
+  slam::RandomStream random(11, slam::Stream::kWorld);
+  for (int i = 0; i < 20; ++i) {
+    const BallObservation ball = random_ball(random);
+    const std::string centres =
+        fmt::format(R"("colour": 1, "left_px": [{}, {}], "right_px": [{}, {}])", ball.left_px.x(),
+                    ball.left_px.y(), ball.right_px.x(), ball.right_px.y());
+    const auto seen = read(fmt::format("{{{}}}", centres));
+    ASSERT_EQ(seen.size(), 1U);
+    const auto outline =
+        vision::sphere_outline(kGeometry.rig.intrinsics, seen[0].ball_in_camera, kGeometry.radius_m);
+    EXPECT_DOUBLE_EQ(seen[0].left_radius_px, outline->radius_px());
+    EXPECT_FALSE(seen[0].has_radii);
+    EXPECT_EQ(detections_line(0, seen).find("radius"), std::string::npos);
+    const auto stated = read(fmt::format(R"({{{}, "left_radius_px": 9, "right_radius_px": 8}})", centres));
+    EXPECT_TRUE(stated.at(0).has_radii);
+    EXPECT_EQ(stated.at(0).right_radius_px, 8.0);
   }
 }
 

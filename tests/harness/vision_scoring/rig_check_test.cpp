@@ -64,6 +64,19 @@ TEST(RigCheck, SaysByWhatSizesDisagree) {
   EXPECT_THAT(rig_warnings(check), ElementsAre(HasSubstr("the baseline is 0.1200 m in place of 0.1250")));
 }
 
+// Radii that a detector does not state are made up of disparities: what these say of sizes is nothing.
+// Mutation: check_rig that does not ask has_radii.
+TEST(RigCheck, SaysNothingOfSizesThatNobodyMeasured) {
+  vision::StereoRig believed;
+  believed.baseline_m = 0.125;
+  std::vector<vision::BallObservation> seen = seen_by(vision::StereoRig{});
+  for (vision::BallObservation& ball : seen) ball.has_radii = false;
+  const RigCheck check = check_rig(believed, {kRadius_m, 0.0001}, seen);
+  EXPECT_THAT(rig_warnings(check), IsEmpty());
+  EXPECT_TRUE(rig_json(check)["size_disagrees"]["share"].is_null());
+  EXPECT_NEAR(rig_json(check)["rows_off_px"]["left"].get<double>(), 0.0, 0.01);
+}
+
 TEST(RigCheck, SaysNothingOfARigAsBelieved) {
   vision::StereoRig rig;
   rig.right_turn_rad = {0.01, -0.005, 0.02};
