@@ -271,6 +271,14 @@ std::string changes_text(const DetectionChanges& changes, bool range_errors_grew
   return text;
 }
 
+std::string slices_text(const DetectionChanges& changes) {
+  std::vector<std::string> texts;
+  if (changes.lost_slice) texts.push_back("lost: " + slice_text(*changes.lost_slice));
+  if (changes.misidentified_slice)
+    texts.push_back("misidentified: " + slice_text(*changes.misidentified_slice));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 std::string replay_command(const ChangedFrame& frame, const std::string& result) {
   const std::vector<std::string> words = {"stereobench", "replay", result, "--frame",
                                           fmt::format("{}:{}", frame.seed, frame.frame)};

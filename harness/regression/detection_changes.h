@@ -69,6 +69,9 @@ PairedCounts counts_of(const DetectionChanges& changes);
 /// @param range_errors_grew significantly: then it is said where
 std::string changes_text(const DetectionChanges& changes, bool range_errors_grew);
 
+/// What lost and misidentified balls have in common, one line; empty where there are none.
+std::string slices_text(const DetectionChanges& changes);
+
 /// The command that renders a frame again.
 /// @param result the folder of B
 std::string replay_command(const ChangedFrame& frame, const std::string& result);

@@ -67,6 +67,8 @@ ComparedCase compared_case(const SuitePlan& plan, const PlannedCase& planned,
                   : !report.not_compared.empty() ? report.not_compared
                   : report.judgement             ? verdict_summary(report.judgement->comparison)
                                                  : "";
+  if (report.judgement && report.judgement->changes)
+    compared.reason = slices_text(*report.judgement->changes);
   compared.blocks.push_back(remarks_block(report, planned.baseline, planned.arguments.run.words));
   if (!report.judgement) return compared;
   const StoredResult before{.scenario = planned.baseline->scenario, .seeds = planned.baseline->seeds};

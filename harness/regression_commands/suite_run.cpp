@@ -63,6 +63,18 @@ std::string what_is_missing(const CaseRun& run) {
   return fmt::format("{} of the {} seeds that the suite asks for were not run", missing, asked.size());
 }
 
+/// "found 23 of 25 balls that had to be found; 0 spurious, 1 taken for another colour; range rms 2.01 mm"
+std::string measured(const nlohmann::ordered_json& vision) {
+  if (!vision.contains("visible") || vision["visible"] == 0) return {};
+  std::string text =
+      fmt::format("found {} of {} balls that had to be found; {} spurious, {} taken for another colour",
+                  vision["found"].dump(), vision["visible"].dump(), vision["spurious"].dump(),
+                  vision["misidentified"].dump());
+  if (vision["range_rms_m"].is_number())
+    text += fmt::format("; range rms {:.3g} mm", 1000.0 * vision["range_rms_m"].get<double>());
+  return text;
+}
+
 /// Writes the result of a case and holds it against gates and baseline.
 void judge_case(const SuitePlan& plan, const fs::path& out, KeptDrives& kept, CaseRun& run) {
   const PlannedCase& planned = *run.planned;
@@ -74,7 +86,9 @@ void judge_case(const SuitePlan& plan, const fs::path& out, KeptDrives& kept, Ca
   run.report.inputs.detector = result.detector;
   run.report.partial = what_is_missing(run);
   run.report.broken_gates.clear();
-  for (const BrokenGate& gate : broken_gates(run_json(result), planned.gates))
+  const nlohmann::ordered_json metrics = run_json(result);
+  if (metrics.contains("vision")) run.report.measured = measured(metrics["vision"]);
+  for (const BrokenGate& gate : broken_gates(metrics, planned.gates))
     run.report.broken_gates.push_back(gate.message);
   if (!run.report.not_compared.empty()) return;
   const StoredResult now = read_result(folder);

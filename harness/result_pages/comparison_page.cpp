@@ -253,10 +253,15 @@ Page cases_page(const std::string& title, const std::vector<std::string>& facts,
                 std::vector<ComparedCase> cases) {
   Page page{.title = title, .facts = facts};
   PageTable table{.header = {"case", "verdict", "says"}};
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    table.rows.push_back({{{.text = cases[i].name, .link = fmt::format("case-{}", i + 1)},
-                           {.text = cases[i].verdict, .mark = cases[i].mark},
-                           {.text = cases[i].says}}});
+  const bool has_reasons = std::ranges::any_of(cases, [](const auto& one) { return !one.reason.empty(); });
+  if (has_reasons) table.header.push_back("which balls");
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    PageRow row{{{.text = cases[i].name, .link = fmt::format("case-{}", i + 1)},
+                 {.text = cases[i].verdict, .mark = cases[i].mark},
+                 {.text = cases[i].says}}};
+    if (has_reasons) row.cells.push_back({.text = cases[i].reason});
+    table.rows.push_back(std::move(row));
+  }
   page.blocks.push_back({.title = "Cases", .note = "", .content = std::move(table)});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     page.blocks.push_back({.title = cases[i].name,

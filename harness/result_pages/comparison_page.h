@@ -38,7 +38,8 @@ struct ComparedCase {
   std::string name;
   std::string verdict;  ///< e.g. the worst of its metrics
   CellMark mark = CellMark::kNone;
-  std::string says;  ///< one line
+  std::string says;    ///< one line
+  std::string reason;  ///< one line: which detections changed; empty where none did
   std::vector<Block> blocks;
 };
 

@@ -46,6 +46,7 @@ struct CaseReport {
   std::string error;         ///< one line: why it broke down; empty where it did not
   std::string partial;       ///< one line: what the suite asks for and this is not; empty where it is all
   std::string not_compared;  ///< one line: why nothing was compared, and what to do; empty where it was
+  std::string measured;      ///< one line: what the detector found
   std::size_t gates = 0;
   std::vector<std::string> broken_gates;  ///< a line each
   std::vector<LookRecord> looks;          ///< where seeds came by steps

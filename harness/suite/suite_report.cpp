@@ -95,7 +95,8 @@ std::string remarks(const CaseReport& report) {
   std::string text;
   if (!report.error.empty()) text += report.error + "\n";
   if (!report.not_compared.empty()) text += report.not_compared + "\n";
-  if (!report.partial.empty()) text += "partial: " + report.partial + "\n";
+  if (!report.not_compared.empty() && !report.measured.empty()) text += "now: " + report.measured + "\n";
+  if (!report.partial.empty()) text += "partial: " + report.partial + "; bless refuses such a result\n";
   for (const std::string& gate : report.broken_gates) text += "gate broken: " + gate + "\n";
   for (const PictureRecord& picture : report.pictures)
     if (!picture.is_as_before) text += picture.name + ": " + picture.text + "\n";

@@ -200,14 +200,25 @@ TEST(ComparisonPage, HasVerdictsFirstAndChangesSeedBySeed) {
 // Mutations: links to the wrong case; blocks without their chapter.
 TEST(ComparisonPage, OfManyCasesHasATableThatLeadsToEach) {
   const Compared compared;
-  const Page page = cases_page("suite", {},
-                               {{"one", "PASS", CellMark::kGood, "", comparison_blocks(compared.story())},
-                                {"two", "REGRESSED", CellMark::kBad, "", {}}});
+  const Page page = cases_page(
+      "suite", {},
+      {{.name = "one",
+        .verdict = "PASS",
+        .mark = CellMark::kGood,
+        .blocks = comparison_blocks(compared.story())},
+       {.name = "two", .verdict = "REGRESSED", .mark = CellMark::kBad, .reason = "lost: 3 of 3 at frame 7"}});
   EXPECT_THAT(titles_of(page.blocks), ElementsAre("Cases", "one", "Verdicts", "Changes seed by seed", "two"));
   const auto& table = std::get<PageTable>(page.blocks[0].content);
   EXPECT_EQ(table.rows[1].cells[0].link, page.blocks[4].identity);
   EXPECT_EQ(table.rows[0].cells[0].link, page.blocks[1].identity);
   EXPECT_TRUE(page.blocks[4].is_chapter);
+  EXPECT_EQ(table.header.back(), "which balls");
+  EXPECT_EQ(table.rows[1].cells.back().text, "lost: 3 of 3 at frame 7");
+}
+
+TEST(ComparisonPage, OfCasesWithoutLostBallsHasNoColumnForThem) {
+  const Page page = cases_page("suite", {}, {{.name = "one", .verdict = "PASS"}});
+  EXPECT_EQ(std::get<PageTable>(page.blocks[0].content).header.back(), "says");
 }
 
 // Mutations: equal pictures twice in the page; no picture where one result alone has kept the pair; A and B
