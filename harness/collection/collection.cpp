@@ -183,7 +183,8 @@ const Fields<Collection>& collection_keys() {
       text("truth", "Further truth of the format plain: balls, surface, range, ...; or all.")
           .list(1, kMostDrives)
           .by<Collection>(read_truth),
-      choice("truth_format", {"exact", "kitti"}, "How disparity, match and flow are written.")
+      choice("truth_format", {"exact", "kitti", "tiff"},
+             "How depth, range, normals, disparity, match and flow are written.")
           .fills(&Collection::truth, &TruthRequest::format),
       group("pictures", picture_keys(), "What is changed of pictures, as by the options of render.")
           .fills(&Collection::change),

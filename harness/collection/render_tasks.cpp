@@ -53,7 +53,7 @@ nlohmann::ordered_json identity_of(nlohmann::ordered_json identity, const Render
     return identity;
   }
   for (const TruthKind kind : request.truth.kinds) identity["truth"].push_back(name_of(kind));
-  if (request.truth.format == TruthFormat::kKitti) identity["truth_format"] = "kitti";
+  if (request.truth.format != TruthFormat::kExact) identity["truth_format"] = name_of(request.truth.format);
   return identity;
 }
 
@@ -61,6 +61,9 @@ nlohmann::ordered_json identity_of(nlohmann::ordered_json identity, const Render
 
 void check_request(const RenderRequest& request, const Experiment& experiment) {
   const worlds::Scenario& scenario = experiment.scenario;
+  if (request.truth.format == TruthFormat::kKitti && request.truth.kinds.empty())
+    throw std::runtime_error(
+        "--truth-format kitti: is of disparity, match and flow; ask for them with --truth");
   if (scenario.sensor != worlds::SensorKind::kStereo)
     throw std::runtime_error(fmt::format(
         "{}: its sensor is the oracle, which has no pictures to render; set sensor.kind to stereo",

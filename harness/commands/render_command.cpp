@@ -88,17 +88,18 @@ void add_render_command(CLI::App& program, Action& action) {
       ->type_name("A..B:STEP");
   add_picture_options(*command, arguments->change);
   add_format_option(*command, arguments);
-  CLI::Option* const truth = command->add_option_function<std::string>(
+  command->add_option_function<std::string>(
       "--truth", [arguments](const std::string& text) { arguments->truth.kinds = parse_truth(text); },
       "further truth, comma-separated, of: balls, surface, range, normal, disparity, match, flow; or all");
   command
       ->add_option_function<std::string>(
           "--truth-format",
           [arguments](const std::string& text) { arguments->truth.format = parse_truth_format(text); },
-          "of disparity, match and flow: exact (PFM) or kitti (16-bit PNG)")
+          "of depth and further truth: exact (PFM), tiff (the same numbers, compressed), or kitti (16-bit "
+          "PNG "
+          "of disparity, match and flow, the rest PFM)")
       ->type_name("NAME")
-      ->default_str("exact")
-      ->needs(truth);
+      ->default_str("exact");
   command->footer(
       "The format plain has left/ right/ (PNG), left_id/ right_id/ (PNG), left_depth/\n"
       "right_depth/ (PFM, planar Z in metres), calibration.yaml (as believed), true_calibration.yaml,\n"

@@ -84,7 +84,7 @@ PlainDataset read_plain_dataset(const fs::path& folder) {
 
 void require_exact_truth(const PlainDataset& dataset, TruthKind kind) {
   const TruthRequest& has = dataset.drive.truth;
-  const bool is_exact = has.format == TruthFormat::kExact || kind == TruthKind::kBalls;
+  const bool is_exact = has.format != TruthFormat::kKitti || kind == TruthKind::kBalls;
   if (std::ranges::count(has.kinds, kind) == 0 || !is_exact)
     throw std::runtime_error(fmt::format("{}: has no {} in the format exact; render it with --truth {}",
                                          dataset.folder.string(), name_of(kind), name_of(kind)));
@@ -122,7 +122,7 @@ cv::Mat PlainPair::ball_id(Side side) {
 }
 
 cv::Mat PlainPair::depth_m(Side side) {
-  const fs::path depth = file(side, "depth", ".pfm");
+  const fs::path depth = file(side, "depth", float_extension(dataset_.drive.truth.format));
   return sized(depth, read_float_picture(depth), CV_32FC1);
 }
 
@@ -139,7 +139,8 @@ std::vector<renderer::BallTruth> PlainPair::balls(Side side) {
 const Correspondence& PlainPair::to_other_camera(Side side) {
   std::optional<Correspondence>& known = to_other_camera_[static_cast<std::size_t>(side)];
   if (!known) {
-    const fs::path disparity = truth_file(side, TruthKind::kDisparity, ".pfm");
+    const fs::path disparity =
+        truth_file(side, TruthKind::kDisparity, float_extension(dataset_.drive.truth.format));
     const cv::Mat px = sized(disparity, read_float_picture(disparity), CV_32FC1);
     known = with_occlusion(side, TruthKind::kDisparity,
                            {side == Side::kLeft ? cv::Mat(-px) : px, cv::Mat::zeros(px.size(), CV_32FC1)});
@@ -150,7 +151,7 @@ const Correspondence& PlainPair::to_other_camera(Side side) {
 const Correspondence& PlainPair::to_next_step(Side side) {
   std::optional<Correspondence>& known = to_next_step_[static_cast<std::size_t>(side)];
   if (!known) {
-    const fs::path flow = truth_file(side, TruthKind::kFlow, ".pfm");
+    const fs::path flow = truth_file(side, TruthKind::kFlow, float_extension(dataset_.drive.truth.format));
     std::vector<cv::Mat> bgr;
     cv::split(sized(flow, read_float_picture(flow), CV_32FC3), bgr);
     known = with_occlusion(side, TruthKind::kFlow, {bgr[2], bgr[1]});

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/io/text_file.h"
+#include "renderer/pictures/float_tiff.h"
 
 namespace stereobench::harness {
 namespace {
@@ -25,18 +26,28 @@ void reverse_bytes(cv::Mat& rows) {
     std::reverse(const_cast<uchar*>(word), const_cast<uchar*>(word) + sizeof(float));
 }
 
+cv::Mat tiff(const std::filesystem::path& file, const std::string& bytes) {
+  try {
+    return renderer::decode_float_tiff({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                                       kLongest_px);
+  } catch (const std::runtime_error& error) {
+    refuse_map(file, error.what());
+  }
+}
+
 }  // namespace
 
 cv::Mat read_float_picture(const std::filesystem::path& file) {
-  static_assert(std::endian::native == std::endian::little);
   const std::string bytes = read_text(file);
+  if (bytes.starts_with("II*") || bytes.starts_with("MM")) return tiff(file, bytes);
+  static_assert(std::endian::native == std::endian::little);
   std::istringstream header(bytes.substr(0, std::min<std::size_t>(bytes.size(), 200)));
   std::string kind;
   int width = 0, height = 0;
   double scale = 0.0;
   header >> kind >> width >> height >> scale;
   if (!header || (kind != "Pf" && kind != "PF") || scale == 0.0)
-    refuse_map(file, "is no portable float map (PFM)");
+    refuse_map(file, "is neither a portable float map (PFM) nor a TIFF file");
   if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px)
     refuse_map(file, "has no size that a picture may have");
   const std::size_t begin = static_cast<std::size_t>(header.tellg()) + 1;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "renderer/pictures/float_tiff.h"
 #include "renderer/pictures/png_picture.h"
 
 namespace stereobench::harness {
@@ -35,7 +36,9 @@ std::string encoded(std::string_view extension, const cv::Mat& picture) {
     const std::vector<std::uint8_t> bytes = renderer::encode_png(picture);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
-  if (extension == ".pfm" && (picture.type() == CV_32FC1 || picture.type() == CV_32FC3)) return pfm(picture);
+  const bool holds_floats = picture.type() == CV_32FC1 || picture.type() == CV_32FC3;
+  if (extension == ".pfm" && holds_floats) return pfm(picture);
+  if (extension == ".tiff" && holds_floats) return renderer::encode_float_tiff(picture);
   throw std::invalid_argument(fmt::format("a picture that a file {} does not hold", extension));
 }
 

@@ -31,7 +31,7 @@ cv::Mat in_units(const fs::path& file, double step) {
 
 cv::Mat single_floats(const fs::path& file, bool zero_is_none) {
   cv::Mat values = read_float_picture(file);
-  if (values.type() != CV_32FC1) refuse(file, "a PFM of one channel");
+  if (values.type() != CV_32FC1) refuse(file, "floats of one channel");
   if (zero_is_none) values.setTo(cv::Scalar(kInfinity), values == 0.0);
   return values;
 }
@@ -54,7 +54,7 @@ cv::Mat kitti_flow(const fs::path& file, double step) {
 
 cv::Mat float_flow(const fs::path& file) {
   const cv::Mat values = read_float_picture(file);
-  if (values.type() != CV_32FC3) refuse(file, "a PFM of three channels");
+  if (values.type() != CV_32FC3) refuse(file, "floats of three channels");
   std::vector<cv::Mat> bgr;
   cv::split(values, bgr);
   cv::Mat flow;

@@ -38,6 +38,7 @@ double cpu_s_of(const Action& action) {
 struct WrittenSet {
   const char* format;
   const char* truth;
+  harness::TruthFormat truth_format = harness::TruthFormat::kExact;
 };
 
 /// Writes data sets of ball_circle, and renders the same pairs without anything else.
@@ -49,6 +50,7 @@ class SetBench {
         request_{.scenario = file_, .formats = {&harness::dataset_format(set.format)}},
         renderer_(experiment_.scenario.world, experiment_.scenario.rig) {
     harness::silence_progress();
+    request_.truth.format = set.truth_format;
     if (*set.truth != '\0') request_.truth.kinds = harness::parse_truth(set.truth);
   }
 
@@ -127,6 +129,7 @@ void hash_pair(benchmark::State& state) {
 constexpr WrittenSet kPosesAlone = {"euroc", ""};
 constexpr WrittenSet kIdsAndDepth = {"plain", ""};
 constexpr WrittenSet kAllTruth = {"plain", "all"};
+constexpr WrittenSet kAllTruthInTiff = {"plain", "all", harness::TruthFormat::kTiff};
 
 #define STEREOBENCH_WRITE(function, name, set) \
   BENCHMARK_CAPTURE(function, name, set)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(3)
@@ -137,12 +140,14 @@ STEREOBENCH_WRITE(write_set, all_truth, kAllTruth);
 STEREOBENCH_WRITE(write_pair, poses, kPosesAlone);
 STEREOBENCH_WRITE(write_pair, ids_and_depth, kIdsAndDepth);
 STEREOBENCH_WRITE(write_pair, all_truth, kAllTruth);
+STEREOBENCH_WRITE(write_pair, all_truth_in_tiff, kAllTruthInTiff);
 
 #define STEREOBENCH_ENCODE(function, ...) \
   BENCHMARK_CAPTURE(function, __VA_ARGS__)->Unit(benchmark::kMillisecond)->UseManualTime()
 
 STEREOBENCH_ENCODE(encode_pair, ids_png, ".png", &renderer::RenderedImage::ball_id);
 STEREOBENCH_ENCODE(encode_pair, depth_pfm, ".pfm", &renderer::RenderedImage::depth_m);
+STEREOBENCH_ENCODE(encode_pair, depth_tiff, ".tiff", &renderer::RenderedImage::depth_m);
 BENCHMARK(hash_pair)->Name("hash_pair/depth")->Unit(benchmark::kMillisecond)->UseManualTime();
 
 }  // namespace

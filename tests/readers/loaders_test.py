@@ -53,6 +53,8 @@ def setUpModule():
             "--set", "shutter.right_delay_s=0.05"]
     render(folder / "late", "--set", "path.laps=0.08", *late, "--seed", "1")
     render(folder / "kitti", *small, *exact[2:], "--truth", "disparity,match,flow", "--truth-format", "kitti")
+    render(folder / "tiff", *small, *exact, "--set", "rig.pitch_down_deg=10", "--set", "camera.noise_sd_levels=2",
+           "--truth-format", "tiff")
     render(folder / "several", "--set", "path.laps=0.02", "--frames", "0", "--seeds", "9..10")
 
 
@@ -99,6 +101,16 @@ class Arrays(unittest.TestCase):
         self.assertIsInstance(depth_m, np.memmap)
         with self.assertRaises(ValueError):
             depth_m[0, 0] = 1
+
+    def test_of_tiff_are_those_of_pfm(self):
+        for exact, tiff in zip(datasets.open_dataset(folder / "exact"), datasets.open_dataset(folder / "tiff")):
+            for name in ("depth_m", "range_m", "normals", "disparity_px", "match_px", "flow_px"):
+                if exact.left.has(name.split("_")[0].removesuffix("s")):
+                    self.assertTrue(np.array_equal(getattr(exact.left, name), getattr(tiff.left, name)), name)
+        self.assertFalse(list((folder / "tiff").glob("**/*.pfm")))
+        with self.assertRaisesRegex(datasets.DatasetError, "expected a TIFF file of floats"):
+            (folder / "tiff/left_depth/000000.tiff").write_bytes(b"II*")
+            datasets.open_dataset(folder / "tiff")[0].left.depth_m
 
     def test_of_kitti_are_the_exact_ones_within_half_a_level(self):
         exact, kitti = (datasets.open_dataset(folder / name)[0] for name in ("exact", "kitti"))

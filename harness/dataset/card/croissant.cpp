@@ -44,6 +44,7 @@ constexpr auto kMediaTypes = std::to_array<MediaType>({
     {".png", "image/png"},
     {".jpg", "image/jpeg"},
     {".pfm", "image/x-portable-floatmap"},
+    {".tiff", "image/tiff"},
     {".csv", "text/csv"},
     {".txt", "text/plain"},
     {".dat", "text/plain"},

@@ -76,7 +76,7 @@ std::vector<DatasetFile> PlainWriter::frame_files(DatasetPair& pair) const {
     files.push_back(camera_file(file_of(side, "", pair.step(), ".png"), pair, side));
     files.push_back(
         picture_file(file_of(side, "id", pair.step(), ".png"), [side, &pair] { return pair.ball_id(side); }));
-    files.push_back(picture_file(file_of(side, "depth", pair.step(), ".pfm"),
+    files.push_back(picture_file(file_of(side, "depth", pair.step(), float_extension(drive_.truth.format)),
                                  [side, &pair] { return pair.depth_m(side); }));
   }
   for (const Side side : kBothSides)
@@ -87,6 +87,7 @@ std::vector<DatasetFile> PlainWriter::frame_files(DatasetPair& pair) const {
 
 void PlainWriter::add_truth(TruthKind kind, Side side, DatasetPair& pair,
                             std::vector<DatasetFile>& files) const {
+  const char* const floats = float_extension(drive_.truth.format);
   const auto file = [&](const char* extension) {
     return file_of(side, name_of(kind), pair.step(), extension);
   };
@@ -100,11 +101,11 @@ void PlainWriter::add_truth(TruthKind kind, Side side, DatasetPair& pair,
           picture_file(file(".png"), [side, &pair] { return surface_picture(pair.pixels(side).surface); }));
       return;
     case TruthKind::kRange:
-      files.push_back(picture_file(file(".pfm"), [side, &pair] { return pair.pixels(side).range_m; }));
+      files.push_back(picture_file(file(floats), [side, &pair] { return pair.pixels(side).range_m; }));
       return;
     case TruthKind::kNormal:
       files.push_back(
-          picture_file(file(".pfm"), [side, &pair] { return normal_picture(pair.pixels(side).normal); }));
+          picture_file(file(floats), [side, &pair] { return normal_picture(pair.pixels(side).normal); }));
       return;
     case TruthKind::kDisparity:
     case TruthKind::kMatch:
@@ -121,12 +122,12 @@ void PlainWriter::add_shift(TruthKind kind, Side side, DatasetPair& pair,
     return kind == TruthKind::kFlow ? pair.to_next_step(side) : pair.to_other_camera(side);
   };
   const std::string name = name_of(kind);
-  files.push_back(
-      picture_file(file_of(side, name, pair.step(), format == TruthFormat::kKitti ? ".png" : ".pfm"),
-                   [kind, side, format, found] {
-                     return kind == TruthKind::kDisparity ? disparity_picture(found(), side, format)
-                                                          : shift_picture(found(), format);
-                   }));
+  files.push_back(picture_file(
+      file_of(side, name, pair.step(), format == TruthFormat::kKitti ? ".png" : float_extension(format)),
+      [kind, side, format, found] {
+        return kind == TruthKind::kDisparity ? disparity_picture(found(), side, format)
+                                             : shift_picture(found(), format);
+      }));
   files.push_back(picture_file(file_of(side, name + "_fate", pair.step(), ".png"),
                                [found] { return found().occlusion; }));
 }

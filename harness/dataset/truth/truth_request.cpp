@@ -14,6 +14,8 @@ namespace {
 constexpr std::array<const char*, 7> kNames = {"balls",     "surface", "range", "normal",
                                                "disparity", "match",   "flow"};
 
+constexpr std::array<const char*, 3> kFormatNames = {"exact", "kitti", "tiff"};
+
 TruthKind truth_named(const std::string& name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end())
@@ -37,10 +39,20 @@ std::vector<TruthKind> parse_truth(const std::string& text) {
   return kinds;
 }
 
+const char* name_of(TruthFormat format) {
+  return kFormatNames[static_cast<std::size_t>(format)];
+}
+
 TruthFormat parse_truth_format(const std::string& text) {
-  if (text == "exact") return TruthFormat::kExact;
-  if (text == "kitti") return TruthFormat::kKitti;
-  throw std::runtime_error(fmt::format("--truth-format: '{}' is neither exact nor kitti", text));
+  const auto found = std::find(kFormatNames.begin(), kFormatNames.end(), text);
+  if (found == kFormatNames.end())
+    throw std::runtime_error(fmt::format("--truth-format: nothing is called '{}'; there are {}", text,
+                                         fmt::join(kFormatNames, ", ")));
+  return static_cast<TruthFormat>(found - kFormatNames.begin());
+}
+
+const char* float_extension(TruthFormat format) {
+  return format == TruthFormat::kTiff ? ".tiff" : ".pfm";
 }
 
 }  // namespace stereobench::harness

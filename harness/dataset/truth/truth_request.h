@@ -16,10 +16,11 @@ enum class TruthKind {
   kFlow        ///< the shift to the next step's picture of the same camera
 };
 
-/// How disparity, matches and flow are written.
+/// How truth that is no whole number is written.
 enum class TruthFormat {
   kExact,  ///< 32-bit floats (PFM)
-  kKitti   ///< KITTI's 16-bit PNGs: 1/256 and 1/64 px
+  kKitti,  ///< disparity, matches and flow as KITTI's 16-bit PNGs: 1/256 and 1/64 px; the rest as PFM
+  kTiff    ///< 32-bit floats, compressed (TIFF)
 };
 
 struct TruthRequest {
@@ -35,7 +36,13 @@ const char* name_of(TruthKind kind);
 /// @throws std::runtime_error that lists the names there are
 std::vector<TruthKind> parse_truth(const std::string& text);
 
-/// Reads "exact" or "kitti". @throws std::runtime_error for another
+/// What the command line and folders call it: "exact", "kitti", "tiff".
+const char* name_of(TruthFormat format);
+
+/// Reads such a name. @throws std::runtime_error for another
 TruthFormat parse_truth_format(const std::string& text);
+
+/// How files of floats end: ".pfm" or ".tiff".
+const char* float_extension(TruthFormat format);
 
 }  // namespace stereobench::harness

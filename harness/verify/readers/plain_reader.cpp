@@ -77,12 +77,14 @@ void add_files(DatasetView& view, ViewFrame& frame) {
   for (const Side side : kBothSides) {
     add(side, Channel::kPicture, "", ".png");
     add(side, Channel::kBallId, "id", ".png");
-    add(side, Channel::kDepth, "depth", ".pfm");
-    add(side, Channel::kRange, "range", ".pfm");
     add(side, Channel::kDisparity, "disparity", ".png", kKittiDisparity_px);
-    add(side, Channel::kDisparity, "disparity", ".pfm");
     add(side, Channel::kFlow, "flow", ".png", kKittiShift_px);
-    add(side, Channel::kFlow, "flow", ".pfm");
+    for (const char* floats : {".pfm", ".tiff"}) {
+      add(side, Channel::kDepth, "depth", floats);
+      add(side, Channel::kRange, "range", floats);
+      add(side, Channel::kDisparity, "disparity", floats);
+      add(side, Channel::kFlow, "flow", floats);
+    }
     read_balls_of(view, frame, side);
   }
 }
@@ -128,7 +130,7 @@ void find_missing(DatasetView& view) {
                                                {"left_disparity", "right_disparity"},
                                                {"left_range", "right_range"},
                                                {"left_flow", "right_flow"}})
-    complete_frames(view, pair, ".pfm");
+    for (const char* floats : {".pfm", ".tiff"}) complete_frames(view, pair, floats);
   for (const ViewFrame& frame : view.frames)
     if (there.erase(frame.name) == 0)
       view.faults.push_back({fmt::format("left/{}.png", frame.name), frame.name,

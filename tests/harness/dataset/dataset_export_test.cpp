@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "harness/io/text_file.h"
 #include "tests/harness/dataset/rendered_twice.h"
 
 namespace stereobench::harness {
@@ -60,6 +61,24 @@ TEST(DatasetExport, NeedsTheTruthThatTheFormatHas) {
   const RenderedTwice coarse(dataset_format("tum"), "disparity", TruthFormat::kKitti);
   EXPECT_THAT(complaint_of(coarse.folder("plain"), "middlebury", coarse.folder("out")),
               HasSubstr("has no disparity in the format exact; render it with --truth disparity"));
+}
+
+// Mutations: red and blue of flow in the other order; depth looked for in a PFM.
+TEST(DatasetExport, OfFloatsInTiffIsThatOfPfm) {
+  const RenderedTwice exact(dataset_format("tum"), "disparity,flow");
+  const RenderedTwice tiff(dataset_format("tum"), "disparity,flow", TruthFormat::kTiff);
+  const auto formats = {&dataset_format("sceneflow"), &dataset_format("tum")};
+  export_dataset(exact.folder("plain"), formats, exact.folder("out"), PictureChange{}, [](double) {});
+  export_dataset(tiff.folder("plain"), formats, tiff.folder("out"), PictureChange{}, [](double) {});
+  int compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(exact.folder("out"))) {
+    if (entry.path().extension() != ".pfm" && entry.path().extension() != ".png") continue;
+    ++compared;
+    EXPECT_EQ(read_text(tiff.folder("out") / fs::relative(entry.path(), exact.folder("out"))),
+              read_text(entry.path()))
+        << entry.path();
+  }
+  EXPECT_GT(compared, 10);
 }
 
 // Mutations: a flipped bit is exported; another format is read as if it were plain.

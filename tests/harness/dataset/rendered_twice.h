@@ -60,7 +60,7 @@ class RenderedTwice {
       return json;
     }
     for (const TruthKind kind : task.truth.kinds) json["truth"].push_back(name_of(kind));
-    if (task.truth.format == TruthFormat::kKitti) json["truth_format"] = "kitti";
+    if (task.truth.format != TruthFormat::kExact) json["truth_format"] = name_of(task.truth.format);
     return json;
   }
   static worlds::Scenario odd_drive() {

@@ -39,6 +39,69 @@ TEST(FloatPicture, IsReadAsItWasWritten) {
   }
 }
 
+// Laws: every bit is kept, numbers that are none too; OpenCV reads what is written, and what OpenCV writes
+// (another compression, with a predictor) is read. Mutations: red last in the file; the last strip of fewer
+// rows left out.
+TEST(FloatPicture, OfTiffIsReadAsItWasWritten) {
+  const TestFolder folder;
+  for (const int type : {CV_32FC1, CV_32FC3}) {
+    cv::Mat picture(70, 9, type);
+    cv::RNG(5).fill(picture, cv::RNG::UNIFORM, -1e3, 1e3);
+    picture.ptr<float>(1)[2] = std::numeric_limits<float>::infinity();
+    picture.ptr<float>(3)[1] = -0.0F;
+    const auto file = folder.write("a.tiff", encoded(".tiff", picture));
+    EXPECT_TRUE(are_same(read_float_picture(file), picture));
+    EXPECT_TRUE(are_same(cv::imread(file.string(), cv::IMREAD_UNCHANGED), picture));
+    constexpr int kLzw = 5;
+    cv::imwrite((folder.path() / "b.tiff").string(), picture, {cv::IMWRITE_TIFF_COMPRESSION, kLzw});
+    EXPECT_TRUE(are_same(read_float_picture(folder.path() / "b.tiff"), picture));
+  }
+}
+
+// A part of a picture, whose rows do not follow each other in memory.
+TEST(FloatPicture, OfTiffMayBeAPartOfAnother) {
+  const TestFolder folder;
+  const cv::Mat part = some_floats(CV_32FC1)(cv::Rect(1, 1, 3, 2));
+  EXPECT_TRUE(are_same(read_float_picture(folder.write("a.tiff", encoded(".tiff", part))), part.clone()));
+}
+
+// Law: a file cut short anywhere is refused in one line with its name, or read whole.
+TEST(FloatPicture, OfTiffIsRefusedWhereItIsCutShort) {
+  const TestFolder folder;
+  const cv::Mat picture = some_floats(CV_32FC3);
+  const std::string whole = encoded(".tiff", picture);
+  int refused = 0;
+  for (std::size_t size = 4; size < whole.size(); size += 7) {
+    const auto file = folder.write("cut.tiff", whole.substr(0, size));
+    try {
+      EXPECT_TRUE(are_same(read_float_picture(file), picture)) << size;
+    } catch (const std::runtime_error& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), HasSubstr("cut.tiff: "));
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+// Mutation: the result of reading a row not looked at.
+TEST(FloatPicture, OfTiffIsRefusedWhereItsRowsAreDamaged) {
+  const TestFolder folder;
+  std::string bytes = encoded(".tiff", some_floats(CV_32FC1));
+  const std::size_t frame = bytes.find("\x28\xb5\x2f\xfd");  // where Zstandard's bytes begin
+  ASSERT_NE(frame, std::string::npos);
+  bytes[frame] = 'x';
+  EXPECT_THAT([&] { read_float_picture(folder.write("a.tiff", bytes)); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("a.tiff: ")));
+}
+
+TEST(FloatPicture, OfTiffIsRefusedWhereItHoldsNoFloats) {
+  const TestFolder folder;
+  cv::imwrite((folder.path() / "a.tiff").string(), cv::Mat(4, 4, CV_8UC1, cv::Scalar(3)));
+  EXPECT_THAT([&] { read_float_picture(folder.path() / "a.tiff"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("expected floats of 32 bits")));
+}
+
 // Mutation: the sign of the scale ignored.
 TEST(FloatPicture, IsReadInEitherByteOrder) {
   const TestFolder folder;
@@ -55,9 +118,9 @@ TEST(FloatPicture, RefusesWhatIsNone) {
                 ThrowsMessage<std::runtime_error>(HasSubstr(complaint)))
         << bytes;
   };
-  complains("", "is no portable float map (PFM)");
-  complains("P6\n1 1\n255\nabc", "is no portable float map (PFM)");
-  complains("Pf\n1 1\n0\n1234", "is no portable float map (PFM)");
+  complains("", "is neither a portable float map (PFM) nor a TIFF file");
+  complains("P6\n1 1\n255\nabc", "is neither a portable float map (PFM) nor a TIFF file");
+  complains("Pf\n1 1\n0\n1234", "is neither a portable float map (PFM) nor a TIFF file");
   complains("Pf\n0 1\n-1\n", "has no size that a picture may have");
   complains("Pf\n1 99999\n-1\n", "has no size that a picture may have");
   complains("Pf\n1 1\n-1\n123", "is cut short, or longer than it says");

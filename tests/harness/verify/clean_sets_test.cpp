@@ -77,6 +77,10 @@ INSTANTIATE_TEST_SUITE_P(
                   kBend,
                   "plain",
                   {"--frames", "3..5", "--truth", "balls,disparity,flow", "--truth-format", "kitti"}},
+        CleanCase{"floats_of_tiff",
+                  kBend,
+                  "plain",
+                  {"--frames", "3..5", "--truth", "range,disparity,flow", "--truth-format", "tiff"}},
         // A floor that comes nearer: corners of it are all found a tenth of a pixel too far down.
         CleanCase{"floor_straight_ahead", scenario_path("corridor"), "euroc", {"--frames", "0..4"}},
         CleanCase{"lens_and_turned_camera",

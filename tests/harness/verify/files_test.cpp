@@ -127,6 +127,16 @@ TEST(PicturesOfASet, HoldNumbersOfTheirSize) {
                     HasSubstr("left_id/000005.png: frame 000005: expected 320 x 240 pixels (got 12 x 10)")));
 }
 
+// Mutation: the reader looks for PFM alone.
+TEST(PicturesOfASet, HoldNumbersInTiffToo) {
+  const PlantedSet set("plain");
+  cv::Mat depth_m = read_float_picture(set.path("left_depth/000003.pfm"));
+  depth_m.at<float>(7, 5) = std::numeric_limits<float>::quiet_NaN();
+  fs::remove(set.path("left_depth/000003.pfm"));
+  set.write("left_depth/000003.tiff", encoded(".tiff", depth_m));
+  EXPECT_THAT(set.faults(), HasSubstr("left_depth/000003.tiff: frame 000003: NaN at column 5, row 7"));
+}
+
 // A picture of another frame, in one file: the frame is named, and no cause that is of the whole set.
 TEST(PicturesOfASet, AreOfTheirFrame) {
   const PlantedSet set("plain");

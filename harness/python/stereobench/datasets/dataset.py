@@ -67,9 +67,9 @@ class Dataset(collections.abc.Sequence):
         return self.files.about
 
     @property
-    def kitti(self) -> bool:
-        """Whether disparity, match and flow are KITTI's 16-bit PNGs (`--truth-format kitti`)."""
-        return self.files.about.get("truth_format", "exact") == "kitti"
+    def truth_format(self) -> str:
+        """What `--truth-format` asked for: exact (PFM), kitti (16-bit PNG of disparity, match and flow) or tiff."""
+        return self.files.about.get("truth_format", "exact")
 
     def check_sha256(self) -> None:
         """Reads every file of the data set. Raises DatasetError for the first that is not as it was written."""

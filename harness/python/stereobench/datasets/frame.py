@@ -10,7 +10,7 @@ import typing
 import numpy as np
 
 from .errors import DatasetError
-from .pictures import read_kitti_disparity, read_kitti_shift, read_pfm, read_png
+from .pictures import read_kitti_disparity, read_kitti_shift, read_pfm, read_png, read_tiff
 from .tables import read_seen_balls
 
 if typing.TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Camera:
 
     def has(self, truth: str) -> bool:
         """Whether there is a file of `truth`: id, depth, range, normal, surface, disparity, match, flow or balls."""
-        return any(self._name(truth, extension) in self._dataset.files for extension in ("png", "pfm", "jsonl"))
+        return any(self._name(truth, extension) in self._dataset.files for extension in ("png", "pfm", "tiff", "jsonl"))
 
     @property
     def picture(self) -> np.ndarray:
@@ -49,17 +49,17 @@ class Camera:
     @property
     def depth_m(self) -> np.ndarray:
         """Planar Z in the camera frame: float32, H x W, metres, inf for nothing; mapped."""
-        return self._pfm("depth")
+        return self._floats("depth")
 
     @property
     def range_m(self) -> np.ndarray:
         """Distance along the ray from the optical centre: float32, H x W, metres, inf for nothing; mapped."""
-        return self._pfm("range")
+        return self._floats("range")
 
     @property
     def normals(self) -> np.ndarray:
         """Unit normals x, y, z in the camera frame, towards the camera: float32, H x W x 3, 0 for nothing; mapped."""
-        return self._pfm("normal")
+        return self._floats("normal")
 
     @property
     def surface_ids(self) -> np.ndarray:
@@ -69,9 +69,9 @@ class Camera:
     @property
     def disparity_px(self) -> np.ndarray:
         """u in the left picture minus u in the right one: float32, H x W, px, inf for nothing; mapped."""
-        if self._dataset.kitti:
+        if self._dataset.truth_format == "kitti":
             return read_kitti_disparity(self._path("disparity", "png"))
-        return self._pfm("disparity")
+        return self._floats("disparity")
 
     @property
     def match_px(self) -> np.ndarray:
@@ -126,13 +126,15 @@ class Camera:
     def _png(self, truth: str) -> np.ndarray:
         return read_png(self._path(truth, "png"))
 
-    def _pfm(self, truth: str) -> np.ndarray:
+    def _floats(self, truth: str) -> np.ndarray:
+        if self._dataset.truth_format == "tiff":
+            return read_tiff(self._path(truth, "tiff"))
         return read_pfm(self._path(truth, "pfm"))
 
     def _shift(self, truth: str) -> np.ndarray:
-        if self._dataset.kitti:
+        if self._dataset.truth_format == "kitti":
             return read_kitti_shift(self._path(truth, "png"))
-        return self._pfm(truth)[..., :2]
+        return self._floats(truth)[..., :2]
 
 
 class Frame:

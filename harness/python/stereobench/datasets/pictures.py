@@ -1,4 +1,4 @@
-"""Picture files as arrays: PFM mapped from the file, PNG decoded by OpenCV."""
+"""Picture files as arrays: PFM mapped from the file, PNG and TIFF decoded by OpenCV."""
 
 from __future__ import annotations
 
@@ -48,6 +48,14 @@ def read_png(path: pathlib.Path) -> np.ndarray:
     if picture is None:
         raise DatasetError(f"{path}: OpenCV cannot decode it, expected a PNG file")
     return picture
+
+
+def read_tiff(path: pathlib.Path) -> np.ndarray:
+    """A TIFF file of floats: float32, height x width, or x 3 with red first."""
+    picture = opencv().imread(str(path), opencv().IMREAD_UNCHANGED)
+    if picture is None or picture.dtype != np.float32:
+        raise DatasetError(f"{path}: OpenCV cannot decode it, expected a TIFF file of floats")
+    return picture if picture.ndim == 2 else picture[..., ::-1]
 
 
 def read_kitti_disparity(path: pathlib.Path) -> np.ndarray:
