@@ -45,7 +45,8 @@ function tableView(content, title) {
     'string' && !/^[-+]?[0-9][^ ]*( [^ ]{1,3})?$/.test(sortKey(cells[column])) && sortKey(cells[column]) !== '-'));
   const rows = content.rows.map(({cells, quiet}) => {
     const row = element('tr', {}, ...cells.map((cell, column) => {
-      const attributes = words[column] ? {class: 'words'} : {};
+      const isLong = (typeof cell === 'string' ? cell : cell.text || '').length > 60;
+      const attributes = words[column] ? {class: isLong ? 'words long' : 'words'} : {};
       return element('td', attributes, ...cellContent(cell));
     }));
     row.hidden = quiet;
