@@ -60,7 +60,7 @@ double in_short_degrees(double angle_rad) {
   for (double parts = 1.0; parts <= kMostParts; parts *= 10.0) {
     const double degrees = std::round(angle_rad * slam::kDegreesPerRad * parts) / parts;
     if (std::abs(degrees * slam::kRadPerDegree - angle_rad) <= kRounding_rad)
-      return degrees * slam::kRadPerDegree;
+      return degrees * slam::kRadPerDegree + 0.0;  // -0 becomes 0
   }
   return angle_rad;
 }

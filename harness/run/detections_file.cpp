@@ -58,6 +58,17 @@ void require_ranges(const std::string& line) {
   for (const JsonValue& ball : JsonValue(json, "").at("balls").list(0, kMostBalls)) ball.at("range_m");
 }
 
+/// Landmarks as balls that are told apart by colour. They are numbered by their places from now on, as
+/// sightings of them are.
+std::vector<worlds::Ball> balls_of(std::vector<LandmarkTruth>& landmarks) {
+  std::vector<worlds::Ball> balls;
+  for (LandmarkTruth& landmark : landmarks) {
+    landmark.landmark_id = static_cast<int>(balls.size());
+    balls.push_back({.colour = landmark.colour_class});
+  }
+  return balls;
+}
+
 /// The numbers of an imported folder's pictures.
 /// @param steps of the log; each picture is of one of them
 std::vector<std::size_t> imported_frames(const fs::path& folder, std::size_t steps) {
@@ -86,15 +97,16 @@ void take_sightings(MeasurementLog& log, const fs::path& folder, const fs::path&
     refuse(detections, lines.size(),
            fmt::format("expected a line for each of {} frames (got {})", frames.size(), lines.size()));
   forget_sightings(log);
+  const std::vector<worlds::Ball> balls = balls_of(log.landmarks);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t frame = frames[i];
     try {
       const auto observations = read_detections(lines[i], frame, geometry);
       require_ranges(lines[i]);
       const std::vector<int> of_no_known_ball(observations.size(), slam::kUnknown);
-      log.steps[frame].measurements =
-          sightings_of(observations, of_no_known_ball, {}, identity.value_or(worlds::Identity::kColourClass))
-              .measurements;
+      log.steps[frame].measurements = sightings_of(observations, of_no_known_ball, balls,
+                                                   identity.value_or(worlds::Identity::kColourClass))
+                                          .measurements;
     } catch (const BadLine& bad) {
       refuse(detections, i + 1, bad.what());
     }

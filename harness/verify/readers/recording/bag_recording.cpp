@@ -103,7 +103,11 @@ class BagReading {
     chunks_ = head.number<std::uint32_t>("chunk_count");
     const auto index_at = head.number<std::uint64_t>("index_pos");
     if (index_at == 0) throw std::runtime_error("the bag was never closed; run `rosbag reindex`");
-    file_.require(index_at, 0, file_.size());
+    if (index_at > file_.size())
+      throw std::runtime_error(
+          fmt::format("the index is said to begin at byte {}, and the file ends at byte {}: it is "
+                      "cut short",
+                      index_at, file_.size()));
   }
   void read_record(const ReadBagRecord& record);
   void read_connection(const ReadBagRecord& record);
