@@ -270,7 +270,7 @@ TEST_P(ForeignRecording, ComesWithItsOdometry) {
             "t_s,v_mps,w_radps\n1600000000.000000000,0.3,-0.1\n1600000000.500000000,0.5,0.05\n");
   EXPECT_EQ(scratch_.read("in/instants.csv"),
             "t_s\n1600000000.000000000\n1600000000.500000000\n1600000001.000000000\n");
-  EXPECT_THAT(scratch_.read("in/calibration.yaml"), HasSubstr("0.75"));  // up
+  EXPECT_THAT(scratch_.read("in/calibration.yaml"), HasSubstr("0., 7.5000000000000000e-01,"));  // up
   for (const bool is_left : {true, false}) {
     const cv::Mat picture =
         read_levels(scratch_.path() / (is_left ? "in/left/000001.png" : "in/right/000001.png"));

@@ -210,6 +210,18 @@ TEST_P(RecordingFaults, FileThatIsCutShortIsRefused) {
   }
 }
 
+// Between two records nothing is missing but what the head speaks of. Mutation: the index's place is not
+// looked at.
+TEST(BagFaults, FileThatEndsBeforeItsIndexIsRefused) {
+  const TestFolder folder;
+  const fs::path from = small_recording("rosbag");
+  std::ifstream stream(from, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  constexpr std::size_t kLengths = 8;  // of the record's fields, and of the first one
+  folder.write("bend_0.bag", bytes.substr(0, bytes.find(std::string("op=\x05", 4)) - kLengths));
+  EXPECT_THAT(end_of_reading(folder.path(), "rosbag"), HasSubstr(": the index is said to begin at byte "));
+}
+
 // Law: whatever byte is wrong, reading ends, and never but by its own errors. Lengths are among the bytes.
 TEST_P(RecordingFaults, WrongBytesEndNothing) {
   const TestFolder folder;
