@@ -18,13 +18,13 @@ bool has_messages(const Recording& recording, std::string_view topic, std::strin
 
 /// "/stereo/left/" and "/stereo/right/", where both have pictures.
 std::array<std::string, 2> camera_topics(const Recording& recording) {
-  constexpr std::string_view kLeft = "/left/image_raw", kRight = "/right/", kPicture = "image_raw";
+  constexpr std::string_view kLeft = "/left/image_raw", kRight = "/right/", kRaw = "image_raw";
   for (const RecordedTopic& topic : recording.topics) {
     if (!topic.name.ends_with(kLeft) || topic.type != "sensor_msgs/Image") continue;
     const std::string above = topic.name.substr(0, topic.name.size() - kLeft.size());
     const std::string right = above + std::string(kRight);
     if (has_messages(recording, topic.name, topic.type) ||
-        has_messages(recording, right + std::string(kPicture), topic.type))
+        has_messages(recording, right + std::string(kRaw), topic.type))
       return {above + "/left/", right};
   }
   std::vector<std::string> topics;
