@@ -34,8 +34,8 @@ class Recorded : public testing::TestWithParam<RecordedDrive> {
 };
 
 // Law: each table of the log has the bytes that it has in the plain folder; so has all that `slam` makes of
-// it. Mutations: the true path by its quaternions; a message's speeds hold from it on; pictures are numbered
-// from 0; the covariance of range and bearing left out.
+// it. Mutations: the true path by its quaternions; a message's speeds hold from it on; the covariance of
+// range and bearing left out.
 TEST_P(Recorded, LogIsThatOfThePlainFolder) {
   const TestFolder scratch;
   const auto slam = [&](const fs::path& log, const fs::path& out) {
@@ -62,7 +62,7 @@ TEST_P(Recorded, LogIsThatOfThePlainFolder) {
 }
 
 // Law: pictures have the numbers of their steps, so that `detect`, and `slam` with what it found, say the
-// same.
+// same. Mutations: pictures are numbered from 0; the pitch has the last digits of its quaternion.
 TEST_P(Recorded, DetectionsAreThoseOfThePlainFolder) {
   const TestFolder scratch;
   const std::string plain = detected(sets() / "plain", {});
