@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <array>
 #include <stdexcept>
-#include <string_view>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -24,16 +22,13 @@ struct ImportArguments {
   std::optional<double> pitch_down_deg;
 };
 
-/// Layouts of pictures that have a pose each, as if all cameras were apart.
-constexpr std::array<std::string_view, 4> kWithoutRig = {"colmap", "coco", "bop", "nerfstudio"};
-
 const DatasetReader& foreign_reader(const ImportArguments& arguments) {
   const DatasetReader& reader =
       arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
   if (reader.format == "plain")
     throw std::runtime_error(fmt::format(
         "{}: is of the format plain, which `detect` and `slam` read as it is", arguments.folder.string()));
-  if (std::ranges::find(kWithoutRig, reader.format) != kWithoutRig.end())
+  if (!reader.has_rig)
     throw std::runtime_error(
         fmt::format("{}: the format {} does not say how two cameras are mounted; expected a layout of a rig",
                     arguments.folder.string(), reader.format));
@@ -49,7 +44,20 @@ std::string rig_line(const ImportedDataset& done) {
                      done.calibration->cameras ? "; two different cameras, which `detect` rectifies" : "");
 }
 
-std::string log_line(const ImportedDataset& done, bool has_odometry) {
+std::string odometry_text(const ImportedDataset& done, bool is_from_truth) {
+  if (is_from_truth)
+    return fmt::format("exact odometry from them, but for up to {:.3f} m sideways in a step",
+                       done.log->most_sideways_m);
+  if (done.recorded)
+    return fmt::format("{} recorded odometry readings, {} sightings", done.recorded->odometry.size(),
+                       done.recorded->sightings.size());
+  if (!done.without_odometry.empty())
+    return fmt::format("the recorded odometry is left out, {}: `slam` needs --odometry-from-truth",
+                       done.without_odometry);
+  return "no odometry, which the layout has not: `slam` needs --odometry-from-truth";
+}
+
+std::string log_line(const ImportedDataset& done, bool odometry_from_truth) {
   if (!done.log) return "no times, so that there is no log";
   long poses = 0;
   for (const LogStep& step : done.log->log.steps) poses += step.truth ? 1 : 0;
@@ -58,11 +66,7 @@ std::string log_line(const ImportedDataset& done, bool has_odometry) {
                  : fmt::format("{} true poses{}, put on the floor from up to {:.3f} m and {:.2f} deg off it",
                                poses, done.log->world_is_kept ? "" : " from the first one on",
                                done.log->most_height_m, done.log->most_tilt_rad * slam::kDegreesPerRad);
-  const std::string odometry =
-      has_odometry ? fmt::format("exact odometry from them, but for up to {:.3f} m sideways in a step",
-                                 done.log->most_sideways_m)
-                   : std::string("no odometry, which the layout has not: `slam` needs --odometry-from-truth");
-  return fmt::format("{}; {}", truth, odometry);
+  return fmt::format("{}; {}", truth, odometry_text(done, odometry_from_truth));
 }
 
 int import_folder(ImportArguments arguments) {
@@ -91,7 +95,7 @@ void add_import_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("import", "turn a data set of any layout into what `detect` and `slam` read");
   auto arguments = std::make_shared<ImportArguments>();
-  command->add_option("dataset", arguments->folder, "folder of a data set of KITTI, EuRoC, TUM, ...")
+  command->add_option("dataset", arguments->folder, "folder of a data set of KITTI, EuRoC, TUM, ROS, ...")
       ->required();
   command->add_option("-o,--out", arguments->request.out, "folder for the result; a new one")->required();
   command->add_option("--as", arguments->format, "its format, where the folder does not tell")
@@ -103,12 +107,17 @@ void add_import_command(CLI::App& program, Action& action) {
                    "how far the cameras look down (default: as the layout says, or level)")
       ->check(real_between(-89.0, 89.0));
   command->add_flag("--odometry-from-truth", arguments->request.odometry_from_truth,
-                    "make odometry of the true poses, which layouts have none of; it is exact");
+                    "make odometry of the true poses; it is exact");
+  command
+      ->add_option("--epoch-s", arguments->request.epoch_s,
+                   "the time of the data set that becomes 0; 1500000000 for those of `render`")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}));
   add_quiet_option(*command);
   command->footer(
-      "Pictures are linked, or copied where the file system has no links, and never decoded. Frames without\n"
-      "a partner are left out. True poses are put on the floor. Balls' sizes and colours, which no layout\n"
-      "has, are options of `detect`.\n\n"
+      "Pictures are linked, or copied where the file system has no links, and never decoded; those of bags\n"
+      "and MCAP become PNG. Frames without a partner are left out. True poses are put on the floor. Balls'\n"
+      "sizes and colours, which no layout has, are options of `detect`.\n\n"
       "Example: stereobench import MH_01_easy --out out/mh_01");
   command->callback([arguments, &action] { action = [arguments] { return import_folder(*arguments); }; });
 }

@@ -1,5 +1,6 @@
 #include "harness/dataset_import/dataset_import.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -8,9 +9,11 @@
 #include "harness/dataset/formats/plain_format.h"
 #include "harness/dataset_import/imported_frames.h"
 #include "harness/dataset_import/imported_rig.h"
+#include "harness/dataset_import/recorded_odometry.h"
 #include "harness/frames/linked_files.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/file_list.h"
+#include "harness/io/picture_file.h"
 #include "harness/logs/measurement_log_writer.h"
 #include "harness/verify/verify_dataset.h"
 
@@ -92,18 +95,45 @@ std::optional<ImportedLog> log_of(const ImportRequest& request, const ImportedFr
   return log;
 }
 
-std::string picture_name(const ImportedFrames& imported, std::size_t i, Side side) {
-  const ChannelFile& file = *find_channel(imported.frames[i], side, Channel::kPicture);
-  return fmt::format("{:06}{}", imported.numbers[i], fs::path(file.file).extension().string());
+/// The recorded streams, where a log has a place for them. @param done is told why not
+std::optional<RecordedStreams> recorded_of(const ImportRequest& request, const ImportedFrames& imported,
+                                           ImportedDataset& done, const ViewCamera& left) {
+  if (request.reader->read_log == nullptr || request.odometry_from_truth) return std::nullopt;
+  RecordedStreams streams = request.reader->read_log(request.folder);
+  if (streams.odometry.empty()) return std::nullopt;
+  done.without_odometry = why_without(
+      streams, done.calibration ? body_from_robot(*done.calibration, left) : Eigen::Isometry3d::Identity());
+  if (!done.without_odometry.empty()) return std::nullopt;
+  complete_streams(imported.frames, done.log->log, streams);
+  return streams;
 }
 
-std::string pictures_csv(const ImportedFrames& imported) {
+/// Pictures are numbered by the steps of the log that they are of.
+void number_by_steps(const RecordedStreams& streams, ImportedFrames& imported) {
+  const std::vector<std::int64_t>& instants_ns = streams.instants_ns.value();
+  for (std::size_t i = 0; i < imported.frames.size(); ++i)
+    imported.numbers[i] = static_cast<std::size_t>(
+        std::ranges::lower_bound(instants_ns, *imported.frames[i].stamp_ns[0]) - instants_ns.begin());
+}
+
+/// Whether a picture has a file of its own, and is not in a container.
+bool has_file(const DatasetView& view, const ChannelFile& picture) {
+  return fs::is_regular_file(view.folder / picture.file);
+}
+
+std::string picture_name(const DatasetView& view, const ImportedFrames& imported, std::size_t i, Side side) {
+  const ChannelFile& file = *find_channel(imported.frames[i], side, Channel::kPicture);
+  return fmt::format("{:06}{}", imported.numbers[i],
+                     has_file(view, file) ? fs::path(file.file).extension().string() : ".png");
+}
+
+std::string pictures_csv(const ImportedFrames& imported, std::int64_t epoch_ns) {
   std::string csv = "frame,t_s,left,right\n";
   for (std::size_t i = 0; i < imported.frames.size(); ++i) {
     const ViewFrame& frame = imported.frames[i];
     const auto file = [&](Side side) { return find_channel(frame, side, Channel::kPicture)->file; };
     csv += fmt::format("{},{},{},{}\n", imported.numbers[i],
-                       frame.stamp_ns[0] ? seconds_of(*frame.stamp_ns[0]) : "", file(Side::kLeft),
+                       frame.stamp_ns[0] ? seconds_of(*frame.stamp_ns[0] - epoch_ns) : "", file(Side::kLeft),
                        imported.are_pairs ? file(Side::kRight) : "");
   }
   return csv;
@@ -113,21 +143,34 @@ void write_pictures(const ImportRequest& request, const DatasetView& view, const
                     const std::function<void(double)>& on_progress) {
   for (const Side side : sides_of(imported)) prepare_output_folder(request.out / picture_folder(side));
   LinkedFiles files;
+  AtomicFiles unpacked;
   for (std::size_t i = 0; i < imported.frames.size(); ++i) {
-    for (const Side side : sides_of(imported))
-      files.place(view.folder / find_channel(imported.frames[i], side, Channel::kPicture)->file,
-                  request.out / picture_folder(side) / picture_name(imported, i, side));
+    for (const Side side : sides_of(imported)) {
+      const ChannelFile& file = *find_channel(imported.frames[i], side, Channel::kPicture);
+      const fs::path to = request.out / picture_folder(side) / picture_name(view, imported, i, side);
+      if (has_file(view, file))
+        files.place(view.folder / file.file, to);
+      else
+        unpacked.write(to, encoded(".png", file.read()));
+    }
     on_progress(static_cast<double>(i + 1) / static_cast<double>(imported.frames.size()));
   }
   files.move_into_place();
+  unpacked.move_into_place();
 }
 
-/// The tables of the folder, the calibration last.
-std::vector<LogFile> tables_of(const ImportedFrames& imported, const ImportedDataset& done,
-                               bool has_odometry) {
+/// The tables of the folder, the calibration last. Their times are since the epoch.
+std::vector<LogFile> tables_of(const ImportRequest& request, const ImportedFrames& imported,
+                               const ImportedDataset& done) {
+  const std::int64_t epoch_ns = request.epoch_s * kSecond_ns;
   std::vector<LogFile> tables;
-  if (done.log) tables = has_odometry ? log_files(done.log->log) : time_files(done.log->log);
-  tables.push_back({kPicturesFile, pictures_csv(imported)});
+  if (done.recorded)
+    tables = log_files(since(epoch_ns, *done.recorded));
+  else if (done.log && request.odometry_from_truth)
+    tables = log_files(since(epoch_ns, done.log->log));
+  else if (done.log)
+    tables = time_files(since(epoch_ns, done.log->log));
+  tables.push_back({kPicturesFile, pictures_csv(imported, epoch_ns)});
   if (done.calibration)
     tables.push_back({kCalibrationFile, calibration_yaml(done.calibration->rig, done.calibration->cameras)});
   return tables;
@@ -152,7 +195,9 @@ ImportedDataset import_dataset(const ImportRequest& request, const std::function
     done.calibration->rig.pitch_down_rad = *request.pitch_down_rad;
   }
   done.log = log_of(request, frames, done.calibration, cameras[0]);
-  const std::vector<LogFile> tables = tables_of(frames, done, request.odometry_from_truth);
+  done.recorded = recorded_of(request, frames, done, cameras[0]);
+  if (done.recorded) number_by_steps(*done.recorded, frames);
+  const std::vector<LogFile> tables = tables_of(request, frames, done);
   write_pictures(request, view, frames, on_progress);
   for (const LogFile& table : tables) write_file_atomically(request.out / table.name, table.text);
   return done;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/rig_calibration/rectified_rig.h"
+#include "slam/math/angles.h"
 #include "slam/math/elementary.h"
 #include "vision/camera/rig.h"
 
@@ -52,13 +53,25 @@ RigCalibration rig_of_two(const std::array<ViewCamera, 2>& cameras, const Vector
   return rectified_rig(fit, RigModel::kTwoCameras, size.width_px, size.height_px);
 }
 
+/// An angle that came through a quaternion or a matrix is off by its last digits.
+/// @return that of the fewest decimals of a degree, at most nine, that it is but for these; else itself
+double in_short_degrees(double angle_rad) {
+  constexpr double kRounding_rad = 1e-14, kMostParts = 1e9;
+  for (double parts = 1.0; parts <= kMostParts; parts *= 10.0) {
+    const double degrees = std::round(angle_rad * slam::kDegreesPerRad * parts) / parts;
+    if (std::abs(degrees * slam::kRadPerDegree - angle_rad) <= kRounding_rad)
+      return degrees * slam::kRadPerDegree + 0.0;  // -0 becomes 0
+  }
+  return angle_rad;
+}
+
 /// Takes height and pitch from a body that is a robot.
 void stand_on(const Isometry3d& body_from_rectified, vision::StereoRig& rig) {
   constexpr double kUpright = 1e-6;
   const Matrix3d axes = body_from_rectified.linear();
   const bool is_robot = (axes.col(0) + Vector3d::UnitY()).norm() <= kUpright && axes(0, 2) > 0.0;
   rig.height_m = is_robot ? body_from_rectified.translation().z() : 0.0;
-  rig.pitch_down_rad = is_robot ? slam::arc_tangent(-axes(2, 2), axes(0, 2)) : 0.0;
+  rig.pitch_down_rad = is_robot ? in_short_degrees(slam::arc_tangent(-axes(2, 2), axes(0, 2))) : 0.0;
 }
 
 /// The left camera's place, with the axes of its rectified picture.
@@ -81,7 +94,9 @@ RigCalibration imported_rig(const std::array<ViewCamera, 2>& cameras) {
   const Isometry3d &left = cameras[0].body_from_camera, &right = cameras[1].body_from_camera;
   const Vector3d between_m = right.translation() - left.translation();
   const Vector3d right_in_left_m = left.linear().transpose() * between_m;
-  const Matrix3d left_from_right = left.linear().transpose() * right.linear();
+  const bool look_alike = left.linear() == right.linear();
+  const Matrix3d left_from_right =
+      look_alike ? Matrix3d::Identity() : Matrix3d(left.linear().transpose() * right.linear());
   RigCalibration calibration;
   if (is_same(cameras[0], cameras[1]) && is_along_rows(right_in_left_m)) {
     calibration.rig.intrinsics = cameras[0].pinhole;

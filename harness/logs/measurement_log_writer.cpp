@@ -19,12 +19,18 @@ bool same(const slam::Pose& a, const slam::Pose& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
 }
 
+/// @param motion a control or a reading
+template <class Motion>
+void require_wheels(const Motion& motion) {
+  if (motion.covariance || motion.lateral_mps != 0.0)
+    throw std::invalid_argument("log_files: odometry.csv has columns for wheels alone");
+}
+
 /// A reading per control.
 void append_readings(std::int64_t from_ns, const LogStep& step, std::vector<OdometryReading>& readings) {
   double elapsed_s = 0.0;
   for (const slam::Control& control : step.odometry) {
-    if (control.covariance || control.lateral_mps != 0.0)
-      throw std::invalid_argument("log_files: odometry.csv has columns for wheels alone");
+    require_wheels(control);
     const std::int64_t begin_ns = from_ns + std::llround(elapsed_s * 1e9);
     readings.push_back({.stamp_ns = begin_ns, .v_mps = control.v_mps, .w_radps = control.w_radps});
     elapsed_s += control.duration_s;
@@ -36,50 +42,64 @@ void append_readings(std::int64_t from_ns, const LogStep& step, std::vector<Odom
   }
 }
 
-std::string odometry_csv(const MeasurementLog& log) {
+std::string odometry_csv(const std::vector<OdometryReading>& readings) {
   std::string csv = "t_s,v_mps,w_radps\n";
-  for (const OdometryReading& reading : odometry_readings(log))
+  for (const OdometryReading& reading : readings) {
+    require_wheels(reading);
     csv += fmt::format("{},{},{}\n", seconds_of(reading.stamp_ns), reading.v_mps, reading.w_radps);
+  }
   return csv;
 }
 
-std::string observations_csv(const MeasurementLog& log) {
+std::string observations_csv(const std::vector<LoggedSighting>& sightings) {
   std::string csv =
       "t_s,landmark_id,range_m,bearing_rad,colour_class,range_var_m2,cov_m_rad,bearing_var_rad2\n";
-  for (const LogStep& step : log.steps) {
-    for (const slam::RangeBearing& z : step.measurements) {
-      fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{}\n", seconds_of(step.stamp_ns),
-                     z.landmark_id, z.range_m, z.bearing_rad, z.colour_class, z.covariance(0, 0),
-                     z.covariance(0, 1), z.covariance(1, 1));
-    }
-  }
+  for (const auto& [stamp_ns, z] : sightings)
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{}\n", seconds_of(stamp_ns), z.landmark_id,
+                   z.range_m, z.bearing_rad, z.colour_class, z.covariance(0, 0), z.covariance(0, 1),
+                   z.covariance(1, 1));
   return csv;
 }
 
-std::string truth_csv(const MeasurementLog& log) {
+std::string truth_csv(const std::vector<StampedPose>& truth) {
   std::string csv = "t_s,x_m,y_m,theta_rad\n";
-  for (const LogStep& step : log.steps) {
-    if (!step.truth) continue;
-    const slam::Pose& pose = *step.truth;
-    fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", seconds_of(step.stamp_ns), pose.x_m, pose.y_m,
+  for (const auto& [stamp_ns, pose] : truth)
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", seconds_of(stamp_ns), pose.x_m, pose.y_m,
                    pose.heading_rad);
-  }
   return csv;
 }
 
-std::string landmarks_csv(const MeasurementLog& log) {
+std::string landmarks_csv(const std::vector<LandmarkTruth>& landmarks) {
   std::string csv = "landmark_id,x_m,y_m,colour_class\n";
-  for (const LandmarkTruth& landmark : log.landmarks) {
+  for (const LandmarkTruth& landmark : landmarks)
     fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", landmark.landmark_id, landmark.position_m.x(),
                    landmark.position_m.y(), landmark.colour_class);
-  }
   return csv;
 }
 
-std::string instants_csv(const MeasurementLog& log) {
+std::string instants_csv(const std::vector<std::int64_t>& instants_ns) {
   std::string csv = "t_s\n";
-  for (const LogStep& step : log.steps) csv += seconds_of(step.stamp_ns) + '\n';
+  for (const std::int64_t stamp_ns : instants_ns) csv += seconds_of(stamp_ns) + '\n';
   return csv;
+}
+
+/// All of a log but its odometry.
+RecordedStreams streams_of(const MeasurementLog& log) {
+  RecordedStreams streams;
+  streams.landmarks = log.landmarks;
+  streams.instants_ns.emplace();
+  for (const LogStep& step : log.steps) {
+    streams.instants_ns->push_back(step.stamp_ns);
+    if (step.truth) streams.truth.push_back({step.stamp_ns, *step.truth});
+    for (const slam::RangeBearing& z : step.measurements) streams.sightings.push_back({step.stamp_ns, z});
+  }
+  return streams;
+}
+
+std::vector<LogFile> time_files(const RecordedStreams& streams) {
+  std::vector<LogFile> files = {{"groundtruth.csv", truth_csv(streams.truth)}};
+  if (streams.instants_ns) files.push_back({"instants.csv", instants_csv(*streams.instants_ns)});
+  return files;
 }
 
 }  // namespace
@@ -106,15 +126,21 @@ std::vector<LogFile> log_files(const MeasurementLog& log) {
   if (!same(log.start, log.steps.front().truth.value_or(slam::Pose{}))) {
     throw std::invalid_argument("log_files: a reader starts at the first step's truth, this log does not");
   }
-  std::vector<LogFile> files = {{"odometry.csv", odometry_csv(log)},
-                                {"observations.csv", observations_csv(log)},
-                                {"landmarks.csv", landmarks_csv(log)}};
-  std::ranges::move(time_files(log), std::back_inserter(files));
+  RecordedStreams streams = streams_of(log);
+  streams.odometry = odometry_readings(log);
+  return log_files(streams);
+}
+
+std::vector<LogFile> log_files(const RecordedStreams& streams) {
+  std::vector<LogFile> files = {{"odometry.csv", odometry_csv(streams.odometry)},
+                                {"observations.csv", observations_csv(streams.sightings)},
+                                {"landmarks.csv", landmarks_csv(streams.landmarks)}};
+  std::ranges::move(time_files(streams), std::back_inserter(files));
   return files;
 }
 
 std::vector<LogFile> time_files(const MeasurementLog& log) {
-  return {{"groundtruth.csv", truth_csv(log)}, {"instants.csv", instants_csv(log)}};
+  return time_files(streams_of(log));
 }
 
 }  // namespace stereobench::harness

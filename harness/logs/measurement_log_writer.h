@@ -33,6 +33,11 @@ struct LogFile {
 /// @throws std::invalid_argument when it does not so
 std::vector<LogFile> log_files(const MeasurementLog& log);
 
+/// The same of streams that were recorded.
+/// @param streams with odometry of wheels, which slides nowhere, and without covariances
+/// @throws std::invalid_argument for other odometry
+std::vector<LogFile> log_files(const RecordedStreams& streams);
+
 /// What is known of a log without odometry: `groundtruth.csv` and `instants.csv`, as above.
 std::vector<LogFile> time_files(const MeasurementLog& log);
 

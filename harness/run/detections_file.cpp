@@ -15,6 +15,7 @@
 #include "harness/drive/sightings.h"
 #include "harness/io/calibration_file.h"
 #include "harness/io/file_list.h"
+#include "harness/io/number_table.h"
 #include "harness/json/json_line.h"
 #include "harness/vision_scoring/detection_table.h"
 #include "harness/vision_scoring/rig_check.h"
@@ -57,6 +58,30 @@ void require_ranges(const std::string& line) {
   for (const JsonValue& ball : JsonValue(json, "").at("balls").list(0, kMostBalls)) ball.at("range_m");
 }
 
+/// Landmarks as balls that are told apart by colour. They are numbered by their places from now on, as
+/// sightings of them are.
+std::vector<worlds::Ball> balls_of(std::vector<LandmarkTruth>& landmarks) {
+  std::vector<worlds::Ball> balls;
+  for (LandmarkTruth& landmark : landmarks) {
+    landmark.landmark_id = static_cast<int>(balls.size());
+    balls.push_back({.colour = landmark.colour_class});
+  }
+  return balls;
+}
+
+/// The numbers of an imported folder's pictures.
+/// @param steps of the log; each picture is of one of them
+std::vector<std::size_t> imported_frames(const fs::path& folder, std::size_t steps) {
+  const NumberTable table = read_comma_separated_table(folder / kPicturesFile, {"frame"});
+  std::vector<std::size_t> frames;
+  for (const TableRow& row : table.rows) {
+    frames.push_back(static_cast<std::size_t>(whole_number_in(table, row, 0, 0)));
+    if (frames.back() >= steps)
+      refuse(table, row, 0, fmt::format("expected the number of one of the log's {} steps", steps));
+  }
+  return frames;
+}
+
 }  // namespace
 
 bool is_imported(const fs::path& folder) {
@@ -67,20 +92,23 @@ void take_sightings(MeasurementLog& log, const fs::path& folder, const fs::path&
                     std::optional<worlds::Identity> identity) {
   const BallGeometry geometry = {.rig = read_rig_calibration(folder / kCalibrationFile).rig};
   const std::vector<std::string> lines = lines_of(detections);
-  if (lines.size() != log.steps.size())
+  const std::vector<std::size_t> frames = imported_frames(folder, log.steps.size());
+  if (lines.size() != frames.size())
     refuse(detections, lines.size(),
-           fmt::format("expected a line for each of {} frames (got {})", log.steps.size(), lines.size()));
+           fmt::format("expected a line for each of {} frames (got {})", frames.size(), lines.size()));
   forget_sightings(log);
-  for (std::size_t frame = 0; frame < lines.size(); ++frame) {
+  const std::vector<worlds::Ball> balls = balls_of(log.landmarks);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t frame = frames[i];
     try {
-      const auto observations = read_detections(lines[frame], frame, geometry);
-      require_ranges(lines[frame]);
+      const auto observations = read_detections(lines[i], frame, geometry);
+      require_ranges(lines[i]);
       const std::vector<int> of_no_known_ball(observations.size(), slam::kUnknown);
-      log.steps[frame].measurements =
-          sightings_of(observations, of_no_known_ball, {}, identity.value_or(worlds::Identity::kColourClass))
-              .measurements;
+      log.steps[frame].measurements = sightings_of(observations, of_no_known_ball, balls,
+                                                   identity.value_or(worlds::Identity::kColourClass))
+                                          .measurements;
     } catch (const BadLine& bad) {
-      refuse(detections, frame + 1, bad.what());
+      refuse(detections, i + 1, bad.what());
     }
   }
 }

@@ -35,7 +35,7 @@ bool is_imported(const std::filesystem::path& folder);
 
 /// Puts detections in the pictures of an imported folder in place of its log's sightings. There is no truth
 /// to score them against.
-/// @param log of the folder, a step a picture
+/// @param log of the folder; a picture is of the step that has its number
 /// @param detections as above; each ball has its range, since balls may be of any size
 /// @param identity empty: as colour classes
 /// @throws std::runtime_error as above

@@ -17,7 +17,10 @@ TOPICS = {
     "/ground_truth/pose": "geometry_msgs/PoseStamped", "/stereo/left/image_raw": "sensor_msgs/Image",
     "/stereo/right/image_raw": "sensor_msgs/Image", "/stereo/left/camera_info": "sensor_msgs/CameraInfo",
     "/stereo/right/camera_info": "sensor_msgs/CameraInfo", "/detections": "visualization_msgs/MarkerArray",
-    "/ground_truth/balls": "visualization_msgs/MarkerArray"}
+    "/ground_truth/balls": "visualization_msgs/MarkerArray", "/ground_truth/pose_2d": "geometry_msgs/Pose2D",
+    "/ground_truth/landmarks": "sensor_msgs/PointCloud2", "/sightings": "sensor_msgs/PointCloud2"}
+LATCHED = ("/tf_static", "/ground_truth/landmarks")
+FLOAT64 = 8
 
 
 def table(plain, name):
@@ -43,6 +46,15 @@ def place(pose):
 def robot(x, y, heading):
     c, s = math.cos(heading), math.sin(heading)
     return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def points(cloud):
+    """The numbers of a sensor_msgs/PointCloud2 whose fields are all of 64 bits: a dictionary a point."""
+    assert (cloud.height, cloud.is_bigendian, cloud.is_dense) == (1, False, True)
+    assert len(cloud.data) == cloud.row_step == cloud.width * cloud.point_step
+    assert all((field.datatype, field.count) == (FLOAT64, 1) for field in cloud.fields)
+    return [{field.name: np.frombuffer(cloud.data, "<f8", 1, point * cloud.point_step + field.offset)[0]
+             for field in cloud.fields} for point in range(cloud.width)]
 
 
 class RosFacts:
@@ -144,6 +156,22 @@ class RosFacts:
             self.assertEqual((twist.linear.x, twist.angular.z), (v, w))
             self.assertEqual((twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y), (0, 0, 0, 0))
             self.assertEqual([*odometry.pose.covariance, *odometry.twist.covariance], [0] * 72)
+
+    def test_log(self):
+        """What no usual message carries exactly: the numbers of the plain log, to the last bit."""
+        truth = [(nanoseconds(row["t_s"]), *(float(row[key]) for key in ("x_m", "y_m", "theta_rad")))
+                 for row in table(self.plain, "groundtruth.csv")]
+        self.assertEqual([(ns, pose.x, pose.y, pose.theta) for ns, pose in self.of("/ground_truth/pose_2d")], truth)
+        seen = [{"ns": ns, **point} for ns, cloud in self.of("/sightings") for point in points(cloud)]
+        wanted = [{"ns" if key == "t_s" else key: nanoseconds(text) if key == "t_s" else float(text)
+                   for key, text in row.items()} for row in table(self.plain, "observations.csv")]
+        self.assertEqual(seen, wanted)
+        self.assertGreater(len(seen), 0)
+        self.assertEqual({cloud.header.frame_id for _, cloud in self.of("/sightings")}, {"base_link"})
+        (ns, landmarks), = self.of("/ground_truth/landmarks")
+        self.assertEqual((ns, landmarks.header.frame_id), (self.messages[0][1] - EPOCH_NS, "map"))
+        self.assertEqual(points(landmarks), [{key: float(text) for key, text in row.items()}
+                                             for row in table(self.plain, "landmarks.csv")])
 
     def test_balls(self):
         balls, seen = table(self.plain, "balls.csv"), table(self.plain, "observations.csv")

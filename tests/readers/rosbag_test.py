@@ -56,7 +56,7 @@ class Rosbag(ros_facts.RosFacts, unittest.TestCase):
         for connection in self.bag._get_connections():
             types = genpy.dynamic.generate_dynamic(connection.datatype, connection.msg_def)
             self.assertEqual(types[connection.datatype]._md5sum, connection.md5sum, connection.datatype)
-            self.assertEqual(connection.header.get("latching"), b"1" if connection.topic == "/tf_static" else None)
+            self.assertEqual(connection.header.get("latching"), b"1" if connection.topic in ros_facts.LATCHED else None)
 
     def test_index(self):
         """Messages are found by topic and time, without those before."""

@@ -52,8 +52,8 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
   for (std::size_t i = 0; i < ways_m.size(); ++i)
     if (ways_m[i] > kLeast_m && ways_m[i] > kLeap * usual_m)
       faults.push_back({view.poses[i + 1].file, "",
-                        fmt::format("line {}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
-                                    view.poses[i + 1].line, ways_m[i], usual_m)});
+                        fmt::format("{}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
+                                    place_in_file(view.poses[i + 1]), ways_m[i], usual_m)});
 }
 
 }  // namespace
@@ -83,8 +83,8 @@ std::vector<Fault> check_stamps(const DatasetView& view) {
     if (view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
         *view.poses[i].stamp_ns <= *view.poses[i - 1].stamp_ns)
       faults.push_back({view.poses[i].file, "",
-                        fmt::format("line {}: time {} ns is not after that of the line before",
-                                    view.poses[i].line, *view.poses[i].stamp_ns)});
+                        fmt::format("{}: time {} ns is not after that of the one before",
+                                    place_in_file(view.poses[i]), *view.poses[i].stamp_ns)});
   return faults;
 }
 

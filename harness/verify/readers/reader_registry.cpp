@@ -11,6 +11,7 @@
 #include "harness/verify/readers/euroc_reader.h"
 #include "harness/verify/readers/kitti_readers.h"
 #include "harness/verify/readers/plain_reader.h"
+#include "harness/verify/readers/recording/recording_readers.h"
 #include "harness/verify/readers/scene/scene_readers.h"
 #include "harness/verify/readers/stereo_readers.h"
 #include "harness/verify/readers/tum_reader.h"
@@ -29,6 +30,7 @@ std::vector<std::string_view> known_formats() {
 }  // namespace
 
 std::span<const DatasetReader> dataset_readers() {
+  constexpr bool kRig = true, kNoRig = false;
   static constexpr std::array kReaders = {
       DatasetReader{"plain", looks_plain, read_plain_view},
       DatasetReader{"euroc", looks_like_euroc, read_euroc_view},
@@ -39,12 +41,14 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"tum", looks_like_tum, read_tum_view},
       DatasetReader{"vslamlab", looks_like_vslamlab, read_vslamlab_view},
       DatasetReader{"sceneflow", looks_like_sceneflow, read_sceneflow_view},
-      DatasetReader{"colmap", looks_like_colmap, read_colmap_view},
-      DatasetReader{"coco", looks_like_coco, read_coco_view},
-      DatasetReader{"bop", looks_like_bop, read_bop_view},
-      DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view},
+      DatasetReader{"colmap", looks_like_colmap, read_colmap_view, kNoRig},
+      DatasetReader{"coco", looks_like_coco, read_coco_view, kNoRig},
+      DatasetReader{"bop", looks_like_bop, read_bop_view, kNoRig},
+      DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view, kNoRig},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
+      DatasetReader{"rosbag", looks_like_rosbag, read_rosbag_view, kRig, read_rosbag_log},
+      DatasetReader{"mcap", looks_like_mcap, read_mcap_view, kRig, read_mcap_log},
   };
   return kReaders;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/harness/commands/program.h"
+#include "tests/harness/dataset_import/carried.h"
 #include "tests/harness/verify/planted_set.h"
 
 namespace stereobench::harness {
@@ -31,35 +32,7 @@ const std::vector<std::string> kWithTruth = {"--truth", "balls,disparity,flow"};
 const std::vector<std::string> kBallsOfBend = {"--ball-radius-m", "0.1", "--ball-radius-sd-m", "0"};
 const std::string kAllPairs =
     "plain,kitti-odometry,kitti-stereo,kitti-stereo-2012,kitti-scene-flow,euroc,middlebury,eth3d,sceneflow,"
-    "vslamlab";
-
-std::vector<std::string> names_in(const std::string& list) {
-  std::istringstream text(list);
-  std::vector<std::string> names;
-  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
-  return names;
-}
-
-/// The lines of a detector's answers, of all of a folder's pictures.
-std::string detected(const fs::path& pictures, const std::vector<std::string>& more) {
-  const Outcome outcome = run_stereobench(with({"detect", pictures.string()}, more));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.out;
-}
-
-/// Where two texts differ, without printing all of them; nothing where they are the same bytes.
-std::string first_difference(const std::string& got, const std::string& wanted) {
-  if (got == wanted) return "";
-  const auto at = static_cast<std::size_t>(std::ranges::mismatch(got, wanted).in1 - got.begin());
-  const std::size_t from = at < 20 ? 0 : at - 20;
-  return fmt::format("byte {}: {}, wanted {}", at, got.substr(from, 40),
-                     wanted.substr(std::min(from, wanted.size()), 40));
-}
-
-void import_to(const fs::path& out, const fs::path& from, const std::vector<std::string>& more = {}) {
-  const Outcome outcome = run_stereobench(with({"import", from.string(), "--out", out.string()}, more));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-}
+    "vslamlab,rosbag,mcap";
 
 std::string without_last_line(const std::string& lines) {
   return lines.substr(0, lines.rfind('\n', lines.size() - 2) + 1);
@@ -98,18 +71,19 @@ INSTANTIATE_TEST_SUITE_P(
     RoundTrip, CarriedDrive,
     testing::Values(
         Carried{"level", kAllPairs, with(kOddRig, kWithTruth), {}},
-        Carried{"pitched_as_the_layout_says", "plain,euroc", {"--set", "rig.pitch_down_deg=7.3"}, {}},
+        Carried{
+            "pitched_as_the_layout_says", "plain,euroc,rosbag,mcap", {"--set", "rig.pitch_down_deg=7.3"}, {}},
         Carried{"pitched_as_is_told",
                 kAllPairs,
                 with({"--set", "rig.pitch_down_deg=7.3"}, kWithTruth),
                 {"--pitch-down-deg", "7.3"}},
         Carried{"turned", "plain,euroc,vslamlab", {"--set", "rig.right_turn_deg=[0.3,-0.2,0.1]"}, {}},
         Carried{"behind_lenses",
-                "plain,euroc,vslamlab",
+                "plain,euroc,vslamlab,rosbag,mcap",
                 {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0]", "--set", "rig.pixel_aspect=1.01"},
                 {}},
         Carried{"behind_lenses_with_k3",
-                "plain,vslamlab",
+                "plain,vslamlab,rosbag,mcap",
                 {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0.01]"},
                 {}}),
     [](const auto& carried) { return std::string(carried.param.name); });

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/harness/commands/program.h"
+#include "tests/harness/verify/planted_recording.h"
 #include "tests/harness/verify/planted_set.h"
 
 namespace stereobench::harness {
@@ -73,6 +74,14 @@ INSTANTIATE_TEST_SUITE_P(
                   kSceneFormats,
                   {"--set", "shutter.drop_probability=0.3", "--set", "shutter.late_probability=0.3", "--set",
                    "shutter.late_s=0.03", "--set", "shutter.right_delay_s=0.01"}},
+        CleanCase{"recordings", kBend, kRecordings, {"--frames", "2..7"}},
+        CleanCase{"recordings_behind_a_lens",
+                  kBend,
+                  kRecordings,
+                  {"--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0.01]", "--set",
+                   "rig.pitch_down_deg=8", "--set", "shutter.drop_probability=0.3"}},
+        CleanCase{"recordings_of_ball_circle", scenario_path("ball_circle"), kRecordings,
+                  small_rig({"--set", "path.laps=0.2"})},
         CleanCase{"levels_of_kitti",
                   kBend,
                   "plain",

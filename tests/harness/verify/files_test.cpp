@@ -157,7 +157,7 @@ TEST(TimesOfASet, AreInOrderAndEqual) {
   std::string poses = path.text("groundtruth.txt");
   poses.replace(poses.find("\n1500000000.400"), 15, "\n1500000000.200");
   path.write("groundtruth.txt", poses);
-  EXPECT_THAT(path.faults(), HasSubstr("is not after that of the line before"));
+  EXPECT_THAT(path.faults(), HasSubstr("is not after that of the one before"));
 }
 
 TEST(PosesOfASet, AreRigid) {

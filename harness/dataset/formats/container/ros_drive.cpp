@@ -53,11 +53,13 @@ class RosPlayer {
 
   void play() {
     play_rig();
+    play_landmarks();
     play_odometry(log_.steps.front().stamp_ns, {});
     for (std::size_t step = 0; step < log_.steps.size(); ++step) {
       play_readings(log_.steps[step].stamp_ns);
       play_truth(log_.steps[step]);
       if (drive_.steps[step].pictures) play_pair(step);
+      play_sightings(log_.steps[step]);
     }
   }
 
@@ -71,12 +73,14 @@ class RosPlayer {
   }
 
   void play_rig();
+  void play_landmarks();
   void play_readings(std::int64_t until_ns);
   void play_odometry(std::int64_t stamp_ns, const OdometryReading& reading);
   void play_truth(const LogStep& step);
   void play_pair(std::size_t step);
   void play_picture(std::size_t step, Side side);
   void play_balls(std::size_t step);
+  void play_sightings(const LogStep& step);
   std::int64_t until_next_pair_ns(std::size_t step) const;
 
   const DatasetDrive& drive_;
@@ -98,6 +102,16 @@ void RosPlayer::play_rig() {
     cameras.push_back({header("/tf_static", stamp_ns, kRobot), camera_frame(side),
                        vision::robot_from_camera(drive_.rig, side)});
   send("/tf_static", stamp_ns, ros_transforms(version_, cameras));
+}
+
+void RosPlayer::play_landmarks() {
+  const std::string_view topic = "/ground_truth/landmarks";
+  const std::int64_t stamp_ns = log_.steps.front().stamp_ns;
+  std::vector<std::vector<double>> rows;
+  for (const LandmarkTruth& landmark : log_.landmarks)
+    rows.push_back({static_cast<double>(landmark.landmark_id), landmark.position_m.x(),
+                    landmark.position_m.y(), static_cast<double>(landmark.colour_class)});
+  send(topic, stamp_ns, ros_table(version_, header(topic, stamp_ns, kMap), kLandmarkColumns, rows));
 }
 
 /// All readings that end until then: one lasts until the next one, the last until the last step.
@@ -127,6 +141,7 @@ void RosPlayer::play_truth(const LogStep& step) {
   send("/tf", step.stamp_ns, ros_transforms(version_, robot));
   send("/ground_truth/pose", step.stamp_ns,
        ros_pose(version_, header("/ground_truth/pose", step.stamp_ns, kMap), pose));
+  send("/ground_truth/pose_2d", step.stamp_ns, ros_planar_pose(version_, *step.truth));
 }
 
 void RosPlayer::play_pair(std::size_t step) {
@@ -168,6 +183,18 @@ void RosPlayer::play_balls(std::size_t step) {
   }
   send("/ground_truth/balls", stamp_ns,
        ros_spheres(version_, header("/ground_truth/balls", stamp_ns, kMap), true_balls, lifetime_ns));
+}
+
+/// What was measured, as numbers that filters are given. Nothing is sent where nothing was seen.
+void RosPlayer::play_sightings(const LogStep& step) {
+  if (step.measurements.empty()) return;
+  std::vector<std::vector<double>> rows;
+  for (const slam::RangeBearing& seen : step.measurements)
+    rows.push_back({static_cast<double>(seen.landmark_id), seen.range_m, seen.bearing_rad,
+                    static_cast<double>(seen.colour_class), seen.covariance(0, 0), seen.covariance(0, 1),
+                    seen.covariance(1, 1)});
+  send("/sightings", step.stamp_ns,
+       ros_table(version_, header("/sightings", step.stamp_ns, kRobot), kSightingColumns, rows));
 }
 
 /// 0 for the last pair.

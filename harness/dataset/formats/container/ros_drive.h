@@ -26,13 +26,24 @@ inline constexpr auto kRosTopics = std::to_array<RosTopic>({
     {"/tf", RosType::kTransforms},
     {"/odom", RosType::kOdometry},
     {"/ground_truth/pose", RosType::kPose},
+    {"/ground_truth/pose_2d", RosType::kPlanarPose},
+    {"/ground_truth/landmarks", RosType::kTable, true},
     {"/stereo/left/image_raw", RosType::kImage},
     {"/stereo/right/image_raw", RosType::kImage},
     {"/stereo/left/camera_info", RosType::kCameraInfo},
     {"/stereo/right/camera_info", RosType::kCameraInfo},
     {"/detections", RosType::kSpheres},
+    {"/sightings", RosType::kTable},
     {"/ground_truth/balls", RosType::kSpheres},
 });
+
+/// The columns of /sightings and of /ground_truth/landmarks: those of observations.csv, without their time,
+/// and of landmarks.csv.
+inline constexpr auto kSightingColumns =
+    std::to_array<std::string_view>({"landmark_id", "range_m", "bearing_rad", "colour_class", "range_var_m2",
+                                     "cov_m_rad", "bearing_var_rad2"});
+inline constexpr auto kLandmarkColumns =
+    std::to_array<std::string_view>({"landmark_id", "x_m", "y_m", "colour_class"});
 
 struct RosEvent {
   std::size_t topic = 0;  ///< index into kRosTopics

@@ -162,6 +162,12 @@ std::string ros_pose(RosVersion version, const RosHeader& header, const Eigen::I
   return out.take();
 }
 
+std::string ros_planar_pose(RosVersion version, const slam::Pose& pose) {
+  RosEncoder out(version);
+  out.numbers<double>(std::array{pose.x_m, pose.y_m, pose.heading_rad});
+  return out.take();
+}
+
 std::string ros_transforms(RosVersion version, std::span<const RosTransform> transforms) {
   RosEncoder out(version);
   out.count(transforms.size());
@@ -178,6 +184,29 @@ std::string ros_spheres(RosVersion version, const RosHeader& header, std::span<c
   RosEncoder out(version);
   out.count(spheres.size());
   for (const RosSphere& sphere : spheres) add_sphere(out, header, sphere, lifetime_ns);
+  return out.take();
+}
+
+std::string ros_table(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
+                      std::span<const std::vector<double>> rows) {
+  RosEncoder out(version);
+  const std::size_t row_bytes = columns.size() * sizeof(double);
+  out.header(header);
+  out.count(1);  // height
+  out.count(rows.size());
+  out.count(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    out.text(columns[i]);
+    out.count(i * sizeof(double));
+    out.number(kRosFloat64);
+    out.count(1);
+  }
+  out.flag(false);  // is_bigendian
+  out.count(row_bytes);
+  out.count(row_bytes * rows.size());
+  out.count(row_bytes * rows.size());  // of data
+  for (const std::vector<double>& row : rows) out.block(reinterpret_cast<const char*>(row.data()), row_bytes);
+  out.flag(true);  // is_dense
   return out.take();
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "slam/types.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {
@@ -17,6 +18,9 @@ namespace stereobench::harness {
 /// kOne packs values as they come; kTwo is CDR (OMG DDSI-RTPS 9.4 and CORBA 3 part 2, 9.3), little endian: a
 /// value begins at a multiple of its size.
 enum class RosVersion { kOne, kTwo };
+
+/// A number of 64 bits, as a field of sensor_msgs/PointCloud2 says it.
+inline constexpr std::uint8_t kRosFloat64 = 8;
 
 /// When a message's values hold, and in which frame.
 struct RosHeader {
@@ -56,6 +60,9 @@ std::string ros_odometry(RosVersion version, const RosTransform& pose, double v_
 /// geometry_msgs/PoseStamped.
 std::string ros_pose(RosVersion version, const RosHeader& header, const Eigen::Isometry3d& pose);
 
+/// geometry_msgs/Pose2D, which has no header.
+std::string ros_planar_pose(RosVersion version, const slam::Pose& pose);
+
 /// tf2_msgs/TFMessage.
 std::string ros_transforms(RosVersion version, std::span<const RosTransform> transforms);
 
@@ -63,5 +70,11 @@ std::string ros_transforms(RosVersion version, std::span<const RosTransform> tra
 /// @param lifetime_ns for how long they are shown; 0: for ever
 std::string ros_spheres(RosVersion version, const RosHeader& header, std::span<const RosSphere> spheres,
                         std::int64_t lifetime_ns);
+
+/// sensor_msgs/PointCloud2: a row a point, whose fields are numbers of 64 bits.
+/// @param columns names of the fields
+/// @param rows of as many numbers
+std::string ros_table(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
+                      std::span<const std::vector<double>> rows);
 
 }  // namespace stereobench::harness

@@ -70,6 +70,15 @@ constexpr auto kParts = std::to_array<RosPart>({
      "visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\n"
      "visualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n"},
     {"visualization_msgs/MarkerArray", "visualization_msgs/Marker[] markers\n", ""},
+    {"geometry_msgs/Pose2D", "float64 x\nfloat64 y\nfloat64 theta\n", ""},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
+     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n",
+     ""},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
+     ""},
 });
 
 const RosPart* find_part(std::string_view name) {
@@ -117,8 +126,10 @@ constexpr auto kNames = std::to_array<RosName>({
     {RosType::kCameraInfo, "sensor_msgs/CameraInfo", "c9a58c1b0b154e0e6da7578cb991d214"},
     {RosType::kOdometry, "nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
     {RosType::kPose, "geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5"},
+    {RosType::kPlanarPose, "geometry_msgs/Pose2D", "938fa65709584ad8e77d238529be13b8"},
     {RosType::kTransforms, "tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec"},
     {RosType::kSpheres, "visualization_msgs/MarkerArray", "d155b9ce5188fbaf89745847fd5882d7"},
+    {RosType::kTable, "sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181"},
 });
 
 }  // namespace

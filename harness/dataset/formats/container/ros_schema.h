@@ -8,7 +8,7 @@
 namespace stereobench::harness {
 
 /// The messages that are written (ros_message.h).
-enum class RosType { kImage, kCameraInfo, kOdometry, kPose, kTransforms, kSpheres };
+enum class RosType { kImage, kCameraInfo, kOdometry, kPose, kPlanarPose, kTransforms, kSpheres, kTable };
 
 struct RosSchema {
   std::string name;        ///< "sensor_msgs/Image", of ROS 2 "sensor_msgs/msg/Image"

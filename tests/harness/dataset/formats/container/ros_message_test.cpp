@@ -64,8 +64,9 @@ TEST(RosMessage, HasThePixelsOfAPictureRowByRow) {
 // Every type that a definition names is defined in it.
 TEST(RosSchema, IsWhole) {
   for (const RosVersion version : {RosVersion::kOne, RosVersion::kTwo})
-    for (const RosType type : {RosType::kImage, RosType::kCameraInfo, RosType::kOdometry, RosType::kPose,
-                               RosType::kTransforms, RosType::kSpheres}) {
+    for (const RosType type :
+         {RosType::kImage, RosType::kCameraInfo, RosType::kOdometry, RosType::kPose, RosType::kPlanarPose,
+          RosType::kTransforms, RosType::kSpheres, RosType::kTable}) {
       const RosSchema schema = ros_schema(type, version);
       std::istringstream words(schema.definition);
       for (std::string word; words >> word;) {

@@ -1,0 +1,81 @@
+#include "harness/verify/readers/recording/recorded_topics.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stereobench::harness {
+namespace {
+
+bool has_messages(const Recording& recording, std::string_view topic, std::string_view type) {
+  return std::ranges::any_of(recording.messages, [&](const RecordedMessage& message) {
+    const RecordedTopic& of = recording.topics[message.topic];
+    return of.name == topic && of.type == type;
+  });
+}
+
+/// "/stereo/left/" and "/stereo/right/", where both have pictures.
+std::array<std::string, 2> camera_topics(const Recording& recording) {
+  constexpr std::string_view kLeft = "/left/image_raw", kRight = "/right/", kRaw = "image_raw";
+  for (const RecordedTopic& topic : recording.topics) {
+    if (!topic.name.ends_with(kLeft) || topic.type != "sensor_msgs/Image") continue;
+    const std::string above = topic.name.substr(0, topic.name.size() - kLeft.size());
+    const std::string right = above + std::string(kRight);
+    if (has_messages(recording, topic.name, topic.type) ||
+        has_messages(recording, right + std::string(kRaw), topic.type))
+      return {above + "/left/", right};
+  }
+  std::vector<std::string> topics;
+  for (const RecordedTopic& topic : recording.topics)
+    topics.push_back(
+        fmt::format("{} {}", topic.name, topic.type.empty() ? "of another encoding" : topic.type));
+  throw std::runtime_error(fmt::format(
+      "{}: expected sensor_msgs/Image as .../left/image_raw and .../right/image_raw (got {})",
+      recording.file.string(), topics.empty() ? "no topics" : fmt::format("{}", fmt::join(topics, ", "))));
+}
+
+/// /odom, or else the first one that is not true.
+std::string odometry_topic(const Recording& recording) {
+  std::string found;
+  for (const RecordedTopic& topic : recording.topics) {
+    if (topic.type != "nav_msgs/Odometry" || topic.name.starts_with("/ground_truth")) continue;
+    if (topic.name == "/odom") return topic.name;
+    if (found.empty()) found = topic.name;
+  }
+  return found;
+}
+
+}  // namespace
+
+OpenRecording opened(Recording recording) {
+  OpenRecording open = {
+      .recording = std::move(recording), .name = {}, .cameras = {}, .odometry = {}, .faults = {}};
+  const Recording& of = open.recording;
+  open.name = of.file.filename().string();
+  for (const std::string& fault : of.faults) open.faults.push_back({open.name, "", fault});
+  open.cameras = camera_topics(of);
+  open.odometry = odometry_topic(of);
+  const auto first = messages_of(of, open.odometry, "nav_msgs/Odometry");
+  if (first.empty()) return open;
+  try {
+    const ReadOdometry odometry =
+        read_ros_odometry(open.version_of(*first.front()), message_bytes(of, *first.front()));
+    if (!odometry.child_frame.empty()) open.body = odometry.child_frame;
+  } catch (const std::runtime_error&) {
+    // It is a fault once all of them are read.
+  }
+  return open;
+}
+
+std::vector<const RecordedMessage*> messages_of(const Recording& recording, std::string_view topic,
+                                                std::string_view type) {
+  std::vector<const RecordedMessage*> messages;
+  for (const RecordedMessage& message : recording.messages)
+    if (recording.topics[message.topic].name == topic && recording.topics[message.topic].type == type)
+      messages.push_back(&message);
+  return messages;
+}
+
+}  // namespace stereobench::harness
