@@ -24,19 +24,28 @@ struct ImportArguments {
   std::optional<double> pitch_down_deg;
 };
 
-/// Layouts of pictures that have a pose each, as if all cameras were apart.
-constexpr std::array<std::string_view, 4> kWithoutRig = {"colmap", "coco", "bop", "nerfstudio"};
+/// Layouts that `verify` reads and `import` does not, and why.
+struct NotImported {
+  std::string_view format;
+  std::string_view why;
+};
+constexpr std::string_view kHasNoRig = "does not say how two cameras are mounted; expected a layout of a rig";
+constexpr std::array kNotImported = {
+    NotImported{"plain", "is what `detect` and `slam` read as it is"},
+    NotImported{"mrclam", "has no pictures; `slam` reads it as it is"},
+    NotImported{"webdataset", "has its pictures in archives; unpack them, or render another format"},
+    NotImported{"colmap", kHasNoRig},
+    NotImported{"coco", kHasNoRig},
+    NotImported{"bop", kHasNoRig},
+    NotImported{"nerfstudio", kHasNoRig}};
 
 const DatasetReader& foreign_reader(const ImportArguments& arguments) {
   const DatasetReader& reader =
       arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
-  if (reader.format == "plain")
-    throw std::runtime_error(fmt::format(
-        "{}: is of the format plain, which `detect` and `slam` read as it is", arguments.folder.string()));
-  if (std::ranges::find(kWithoutRig, reader.format) != kWithoutRig.end())
+  const auto* const refused = std::ranges::find(kNotImported, reader.format, &NotImported::format);
+  if (refused != kNotImported.end())
     throw std::runtime_error(
-        fmt::format("{}: the format {} does not say how two cameras are mounted; expected a layout of a rig",
-                    arguments.folder.string(), reader.format));
+        fmt::format("{}: the format {} {}", arguments.folder.string(), reader.format, refused->why));
   return reader;
 }
 

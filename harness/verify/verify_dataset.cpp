@@ -58,6 +58,7 @@ std::unique_ptr<LoadedFrame> load(const DatasetView& view, std::size_t index, st
   loaded->next_disparity_px = load(view, frame, Side::kLeft, Channel::kNextDisparity, faults);
   append(faults, check_pictures(view, *loaded));
   append(faults, check_boxes(view, *loaded));
+  append(faults, check_outlines(view, frame));
   append(faults, check_parts(view, *loaded));
   append(faults, check_next_instant(view, *loaded));
   return loaded;

@@ -27,6 +27,9 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& frame
 /// What files of balls say of pixels, against identities: boxes, counts, balls that are hidden.
 std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& frame);
 
+/// Boxes of balls against the outlines of spheres of their size, at the place that the file says.
+std::vector<Fault> check_outlines(const DatasetView& view, const ViewFrame& frame);
+
 /// Pictures of what only some pixels have, against those of all pixels: KITTI's `noc` and `occ`.
 std::vector<Fault> check_parts(const DatasetView& view, const LoadedFrame& frame);
 

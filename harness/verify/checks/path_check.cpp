@@ -14,6 +14,11 @@ std::string place_in_file(const ViewPose& pose) {
   return pose.name.empty() ? fmt::format("line {}", pose.line) : pose.name;
 }
 
+/// Whether a pose follows the one that is listed before it: files of several drives or robots do not.
+bool is_next(const std::vector<ViewPose>& poses, std::size_t i) {
+  return poses[i].file == poses[i - 1].file;
+}
+
 /// How far a matrix is from a rotation.
 double skew_of(const Eigen::Matrix4d& matrix) {
   const Eigen::Matrix3d turn = matrix.topLeftCorner<3, 3>();
@@ -50,10 +55,10 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
   std::ranges::sort(sorted);
   const double usual_m = sorted[sorted.size() / 2];
   for (std::size_t i = 0; i < ways_m.size(); ++i)
-    if (ways_m[i] > kLeast_m && ways_m[i] > kLeap * usual_m)
+    if (is_next(view.poses, i + 1) && ways_m[i] > kLeast_m && ways_m[i] > kLeap * usual_m)
       faults.push_back({view.poses[i + 1].file, "",
-                        fmt::format("line {}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
-                                    view.poses[i + 1].line, ways_m[i], usual_m)});
+                        fmt::format("{}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
+                                    place_in_file(view.poses[i + 1]), ways_m[i], usual_m)});
 }
 
 }  // namespace
@@ -74,17 +79,18 @@ std::vector<Fault> check_stamps(const DatasetView& view) {
       faults.push_back(
           {view.pictures_file, frame.name,
            fmt::format("the right picture is of {} ns, the left one of {} ns", *stamps[1], *stamps[0])});
-    if (i > 0 && stamps[0] && view.frames[i - 1].stamp_ns[0] && *stamps[0] <= *view.frames[i - 1].stamp_ns[0])
+    if (i > 0 && view.frames[i - 1].drive_goes_on && stamps[0] && view.frames[i - 1].stamp_ns[0] &&
+        *stamps[0] <= *view.frames[i - 1].stamp_ns[0])
       faults.push_back({view.pictures_file, frame.name,
                         fmt::format("time {} ns is not after that of the frame before, {} ns", *stamps[0],
                                     *view.frames[i - 1].stamp_ns[0])});
   }
   for (std::size_t i = 1; i < view.poses.size(); ++i)
-    if (view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
+    if (is_next(view.poses, i) && view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
         *view.poses[i].stamp_ns <= *view.poses[i - 1].stamp_ns)
       faults.push_back({view.poses[i].file, "",
-                        fmt::format("line {}: time {} ns is not after that of the line before",
-                                    view.poses[i].line, *view.poses[i].stamp_ns)});
+                        fmt::format("{}: time {} ns is not after that of the line before",
+                                    place_in_file(view.poses[i]), *view.poses[i].stamp_ns)});
   return faults;
 }
 

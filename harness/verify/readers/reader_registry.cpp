@@ -10,8 +10,10 @@
 
 #include "harness/verify/readers/euroc_reader.h"
 #include "harness/verify/readers/kitti_readers.h"
+#include "harness/verify/readers/log/mrclam_reader.h"
 #include "harness/verify/readers/plain_reader.h"
 #include "harness/verify/readers/scene/scene_readers.h"
+#include "harness/verify/readers/shards/webdataset_reader.h"
 #include "harness/verify/readers/stereo_readers.h"
 #include "harness/verify/readers/tum_reader.h"
 #include "harness/verify/readers/vslamlab_reader.h"
@@ -45,6 +47,8 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
+      DatasetReader{"webdataset", looks_like_webdataset, read_webdataset_view},
+      DatasetReader{"mrclam", looks_like_mrclam, read_mrclam_view},
   };
   return kReaders;
 }
