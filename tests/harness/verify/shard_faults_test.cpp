@@ -163,7 +163,7 @@ constexpr ShardCase kShardCases[] = {
     {"bit_of_a_picture", flip_bit_of_picture,
      "bend_0-000000.tar/bend_0_000003.left.png: frame bend_0_000003: "},
     {"bit_of_a_header", flip_bit_of_header,
-     "bend_0-000000.tar: byte 659968: expected the header of a member, or its sum is wrong"},
+     "expected the header of a member, or its sum is wrong"},
     {"cut_short", cut_short, "bend_0-000000.tar: the archive is cut short: bend_0_000007.right.png has"},
     {"no_end", leave_out_the_end, "bend_0-000000.tar: the archive is cut short: expected its end"},
     {"lost_member", lose_a_picture,
@@ -185,10 +185,10 @@ constexpr ShardCase kShardCases[] = {
     {"centimetres", write_centimetres_of_samples, "places of poses in centimetres"},
     {"baseline", lengthen_baseline_of_rig,
      "in 6 of 6 samples, first in bend_0_000002: world_from_right_camera is 0.0012 m"},
-    {"focal", lengthen_focal_of_rig, "focal length too long by 2 %"},
+    {"focal", lengthen_focal_of_rig, "focal length too long by"},
     {"rig_of_one", change_rig_of_one,
      "bend_0_000005.json: frame bend_0_000005: `rig` is not that of bend_0_000004"},
-    {"robot_of_one", move_robot_of_one, "frame bend_0_000004: world_from_left_camera is 0.999 m"},
+    {"robot_of_one", move_robot_of_one, "frame bend_0_000004: world_from_left_camera is 1 m"},
     {"ball", move_a_ball, "frame bend_0_000003: ball 0: colour 0, radius 0.1 m, centre [2.7, 0.3, 0.1]"},
     {"boxes", exchange_boxes, "frame bend_0_000002: ball 0: its left bbox_visib [88, 136, 32, 31] is "},
     {"cameras_of_balls", exchange_cameras_of_balls, "points of the world in pictures, against poses"},
@@ -224,7 +224,7 @@ TEST(ShardsOfOthers, AreReadWithoutRigs) {
   fs::rename(set.path(kShard), set.path("shard.tar"));
   EXPECT_EQ(reader_of(set.path("")).format, "webdataset");
   const Verification clean = verify_dataset(set.path(""), dataset_reader("webdataset"), [](double) {});
-  EXPECT_TRUE(clean.faults.empty());
+  EXPECT_TRUE(clean.faults.empty()) << line_of(clean.faults.front());
   EXPECT_EQ(clean.checked.front(), "6 frames");
   EXPECT_THAT(clean.cannot.front(), HasSubstr("no sample has a .json with a `rig`"));
   std::string bytes = set.text("shard.tar");

@@ -14,7 +14,6 @@
 #include "harness/verify/readers/shards/sample_checks.h"
 #include "harness/verify/readers/shards/shard_files.h"
 #include "renderer/pictures/picture_reader.h"
-#include "vision/camera/rig.h"
 
 namespace stereobench::harness {
 namespace {
@@ -79,8 +78,8 @@ void add_geometry(DatasetView& view, const SampleOfFiles& sample, const BallPlac
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const std::size_t i = index_of(side);
     ViewCamera& camera = frame.cameras[i];
-    camera = {said.rig.intrinsics, said.rig.distortion, vision::robot_from_camera(said.rig, side)};
-    frame.world_from_body[i] = said.world_from_camera[i] * camera.body_from_camera.inverse();
+    camera = {said.rig.intrinsics, said.rig.distortion, Eigen::Isometry3d::Identity()};
+    frame.world_from_body[i] = said.world_from_camera[i];
     frame.balls[i] = balls_of(said, sample.files.place(kSampleJson), camera, i, places);
   }
   frame.stamp_ns = {said.stamp_ns, said.stamp_ns};
@@ -139,7 +138,7 @@ DatasetView read_webdataset_view(const fs::path& folder) {
   const std::string jsons = samples.empty() ? "" : samples.front().files.shard + "/*.json";
   view.calibration_file = view.poses_file = jsons;
   view.pictures_file = samples.empty() ? "" : samples.front().files.shard + "/*.png";
-  view.poses_of = PosesOf::kBody;
+  view.poses_of = PosesOf::kEachCamera;
   double right_delay_s = 0.0;
   read_or_blame(view, kDatasetJson, [&] {
     right_delay_s = said_of_shutter(folder, "right_delay_s");
