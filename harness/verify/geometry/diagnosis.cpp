@@ -44,10 +44,9 @@ struct Amount {
 
 /// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on
 /// it.
-Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links,
-              double start = 0.0) {
+Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links) {
   constexpr int kRounds = 3;
-  Amount amount = {.value = start};
+  Amount amount;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Slope> slopes = slopes_of(claims, cause, amount.value, links);
     if (slopes.empty()) return {};
@@ -156,18 +155,14 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
   std::vector<Explanation> all;
   for (const Hypothesis& cause : causes) {
     if (!applies(view, cause)) continue;
-    std::optional<Explanation> best;
-    for (const double start : cause.starts) {
-      Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
-      if (cause.has_amount) one.amount = fitted(claims, cause, links, start);
-      if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
-      cause.undo(one.claims, one.amount.value);
-      const Comparison change = compared(claims, one.claims, links);
-      one.mended = mended_by(before, change);
-      one.left = disagreement(change.after, before);
-      if (one.mended > 0 && (!best || one.left < best->left)) best = std::move(one);
-    }
-    if (best) all.push_back(std::move(*best));
+    Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
+    if (cause.has_amount) one.amount = fitted(claims, cause, links);
+    if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
+    cause.undo(one.claims, one.amount.value);
+    const Comparison change = compared(claims, one.claims, links);
+    one.mended = mended_by(before, change);
+    one.left = disagreement(change.after, before);
+    if (one.mended > 0) all.push_back(std::move(one));
   }
   if (all.empty()) return std::nullopt;
   const int most = std::ranges::max_element(all, {}, &Explanation::mended)->mended;
