@@ -97,6 +97,7 @@ void add_samples(DatasetView& view, const std::vector<SampleOfFiles>& samples, c
   for (std::size_t i = 0; i < samples.size(); ++i) {
     ViewFrame frame = {.name = samples[i].files.key, .cameras = {}};
     add_pictures(view, samples[i].files, frame);
+    for (ViewCamera& camera : frame.cameras) camera.pinhole.width_px = 0;  // nothing says it
     if (samples[i].said) add_geometry(view, samples[i], places, frame);
     frame.drive_goes_on = i + 1 < samples.size() && is_same_drive(samples[i], samples[i + 1]);
     view.frames.push_back(std::move(frame));
