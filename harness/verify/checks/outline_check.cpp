@@ -40,7 +40,7 @@ std::optional<Extent> outline_of(const ViewCamera& camera, const Eigen::Vector3d
 
 }  // namespace
 
-std::vector<Fault> check_outlines(const DatasetView& view, const ViewFrame& frame) {
+std::vector<Fault> check_outlines(const DatasetView& view, const ViewFrame& frame, Margins& margins) {
   constexpr double kBeside_px = 1.0;  // pixels of a lens are remapped, and circles have 180 points here
   std::vector<Fault> faults;
   if (view.rows_look_apart) return faults;
@@ -57,7 +57,7 @@ std::vector<Fault> check_outlines(const DatasetView& view, const ViewFrame& fram
       const Eigen::Vector2d first(box.x, box.y), last(box.x + box.width - 1, box.y + box.height - 1);
       const double beyond_px =
           std::max((outline->least - first).maxCoeff(), (last - outline->most).maxCoeff());
-      if (beyond_px > kBeside_px + said.box_slack_px)
+      if (margins.is_beyond("box beyond an outline", beyond_px, kBeside_px + said.box_slack_px))
         faults.push_back(
             {frame.balls[side]->file, frame.name,
              fmt::format("ball {}: its {} bbox_visib [{}, {}, {}, {}] is {:.3g} px beyond the outline of a "

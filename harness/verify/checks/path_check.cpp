@@ -25,15 +25,15 @@ double skew_of(const Eigen::Matrix4d& matrix) {
   return (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-void check_rigid(const DatasetView& view, std::vector<Fault>& faults) {
+void check_rigid(const DatasetView& view, Margins& margins, std::vector<Fault>& faults) {
   // Nine numbers of d decimals make products that are off by some of their last units.
   const double tolerance = 1e-6 + 8.0 * view.turn_precision;
   for (const ViewPose& pose : view.poses) {
-    if (std::abs(pose.quaternion_norm - 1.0) > tolerance)
+    if (margins.is_beyond("length of a quaternion", std::abs(pose.quaternion_norm - 1.0), tolerance))
       faults.push_back({pose.file, "",
                         fmt::format("{}: the quaternion has length {:.6g}: expected 1", place_in_file(pose),
                                     pose.quaternion_norm)});
-    if (skew_of(pose.matrix) > tolerance)
+    if (margins.is_beyond("rotation that is none", skew_of(pose.matrix), tolerance))
       faults.push_back(
           {pose.file, "",
            fmt::format("{}: the rotation is none: its columns are off a unit or a right angle by "
@@ -45,7 +45,7 @@ void check_rigid(const DatasetView& view, std::vector<Fault>& faults) {
 }
 
 /// A way that is much longer than its neighbours in both directions: there and back.
-void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
+void check_continuous(const DatasetView& view, Margins& margins, std::vector<Fault>& faults) {
   constexpr double kLeap = 50.0, kLeast_m = 1.0;
   std::vector<double> ways_m;
   for (std::size_t i = 0; i + 1 < view.poses.size(); ++i)
@@ -55,7 +55,8 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
   std::ranges::sort(sorted);
   const double usual_m = sorted[sorted.size() / 2];
   for (std::size_t i = 0; i < ways_m.size(); ++i)
-    if (is_next(view.poses, i + 1) && ways_m[i] > kLeast_m && ways_m[i] > kLeap * usual_m)
+    if (is_next(view.poses, i + 1) &&
+        margins.is_beyond("leap of poses", ways_m[i], std::max(kLeast_m, kLeap * usual_m)))
       faults.push_back({view.poses[i + 1].file, "",
                         fmt::format("{}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
                                     place_in_file(view.poses[i + 1]), ways_m[i], usual_m)});
@@ -63,10 +64,10 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
 
 }  // namespace
 
-std::vector<Fault> check_poses(const DatasetView& view) {
+std::vector<Fault> check_poses(const DatasetView& view, Margins& margins) {
   std::vector<Fault> faults;
-  check_rigid(view, faults);
-  if (view.poses_are_a_way) check_continuous(view, faults);
+  check_rigid(view, margins, faults);
+  if (view.poses_are_a_way) check_continuous(view, margins, faults);
   return faults;
 }
 

@@ -49,7 +49,7 @@ void find_missing_poses(DatasetView& view, const MrclamRobot& robot) {
   if (static_cast<double>(others) > kMostOthers * static_cast<double>(steps_ns.size())) return;
   constexpr double kNanosecond = 1e-9;
   for (std::size_t i = 0; i < steps_ns.size(); ++i)
-    if (steps_ns[i] > kGap * usual_ns)
+    if (view.margins.is_beyond("gap of true poses", steps_ns[i], kGap * usual_ns))
       view.faults.push_back(
           {robot.truth_file, robot.truth[i + 1].time,
            fmt::format(

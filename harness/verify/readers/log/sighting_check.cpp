@@ -118,16 +118,19 @@ std::vector<double> all_off_m(const MrclamLog& log, const MrclamRobot& robot,
 }
 
 /// The cause that leaves the least, where that is much less than without one.
-const SightingCause& best_cause(const MrclamLog& log, const MrclamRobot& robot,
+const SightingCause& best_cause(DatasetView& view, const MrclamLog& log, const MrclamRobot& robot,
                                 const std::vector<KnownSighting>& known, bool may_be_late) {
   constexpr std::size_t kFewest = 8;
   const SightingCause* best = &kSightingCauses.front();
   const std::vector<double> before = all_off_m(log, robot, known, *best);
-  double least_m = kMostLeftBehindCause * median(before);
+  const double none_m = kMostLeftBehindCause * median(before);
+  double least_m = none_m;
   for (const SightingCause& cause : kSightingCauses) {
     if (may_be_late && cause.late != 0) continue;
     const std::vector<double> off = all_off_m(log, robot, known, cause);
-    if (off.size() < kFewest || 2 * off.size() < before.size() || median(off) >= least_m) continue;
+    if (off.size() < kFewest || 2 * off.size() < before.size()) continue;
+    if (&cause != &kSightingCauses.front()) view.margins.is_beyond("cause of sightings", none_m, median(off));
+    if (median(off) >= least_m) continue;
     best = &cause;
     least_m = median(off);
   }
@@ -191,7 +194,7 @@ void find_single_sightings(DatasetView& view, const MrclamLog& log, const Mrclam
                            const UsualOff& usual) {
   for (const KnownSighting& one : known) {
     const auto off = off_m(log, robot, one, cause);
-    if (!off || *off <= most_off_m(*one.sighting, usual)) continue;
+    if (!off || !view.margins.is_beyond("single sighting", *off, most_off_m(*one.sighting, usual))) continue;
     const std::string whom =
         one.subject == 0 ? "the nearest landmark" : fmt::format("landmark {}", one.subject);
     view.faults.push_back(
@@ -206,7 +209,7 @@ void find_single_sightings(DatasetView& view, const MrclamLog& log, const Mrclam
 
 void check_sightings(DatasetView& view, const MrclamLog& log, const MrclamRobot& robot, bool may_be_late) {
   const std::vector<KnownSighting> known = known_sightings(log, robot);
-  const SightingCause& cause = best_cause(log, robot, known, may_be_late);
+  const SightingCause& cause = best_cause(view, log, robot, known, may_be_late);
   const SightingCause& none = kSightingCauses.front();
   const UsualOff usual = usual_off(log, robot, known, cause);
   const std::size_t count = all_off_m(log, robot, known, none).size();
