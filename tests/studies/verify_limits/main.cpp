@@ -174,7 +174,7 @@ std::vector<CleanSets> clean_sets() {
   std::vector<CleanSets> all = {{kBend, pairs, with({"--frames", "2..7"}, truth)},
                                 {kBend, scenes, {"--frames", "2..7"}},
                                 {kBend, kShardsAndLogs, kLogFrames}};
-  for (const char* name : {"corridor", "office", "room"}) {
+  for (const char* name : {"corridor", "office"}) {
     all.push_back({scenario_path(name), pairs, frames("0..2", truth)});
     all.push_back({scenario_path(name), scenes, frames("0..2", {})});
     all.push_back({scenario_path(name), kShardsAndLogs, frames("0..19", {})});

@@ -174,8 +174,9 @@ std::vector<KnownSighting> without_moved_landmarks(DatasetView& view, const Mrcl
     off_by_subject[one.subject].push_back(*off);
     beyond_by_subject[one.subject].push_back(*off / most_off_m(*one.sighting, usual));
   }
-  std::erase_if(beyond_by_subject,
-                [&](const auto& one) { return one.second.size() < kFewest || median(one.second) <= 1.0; });
+  std::erase_if(beyond_by_subject, [&](const auto& one) {
+    return one.second.size() < kFewest || !view.margins.is_beyond("landmark", median(one.second), 1.0);
+  });
   std::vector<KnownSighting> others;
   for (const KnownSighting& one : known)
     if (!beyond_by_subject.contains(one.subject)) others.push_back(one);
