@@ -28,9 +28,9 @@ std::optional<Extent> outline_of(const ViewCamera& camera, const Eigen::Vector3d
   const Eigen::Vector3d across = centre_m.unitOrthogonal(), along = centre_m.normalized().cross(across);
   Extent extent;
   for (int i = 0; i < kPoints; ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / kPoints;
-    const auto pixel =
-        pixel_of(camera, middle_m + circle_m * (std::cos(turn) * across + std::sin(turn) * along));
+    const Eigen::Rotation2Dd turn(2.0 * std::numbers::pi * i / kPoints);
+    const auto pixel = pixel_of(camera, middle_m + circle_m * (turn.toRotationMatrix()(0, 0) * across +
+                                                               turn.toRotationMatrix()(1, 0) * along));
     if (!pixel) return std::nullopt;
     extent.least = extent.least.cwiseMin(*pixel);
     extent.most = extent.most.cwiseMax(*pixel);

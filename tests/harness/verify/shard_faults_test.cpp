@@ -162,8 +162,7 @@ void write_nan(const PlantedSet& set) {
 constexpr ShardCase kShardCases[] = {
     {"bit_of_a_picture", flip_bit_of_picture,
      "bend_0-000000.tar/bend_0_000003.left.png: frame bend_0_000003: "},
-    {"bit_of_a_header", flip_bit_of_header,
-     "expected the header of a member, or its sum is wrong"},
+    {"bit_of_a_header", flip_bit_of_header, "expected the header of a member, or its sum is wrong"},
     {"cut_short", cut_short, "bend_0-000000.tar: the archive is cut short: bend_0_000007.right.png has"},
     {"no_end", leave_out_the_end, "bend_0-000000.tar: the archive is cut short: expected its end"},
     {"lost_member", lose_a_picture,

@@ -4,7 +4,9 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -146,6 +148,11 @@ constexpr LimitFault kLimitFaults[] = {
        set.write("Robot1_Groundtruth.dat", text);
      }}};
 
+/// Limits beyond which a cause is only looked for: corners of clean sets go beyond them, and no cause mends
+/// that.
+constexpr std::array<std::string_view, 2> kLooksForCauses = {
+    "corners of the left picture in the right one", "corners of a picture in the next one, against poses"};
+
 /// What some limits were nearest to, and in which set.
 struct Reached {
   double share = 0.0;
@@ -213,7 +220,8 @@ int measure() {
     const auto most = verified(set.path(""), fault.format).margins.most();
     const double share = most.contains(fault.limit) ? most.at(fault.limit) : 0.0;
     const Reached& without = clean[fault.limit];
-    is_apart &= without.share < 1.0 && share > 1.0;
+    const bool is_for_causes = std::ranges::find(kLooksForCauses, fault.limit) != kLooksForCauses.end();
+    is_apart &= (is_for_causes || without.share < 1.0) && share > 1.0;
     planted.insert(fault.limit);
     fmt::print("| {} | {:.2g} | {} | {:.3g} | {}, {} |\n", fault.limit, without.share, without.where, share,
                fault.fault, fault.format);

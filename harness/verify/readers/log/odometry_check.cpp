@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -29,7 +30,7 @@ constexpr std::array kVelocityFactors = {
 const VelocityFactor& factor_of(double ratio) {
   const auto off = [&](const VelocityFactor& one) {
     const double quotient = ratio / one.factor;
-    return quotient > 0.0 ? std::abs(std::log(quotient)) : std::numeric_limits<double>::infinity();
+    return quotient > 0.0 ? std::max(quotient, 1.0 / quotient) : std::numeric_limits<double>::infinity();
   };
   const VelocityFactor* best = &kVelocityFactors.front();
   for (const VelocityFactor& one : kVelocityFactors)
@@ -63,7 +64,8 @@ void check_odometry(DatasetView& view, const MrclamRobot& robot) {
     const double turn_rad = slam::wrap_angle(to->heading_rad - from->heading_rad);
     const double along_rad = from->heading_rad + 0.5 * turn_rad;
     const double v_mps =
-        (std::cos(along_rad) * (to->x_m - from->x_m) + std::sin(along_rad) * (to->y_m - from->y_m)) / lasts_s;
+        (Eigen::Rotation2Dd(-along_rad) * Eigen::Vector2d(to->x_m - from->x_m, to->y_m - from->y_m)).x() /
+        lasts_s;
     if (std::abs(v_mps) > kLeast_mps) forward.push_back(now.v_mps / v_mps);
     if (std::abs(turn_rad / lasts_s) > kLeast_radps) turning.push_back(now.w_radps * lasts_s / turn_rad);
   }

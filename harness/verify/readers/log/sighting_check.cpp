@@ -71,7 +71,7 @@ double off_landmark_m(const SightingClaim& claim, Eigen::Vector2d place_m) {
   const Eigen::Vector2d expected = slam::predict_sighting(claim.pose, claim.landmark_scale * place_m);
   const double turn_rad = slam::wrap_angle(claim.bearing_rad - expected[1]);
   // Across by the arc: a chord would forgive what is seen behind.
-  return std::hypot(claim.range_m - expected[0], expected[0] * turn_rad);
+  return Eigen::Vector2d(claim.range_m - expected[0], expected[0] * turn_rad).norm();
 }
 
 /// A sighting that true poses and landmarks say something of.

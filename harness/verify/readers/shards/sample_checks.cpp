@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "slam/math/elementary.h"
 #include "vision/camera/rig.h"
 
 namespace stereobench::harness {
@@ -27,7 +28,7 @@ std::string difference(const Eigen::Isometry3d& one, const Eigen::Isometry3d& ot
   const Eigen::Isometry3d apart = other.inverse() * one;
   const Eigen::Quaterniond turn(apart.linear());
   return fmt::format("{:.3g} m and {:.2g} deg", apart.translation().norm(),
-                     kDegrees * 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w())));
+                     kDegrees * 2.0 * slam::arc_tangent(turn.vec().norm(), std::abs(turn.w())));
 }
 
 /// What a check says of a sample; empty where it is as it should be.

@@ -135,7 +135,8 @@ DatasetView read_webdataset_view(const fs::path& folder) {
     std::optional<ShardSample> said = said_of(view, files);
     samples.push_back({std::move(files), std::move(said)});
   }
-  view.has_calibration = std::ranges::any_of(samples, [](const auto& sample) { return sample.said.has_value(); });
+  view.has_calibration =
+      std::ranges::any_of(samples, [](const auto& sample) { return sample.said.has_value(); });
   const std::string jsons = samples.empty() ? "" : samples.front().files.shard + "/*.json";
   view.calibration_file = view.poses_file = jsons;
   view.pictures_file = samples.empty() ? "" : samples.front().files.shard + "/*.png";
