@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/verify/checks/checks.h"
+#include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 namespace {
@@ -28,9 +29,8 @@ std::optional<Extent> outline_of(const ViewCamera& camera, const Eigen::Vector3d
   const Eigen::Vector3d across = centre_m.unitOrthogonal(), along = centre_m.normalized().cross(across);
   Extent extent;
   for (int i = 0; i < kPoints; ++i) {
-    const Eigen::Rotation2Dd turn(2.0 * std::numbers::pi * i / kPoints);
-    const auto pixel = pixel_of(camera, middle_m + circle_m * (turn.toRotationMatrix()(0, 0) * across +
-                                                               turn.toRotationMatrix()(1, 0) * along));
+    const auto [sine_of, cosine_of] = slam::sine_cosine(2.0 * std::numbers::pi * i / kPoints);
+    const auto pixel = pixel_of(camera, middle_m + circle_m * (cosine_of * across + sine_of * along));
     if (!pixel) return std::nullopt;
     extent.least = extent.least.cwiseMin(*pixel);
     extent.most = extent.most.cwiseMax(*pixel);

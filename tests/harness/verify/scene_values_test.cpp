@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 // The camera of Nerfstudio looks along its -z, with y up: ours along +z, with y down. Without cx and cy the
 // middle of the picture is meant, which is between the pixels 31 and 32 of 64.
-// Mutations tried: y or z not turned; half a pixel not taken off; the width's half for the height's.
+// Mutations tried: y not turned; half a pixel not taken off; the width's half for the height's.
 TEST(NerfstudioValues, HaveOurAxesAndTheMiddleOfThePicture) {
   const TestFolder set;
   set.write("images/a.png", encoded(".png", cv::Mat::zeros(48, 64, CV_8UC3)));
