@@ -62,22 +62,6 @@ Json rig_json(const vision::StereoRig& rig) {
   return json;
 }
 
-vision::StereoRig rig_from(const JsonValue& json) {
-  constexpr std::int64_t kLongest_px = 1 << 15;
-  constexpr double kMostTurn_rad = 4.0;
-  vision::StereoRig rig;
-  rig.intrinsics.width_px = static_cast<int>(json.at("width_px").integer(1, kLongest_px));
-  rig.intrinsics.height_px = static_cast<int>(json.at("height_px").integer(1, kLongest_px));
-  read_numbers(json, kIntrinsics, rig.intrinsics);
-  read_numbers(json, kMounting, rig);
-  const auto turn = json.at("right_turn_rad").list(3, 3);
-  for (std::size_t i = 0; i < 3; ++i)
-    rig.right_turn_rad[static_cast<int>(i)] = turn[i].number(-kMostTurn_rad, kMostTurn_rad);
-  read_numbers(json.at("lens"), kLens, rig.distortion);
-  if (!vision::is_usable(rig)) json.refuse("a rig that can be computed with");
-  return rig;
-}
-
 /// As scenarios have: folders are called so.
 bool is_name(const std::string& text) {
   constexpr std::size_t kLongest = 64;
@@ -95,6 +79,22 @@ Json drive_json(const DatasetDrive& drive) {
           {"shutter", numbers_json(drive.shutter, kShutter)}};
 }
 
+vision::StereoRig read_rig(const JsonValue& json) {
+  constexpr std::int64_t kLongest_px = 1 << 15;
+  constexpr double kMostTurn_rad = 4.0;
+  vision::StereoRig rig;
+  rig.intrinsics.width_px = static_cast<int>(json.at("width_px").integer(1, kLongest_px));
+  rig.intrinsics.height_px = static_cast<int>(json.at("height_px").integer(1, kLongest_px));
+  read_numbers(json, kIntrinsics, rig.intrinsics);
+  read_numbers(json, kMounting, rig);
+  const auto turn = json.at("right_turn_rad").list(3, 3);
+  for (std::size_t i = 0; i < 3; ++i)
+    rig.right_turn_rad[static_cast<int>(i)] = turn[i].number(-kMostTurn_rad, kMostTurn_rad);
+  read_numbers(json.at("lens"), kLens, rig.distortion);
+  if (!vision::is_usable(rig)) json.refuse("a rig that can be computed with");
+  return rig;
+}
+
 void read_drive(const JsonValue& json, DatasetDrive& drive) {
   drive.name = json.at("name").text();
   if (!is_name(drive.name)) json.at("name").refuse("a name of small letters, digits and _, at most 64");
@@ -102,8 +102,8 @@ void read_drive(const JsonValue& json, DatasetDrive& drive) {
   const auto* const known = std::ranges::find(kEncodings, encoding);
   if (known == kEncodings.end()) json.at("encoding").refuse("linear, srgb or gamma");
   drive.encoding = static_cast<worlds::Encoding>(known - kEncodings.begin());
-  drive.rig = rig_from(json.at("rig"));
-  drive.believed_rig = rig_from(json.at("believed_rig"));
+  drive.rig = read_rig(json.at("rig"));
+  drive.believed_rig = read_rig(json.at("believed_rig"));
   read_numbers(json.at("shutter"), kShutter, drive.shutter);
 }
 

@@ -25,13 +25,9 @@ struct ImportArguments {
 const DatasetReader& foreign_reader(const ImportArguments& arguments) {
   const DatasetReader& reader =
       arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
-  if (reader.format == "plain")
-    throw std::runtime_error(fmt::format(
-        "{}: is of the format plain, which `detect` and `slam` read as it is", arguments.folder.string()));
-  if (!reader.has_rig)
+  if (!reader.not_imported.empty())
     throw std::runtime_error(
-        fmt::format("{}: the format {} does not say how two cameras are mounted; expected a layout of a rig",
-                    arguments.folder.string(), reader.format));
+        fmt::format("{}: the format {} {}", arguments.folder.string(), reader.format, reader.not_imported));
   return reader;
 }
 

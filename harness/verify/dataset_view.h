@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "harness/verify/margins.h"
 #include "vision/types.h"
 
 namespace stereobench::harness {
@@ -139,6 +140,7 @@ struct DatasetView {
   std::vector<Fault> faults;         ///< that were found while reading
   std::vector<std::string> checked;  ///< what readers have compared, for the summary
   std::vector<std::string> cannot;   ///< what nothing in the folder can be held against, and why
+  Margins margins;                   ///< of what readers have compared
 };
 
 inline std::size_t index_of(vision::Side side) {

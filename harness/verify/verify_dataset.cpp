@@ -40,7 +40,8 @@ cv::Mat load(const DatasetView& view, const ViewFrame& frame, Side side, Channel
   }
 }
 
-std::unique_ptr<LoadedFrame> load(const DatasetView& view, std::size_t index, std::vector<Fault>& faults) {
+std::unique_ptr<LoadedFrame> load(const DatasetView& view, std::size_t index, Margins& margins,
+                                  std::vector<Fault>& faults) {
   auto loaded = std::make_unique<LoadedFrame>();
   loaded->index = index;
   const ViewFrame& frame = view.frames[index];
@@ -53,28 +54,29 @@ std::unique_ptr<LoadedFrame> load(const DatasetView& view, std::size_t index, st
     loaded->ball_id[i] = load(view, frame, side, Channel::kBallId, faults);
     loaded->next_picture[i] = load(view, frame, side, Channel::kNextPicture, faults);
     const cv::Mat range_m = load(view, frame, side, Channel::kRange, faults);
-    if (!range_m.empty()) append(faults, check_range(view, *loaded, range_m, side));
+    if (!range_m.empty()) append(faults, check_range(view, *loaded, range_m, side, margins));
   }
   loaded->next_disparity_px = load(view, frame, Side::kLeft, Channel::kNextDisparity, faults);
   append(faults, check_pictures(view, *loaded));
-  append(faults, check_boxes(view, *loaded));
+  append(faults, check_boxes(view, *loaded, margins));
+  append(faults, check_outlines(view, frame, margins));
   append(faults, check_parts(view, *loaded));
-  append(faults, check_next_instant(view, *loaded));
+  append(faults, check_next_instant(view, *loaded, margins));
   return loaded;
 }
 
 /// Reads all frames once, three at a time. @return the links of all
-std::vector<Link> walk(const DatasetView& view, std::vector<Fault>& faults,
+std::vector<Link> walk(const DatasetView& view, Margins& margins, std::vector<Fault>& faults,
                        const std::function<void(double)>& on_progress) {
   const std::size_t count = view.frames.size();
   const std::size_t points = std::clamp<std::size_t>(kMostPoints / std::max<std::size_t>(1, count), 8, 200);
   const std::size_t corners = std::clamp<std::size_t>(kMostCorners / std::max<std::size_t>(1, count), 6, 120);
   std::vector<Link> links;
   std::unique_ptr<LoadedFrame> before, now, after;
-  if (count > 0) now = load(view, 0, faults);
+  if (count > 0) now = load(view, 0, margins, faults);
   for (std::size_t i = 0; i < count; ++i) {
     on_progress(static_cast<double>(i) / static_cast<double>(count));
-    after = i + 1 < count ? load(view, i + 1, faults) : nullptr;
+    after = i + 1 < count ? load(view, i + 1, margins, faults) : nullptr;
     const Neighbourhood frames = {before.get(), now.get(), after.get()};
     if (view.has_calibration) {
       add_file_links(view, frames, points, links);
@@ -110,14 +112,15 @@ Verification verify_dataset(const std::filesystem::path& folder, const DatasetRe
   if (view.frames.empty() && view.faults.empty())
     throw std::runtime_error(fmt::format("{}: expected a data set of the format {} (it has no frames)",
                                          folder.string(), reader.format));
-  Verification result = {.format = view.format, .faults = {}, .checked = {}, .cannot = view.cannot};
+  Verification result = {
+      .format = view.format, .faults = {}, .checked = {}, .cannot = view.cannot, .margins = view.margins};
   ChecksumResult checksums = check_checksums(folder);
   append(result.faults, std::move(checksums.faults));
   append(result.faults, view.faults);
   append(result.faults, check_stamps(view));
-  append(result.faults, check_poses(view));
-  const std::vector<Link> links = walk(view, result.faults, on_progress);
-  append(result.faults, diagnose(view, links));
+  append(result.faults, check_poses(view, result.margins));
+  const std::vector<Link> links = walk(view, result.margins, result.faults, on_progress);
+  append(result.faults, diagnose(view, links, result.margins));
   leave_out_repeated(result.faults);
   result.checked.push_back(fmt::format("{} frames", view.frames.size()));
   if (checksums.files > 0) result.checked.push_back(fmt::format("{} files by SHA-256", checksums.files));

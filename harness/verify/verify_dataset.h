@@ -16,6 +16,7 @@ struct Verification {
   std::vector<Fault> faults;         ///< each once, in the order in which they were found
   std::vector<std::string> checked;  ///< "12 files by SHA-256", "flow against depth and poses (512 points)"
   std::vector<std::string> cannot;   ///< what nothing in the folder can be held against, and why
+  Margins margins;                   ///< for studies of the limits
 };
 
 /// Checks a folder.

@@ -46,7 +46,7 @@ std::string text(const cv::Rect& box) {
 
 /// What is wrong with what a file says of one ball's visible pixels; empty where nothing is.
 /// @param shown "no pixel of the identities", "the identities": where the pixels are from
-std::string wrong_with(const ViewBallTruth& said, const SeenBall& seen, const char* shown) {
+std::string wrong_with(const ViewBallTruth& said, const SeenBall& seen, const char* shown, Margins& margins) {
   if (seen.pixels == 0 && (!said.bbox_visib.empty() || said.px_count_visib != 0))
     return fmt::format("ball {}: box {} and {} pixels of a hidden ball: no pixel of the {} shows it",
                        said.ball, text(said.bbox_visib), said.px_count_visib, shown);
@@ -60,7 +60,7 @@ std::string wrong_with(const ViewBallTruth& said, const SeenBall& seen, const ch
                            ? static_cast<double>(said.px_count_visib) / static_cast<double>(said.px_count_all)
                            : 0.0;
   constexpr double kRounding = 1e-3;
-  if (said.visib_fract && std::abs(*said.visib_fract - share) > kRounding)
+  if (said.visib_fract && margins.is_beyond("visib_fract", std::abs(*said.visib_fract - share), kRounding))
     return fmt::format("ball {}: visib_fract is {:.6g}, and px_count_visib / px_count_all {:.6g}", said.ball,
                        *said.visib_fract, share);
   return {};
@@ -103,21 +103,21 @@ std::string wrong_with_whole(const ViewBallTruth& said, const cv::Mat& visible, 
 
 /// One ball that has masks of its own.
 void check_masks(const ViewBallTruth& said, const cv::Size& size, const BallsFile& file,
-                 const std::string& frame, std::vector<Fault>& faults) {
+                 const std::string& frame, Margins& margins, std::vector<Fault>& faults) {
   std::optional<cv::Mat> visible, whole;
   if (said.visible_mask) visible = pixels_of(*said.visible_mask, size, frame, faults);
   if (said.whole_mask) whole = pixels_of(*said.whole_mask, visible ? visible->size() : size, frame, faults);
   std::string wrong;
-  if (visible) wrong = wrong_with(said, seen_in(*visible), "mask");
+  if (visible) wrong = wrong_with(said, seen_in(*visible), "mask", margins);
   if (whole && wrong.empty()) wrong = wrong_with_whole(said, visible.value_or(cv::Mat()), *whole);
   if (!wrong.empty()) faults.push_back({file.file, frame, wrong});
 }
 
-void check_identities(const ViewFrame& frame, const BallsFile& file, const cv::Mat& ids,
+void check_identities(const ViewFrame& frame, const BallsFile& file, const cv::Mat& ids, Margins& margins,
                       std::vector<Fault>& faults) {
   std::map<int, SeenBall> seen = seen_balls(ids);
   for (const ViewBallTruth& said : file.balls) {
-    const std::string wrong = wrong_with(said, seen[said.ball], "picture of identities");
+    const std::string wrong = wrong_with(said, seen[said.ball], "picture of identities", margins);
     if (!wrong.empty()) faults.push_back({file.file, frame.name, wrong});
     seen.erase(said.ball);
   }
@@ -129,7 +129,7 @@ void check_identities(const ViewFrame& frame, const BallsFile& file, const cv::M
 
 }  // namespace
 
-std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& loaded) {
+std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& loaded, Margins& margins) {
   std::vector<Fault> faults;
   const ViewFrame& frame = view.frames[loaded.index];
   for (std::size_t side = 0; side < 2; ++side) {
@@ -139,10 +139,10 @@ std::vector<Fault> check_boxes(const DatasetView& view, const LoadedFrame& loade
     for (const ViewBallTruth& said : file.balls) {
       if (!said.visible_mask && !said.whole_mask) continue;
       has_masks = true;
-      check_masks(said, loaded.picture[side].size(), file, frame.name, faults);
+      check_masks(said, loaded.picture[side].size(), file, frame.name, margins, faults);
     }
     if (!has_masks && !loaded.ball_id[side].empty())
-      check_identities(frame, file, loaded.ball_id[side], faults);
+      check_identities(frame, file, loaded.ball_id[side], margins, faults);
   }
   return faults;
 }

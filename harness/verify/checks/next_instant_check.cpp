@@ -135,7 +135,7 @@ std::optional<double> off_second_picture_px(const LoadedFrame& loaded, Side side
 
 }  // namespace
 
-std::vector<Fault> check_next_instant(const DatasetView& view, const LoadedFrame& loaded) {
+std::vector<Fault> check_next_instant(const DatasetView& view, const LoadedFrame& loaded, Margins& margins) {
   constexpr std::size_t kFewest = 50;
   constexpr double kRigid_px = 0.5;  // levels of KITTI's files are 1/64 px
   std::vector<Fault> faults;
@@ -148,14 +148,15 @@ std::vector<Fault> check_next_instant(const DatasetView& view, const LoadedFrame
       pair.focal_px > 0.0 && pair.baseline_m > 0.0) {
     const std::vector<MovedPoint> points = moved_points(pair, loaded);
     const double off = points.size() < kFewest ? 0.0 : off_rigid_motion_px(pair, points);
-    if (off > kRigid_px)
+    if (margins.is_beyond("rigid motion of flow and disparities", off, kRigid_px))
       faults.push_back({file, frame.name,
                         fmt::format("flow and both disparities are of no rigid motion: {:.3g} px off in the "
                                     "middle of {} points",
                                     off, points.size())});
   }
   for (const Side side : {Side::kLeft, Side::kRight})
-    if (const auto off = off_second_picture_px(loaded, side); off && *off > kGross_px)
+    if (const auto off = off_second_picture_px(loaded, side);
+        off && margins.is_beyond("corners of the second pair", *off, kGross_px))
       faults.push_back({find_channel(frame, side, Channel::kNextPicture)->file, frame.name,
                         fmt::format("corners of the first picture are {:.3g} px off where {} leads to", *off,
                                     side == Side::kLeft ? file : "flow and the next disparity")});

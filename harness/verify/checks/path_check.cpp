@@ -14,21 +14,26 @@ std::string place_in_file(const ViewPose& pose) {
   return pose.name.empty() ? fmt::format("line {}", pose.line) : pose.name;
 }
 
+/// Whether a pose follows the one that is listed before it: files of several drives or robots do not.
+bool is_next(const std::vector<ViewPose>& poses, std::size_t i) {
+  return poses[i].file == poses[i - 1].file;
+}
+
 /// How far a matrix is from a rotation.
 double skew_of(const Eigen::Matrix4d& matrix) {
   const Eigen::Matrix3d turn = matrix.topLeftCorner<3, 3>();
   return (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-void check_rigid(const DatasetView& view, std::vector<Fault>& faults) {
+void check_rigid(const DatasetView& view, Margins& margins, std::vector<Fault>& faults) {
   // Nine numbers of d decimals make products that are off by some of their last units.
   const double tolerance = 1e-6 + 8.0 * view.turn_precision;
   for (const ViewPose& pose : view.poses) {
-    if (std::abs(pose.quaternion_norm - 1.0) > tolerance)
+    if (margins.is_beyond("length of a quaternion", std::abs(pose.quaternion_norm - 1.0), tolerance))
       faults.push_back({pose.file, "",
                         fmt::format("{}: the quaternion has length {:.6g}: expected 1", place_in_file(pose),
                                     pose.quaternion_norm)});
-    if (skew_of(pose.matrix) > tolerance)
+    if (margins.is_beyond("rotation that is none", skew_of(pose.matrix), tolerance))
       faults.push_back(
           {pose.file, "",
            fmt::format("{}: the rotation is none: its columns are off a unit or a right angle by "
@@ -40,7 +45,7 @@ void check_rigid(const DatasetView& view, std::vector<Fault>& faults) {
 }
 
 /// A way that is much longer than its neighbours in both directions: there and back.
-void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
+void check_continuous(const DatasetView& view, Margins& margins, std::vector<Fault>& faults) {
   constexpr double kLeap = 50.0, kLeast_m = 1.0;
   std::vector<double> ways_m;
   for (std::size_t i = 0; i + 1 < view.poses.size(); ++i)
@@ -50,7 +55,8 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
   std::ranges::sort(sorted);
   const double usual_m = sorted[sorted.size() / 2];
   for (std::size_t i = 0; i < ways_m.size(); ++i)
-    if (ways_m[i] > kLeast_m && ways_m[i] > kLeap * usual_m)
+    if (is_next(view.poses, i + 1) &&
+        margins.is_beyond("leap of poses", ways_m[i], std::max(kLeast_m, kLeap * usual_m)))
       faults.push_back({view.poses[i + 1].file, "",
                         fmt::format("{}: the pose leaps by {:.3g} m, where {:.3g} m are usual",
                                     place_in_file(view.poses[i + 1]), ways_m[i], usual_m)});
@@ -58,10 +64,10 @@ void check_continuous(const DatasetView& view, std::vector<Fault>& faults) {
 
 }  // namespace
 
-std::vector<Fault> check_poses(const DatasetView& view) {
+std::vector<Fault> check_poses(const DatasetView& view, Margins& margins) {
   std::vector<Fault> faults;
-  check_rigid(view, faults);
-  if (view.poses_are_a_way) check_continuous(view, faults);
+  check_rigid(view, margins, faults);
+  if (view.poses_are_a_way) check_continuous(view, margins, faults);
   return faults;
 }
 
@@ -74,13 +80,14 @@ std::vector<Fault> check_stamps(const DatasetView& view) {
       faults.push_back(
           {view.pictures_file, frame.name,
            fmt::format("the right picture is of {} ns, the left one of {} ns", *stamps[1], *stamps[0])});
-    if (i > 0 && stamps[0] && view.frames[i - 1].stamp_ns[0] && *stamps[0] <= *view.frames[i - 1].stamp_ns[0])
+    if (i > 0 && view.frames[i - 1].drive_goes_on && stamps[0] && view.frames[i - 1].stamp_ns[0] &&
+        *stamps[0] <= *view.frames[i - 1].stamp_ns[0])
       faults.push_back({view.pictures_file, frame.name,
                         fmt::format("time {} ns is not after that of the frame before, {} ns", *stamps[0],
                                     *view.frames[i - 1].stamp_ns[0])});
   }
   for (std::size_t i = 1; i < view.poses.size(); ++i)
-    if (view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
+    if (is_next(view.poses, i) && view.poses[i].stamp_ns && view.poses[i - 1].stamp_ns &&
         *view.poses[i].stamp_ns <= *view.poses[i - 1].stamp_ns)
       faults.push_back({view.poses[i].file, "",
                         fmt::format("{}: time {} ns is not after that of the one before",

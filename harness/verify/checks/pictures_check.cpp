@@ -61,7 +61,7 @@ std::vector<Fault> check_pictures(const DatasetView& view, const LoadedFrame& lo
 }
 
 std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loaded, const cv::Mat& range_m,
-                               Side side) {
+                               Side side, Margins& margins) {
   const ViewFrame& frame = view.frames[loaded.index];
   const cv::Mat& depth_m = loaded.depth_m[index_of(side)];
   if (depth_m.empty() || depth_m.size() != range_m.size()) return {};
@@ -75,7 +75,8 @@ std::vector<Fault> check_range(const DatasetView& view, const LoadedFrame& loade
       if (!std::isfinite(range) || !std::isfinite(depth) || !ray) continue;
       ++all;
       const double share = kFloat + depth_beside(frame.cameras[index_of(side)], depth_m, {u, v});
-      if (std::abs(depth * ray->norm() - range) > share * range) ++off;
+      if (margins.is_beyond("range against depth", std::abs(depth * ray->norm() - range), share * range))
+        ++off;
     }
   if (2 * off <= all) return {};
   return {

@@ -44,10 +44,9 @@ struct Amount {
 
 /// The amount that leaves the least sum of residuals: each link votes for one, as heavily as it depends on
 /// it.
-Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links,
-              double start = 0.0) {
+Amount fitted(const Claims& claims, const Hypothesis& cause, const std::vector<Link>& links) {
   constexpr int kRounds = 3;
-  Amount amount = {.value = start};
+  Amount amount;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Slope> slopes = slopes_of(claims, cause, amount.value, links);
     if (slopes.empty()) return {};
@@ -156,18 +155,14 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
   std::vector<Explanation> all;
   for (const Hypothesis& cause : causes) {
     if (!applies(view, cause)) continue;
-    std::optional<Explanation> best;
-    for (const double start : cause.starts) {
-      Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
-      if (cause.has_amount) one.amount = fitted(claims, cause, links, start);
-      if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
-      cause.undo(one.claims, one.amount.value);
-      const Comparison change = compared(claims, one.claims, links);
-      one.mended = mended_by(before, change);
-      one.left = disagreement(change.after, before);
-      if (one.mended > 0 && (!best || one.left < best->left)) best = std::move(one);
-    }
-    if (best) all.push_back(std::move(*best));
+    Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
+    if (cause.has_amount) one.amount = fitted(claims, cause, links);
+    if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
+    cause.undo(one.claims, one.amount.value);
+    const Comparison change = compared(claims, one.claims, links);
+    one.mended = mended_by(before, change);
+    one.left = disagreement(change.after, before);
+    if (one.mended > 0) all.push_back(std::move(one));
   }
   if (all.empty()) return std::nullopt;
   const int most = std::ranges::max_element(all, {}, &Explanation::mended)->mended;
@@ -221,7 +216,7 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
 
 /// What corners say of amounts that are too small to be seen in any one of them.
 void find_small_amounts(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
-                        std::vector<Fault>& faults) {
+                        Margins& margins, std::vector<Fault>& faults) {
   constexpr double kSure = 8.0, kGain = 0.97, kGainOfCertain = 0.75;
   constexpr std::size_t kLeast = 60;
   // What comes nearer grows, unevenly within the patch that is searched: all of a floor seems to move on.
@@ -239,14 +234,17 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
     Explanation one = {.cause = &cause, .amount = {}, .claims = claims};
     if (cause.has_amount) one.amount = fitted(claims, cause, corners);
     const double value = std::abs(one.amount.value);
-    if (cause.has_amount &&
-        (value < cause.least || value < kSure * one.amount.sd || one.amount.moves_px < kCommonError_px))
-      continue;
+    // A small amount has to be beyond all three limits: the one that it is nearest to counts.
+    const double beyond = std::min(
+        {value / cause.least, value / (kSure * one.amount.sd), one.amount.moves_px / kCommonError_px});
+    if (cause.has_amount && !margins.is_beyond("amount by corners", beyond, 1.0)) continue;
     cause.undo(one.claims, one.amount.value);
     const Comparison change = compared(claims, one.claims, corners);
     if (change.before.empty()) continue;
     one.left = disagreement(change.after, {}) / disagreement(change.before, {});
-    if (one.left < (cause.has_amount ? kGain : kGainOfCertain)) all.push_back(std::move(one));
+    const double gain = (1.0 - one.left) / (1.0 - (cause.has_amount ? kGain : kGainOfCertain));
+    if (margins.is_beyond(cause.has_amount ? "gain of an amount" : "gain of a cause", gain, 1.0))
+      all.push_back(std::move(one));
   }
   if (all.empty()) return;
   const Explanation best = first_of_best(std::move(all));
@@ -284,7 +282,7 @@ std::string file_of(const DatasetView& view, const Link& link) {
 
 /// Frames that are off alone: half of a frame's links of a kind.
 void find_single_frames(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
-                        std::vector<Fault>& faults) {
+                        Margins& margins, std::vector<Fault>& faults) {
   constexpr std::size_t kFewestExact = 1, kFewestMeasured = 8;
   constexpr double kGrossAlone_px = 3.0;
   std::map<std::tuple<std::size_t, vision::Side, LinkKind>, std::vector<const Link*>> groups;
@@ -300,7 +298,10 @@ void find_single_frames(const DatasetView& view, const Claims& claims, const std
         tolerances.push_back(residual->norm() / link->tolerance_px);
       }
     if (px.size() < (is_measured(kind) ? kFewestMeasured : kFewestExact)) continue;
-    if (is_measured(kind) ? median(px) <= kGrossAlone_px : median(tolerances) <= 1.0) continue;
+    const double share = is_measured(kind) ? median(px) / kGrossAlone_px : median(tolerances);
+    if (!margins.is_beyond(is_measured(kind) ? "corners of a single frame" : "files of a single frame", share,
+                           1.0))
+      continue;
     faults.push_back({file_of(view, *group.front()), view.frames[std::get<0>(key)].name,
                       fmt::format("{}: {:.3g} px off in the middle of {} points, where other frames agree",
                                   name_of(kind), median(px), px.size())});
@@ -309,11 +310,13 @@ void find_single_frames(const DatasetView& view, const Claims& claims, const std
 
 }  // namespace
 
-std::vector<Fault> diagnose(const DatasetView& view, const std::vector<Link>& links) {
+std::vector<Fault> diagnose(const DatasetView& view, const std::vector<Link>& links, Margins& margins) {
   std::vector<Fault> faults;
+  for (const auto& [kind, residuals] : residuals_of(claims_of(view), links))
+    margins.is_beyond(std::string(name_of(kind)), share_of_limit(kind, residuals, kMostLinks), 1.0);
   const Claims claims = explain(view, links, faults);
-  find_single_frames(view, claims, links, faults);
-  if (faults.empty()) find_small_amounts(view, claims, links, faults);
+  find_single_frames(view, claims, links, margins, faults);
+  if (faults.empty()) find_small_amounts(view, claims, links, margins, faults);
   return faults;
 }
 

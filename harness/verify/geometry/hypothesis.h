@@ -23,8 +23,7 @@ struct Hypothesis {
   /// Whose poses it can be wrong in.
   std::set<PosesOf> poses_of = {PosesOf::kBody, PosesOf::kLeftCamera, PosesOf::kEachCamera};
   bool has_amount = false;
-  double first_step = 0.0;             ///< of the search for the amount
-  std::vector<double> starts = {0.0};  ///< of the search: amounts that are likely, and far from each other
+  double first_step = 0.0;   ///< of the search for the amount
   double least = 0.0;        ///< a smaller amount is no fault: what a calibration by pictures may be off
   const char* unit = "";     ///< of the amount in messages
   double shown_scale = 1.0;  ///< messages show the amount times this

@@ -39,8 +39,10 @@ std::optional<Vector3d> triangulated(const Eigen::Isometry3d& other_from_camera,
   return z_m * ray;
 }
 
-/// The frame whose file a link's depth comes from.
+/// The frame whose file a link's depth comes from. Two corners of one pair are of the same instant, whichever
+/// it is.
 std::size_t instant_of(const Claims& claims, const Link& link) {
+  if (link.mate_is_measured) return kNow;
   if (claims.depth_instant != kNow || !is_measured(link.kind) || claims.picture_shift == 0)
     return claims.depth_instant;
   return claims.picture_shift < 0 ? kBefore : kAfter;
@@ -97,9 +99,13 @@ std::size_t frame_of_picture(const Claims& claims, const Link& link, std::size_t
 
 /// From the camera that a link is from to the one that it leads to.
 std::optional<Eigen::Isometry3d> to_from(const Claims& claims, const Link& link) {
-  if (link.from == link.to)
-    return link.from_side == link.to_side ? Eigen::Isometry3d::Identity()
-                                          : other_from(claims.frames[link.from], link.from_side);
+  if (link.from == link.to) {
+    if (link.from_side == link.to_side) return Eigen::Isometry3d::Identity();
+    const Claims::Frame& frame = claims.frames[link.from];
+    const bool has_poses = frame.world_from_body[0] && frame.world_from_body[1];
+    if (claims.poses_are_of_each_camera && !has_poses) return std::nullopt;
+    return other_from(frame, link.from_side);
+  }
   const std::size_t here = frame_of_picture(claims, link, link.from);
   const std::size_t there = frame_of_picture(claims, link, link.to);
   if (std::max(here, there) >= claims.frames.size()) return std::nullopt;

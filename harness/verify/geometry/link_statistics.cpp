@@ -44,15 +44,17 @@ Comparison compared(const Claims& claims, const Claims& changed, const std::vect
   return {residuals_of(claims, common), residuals_of(changed, common)};
 }
 
+double share_of_limit(LinkKind kind, const KindResiduals& residuals, double among) {
+  return is_measured(kind) ? quantile(residuals.length_px, among) / kGross_px
+                           : quantile(residuals.in_tolerances, among);
+}
+
 bool is_suspicious(LinkKind kind, const KindResiduals& residuals) {
-  constexpr double kNineTenths = 0.9;
-  if (is_measured(kind)) return quantile(residuals.length_px, kNineTenths) > kGross_px;
-  return quantile(residuals.in_tolerances, kNineTenths) > 1.0;
+  return share_of_limit(kind, residuals, kMostLinks) > 1.0;
 }
 
 bool is_bad(LinkKind kind, const KindResiduals& residuals) {
-  if (is_measured(kind)) return median(residuals.length_px) > kGross_px;
-  return median(residuals.in_tolerances) > 1.0;
+  return share_of_limit(kind, residuals, kHalfOfLinks) > 1.0;
 }
 
 double disagreement(const Residuals& residuals, const Residuals& otherwise) {

@@ -36,6 +36,13 @@ struct Comparison {
 
 Comparison compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links);
 
+/// Of suspicious kinds, and of bad ones: which share of the links the residual is greater than.
+inline constexpr double kMostLinks = 0.9, kHalfOfLinks = 0.5;
+
+/// What some share of a kind's residuals are below, as a share of what they may be.
+/// @param among of all residuals, from the least on
+double share_of_limit(LinkKind kind, const KindResiduals& residuals, double among);
+
 /// Whether so many links are off that a cause is looked for: those of a few frames are enough.
 bool is_suspicious(LinkKind kind, const KindResiduals& residuals);
 

@@ -23,8 +23,10 @@ std::vector<ViewPose> path_in(DatasetView& view, const std::string& file) {
   }
   for (const std::size_t column : {3U, 7U, 11U})
     view.place_precision_m = std::max(view.place_precision_m, precision_of(table, column, 1));
+  // Rows of a rotation that are whole numbers say nothing of how exact the others are.
   for (const std::size_t column : {0U, 4U, 8U})
-    view.turn_precision = std::max(view.turn_precision, precision_of(table, column, 3));
+    if (const double unit = precision_of(table, column, 3); unit > 0.0)
+      view.turn_precision = view.turn_precision == 0.0 ? unit : std::min(view.turn_precision, unit);
   return path;
 }
 

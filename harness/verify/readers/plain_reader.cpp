@@ -139,18 +139,6 @@ void find_missing(DatasetView& view) {
     view.faults.push_back({kFramesFile, name, "missing frame: there are pictures, and no line that says so"});
 }
 
-/// What dataset.json says of the shutter; folders without it are taken to have whole pictures.
-bool rows_look_apart(const fs::path& folder) {
-  if (!fs::exists(folder / kDatasetJson)) return false;
-  constexpr double kMost = 1e9;
-  return read_json_file(folder / kDatasetJson, [](const JsonValue& json) {
-    const auto drive = json.find("drive");
-    const auto shutter = drive ? drive->find("shutter") : std::nullopt;
-    const auto readout_s = shutter ? shutter->find("readout_s") : std::nullopt;
-    return readout_s && readout_s->number(-kMost, kMost) != 0.0;
-  });
-}
-
 }  // namespace
 
 bool looks_plain(const fs::path& folder) {
@@ -164,7 +152,8 @@ DatasetView read_plain_view(const fs::path& folder) {
   view.depth_file = picture_folder(Side::kLeft, "depth");
   view.pictures_file = picture_folder(Side::kLeft);
   view.poses_of = PosesOf::kBody;
-  read_or_blame(view, kDatasetJson, [&] { view.rows_look_apart = rows_look_apart(folder); });
+  read_or_blame(view, kDatasetJson,
+                [&] { view.rows_look_apart = said_of_shutter(folder, "readout_s") != 0.0; });
   const std::array<ViewCamera, 2> cameras = read_rig_cameras(view, view.calibration_file);
   read_or_blame(view, kBallsFile, [&] {
     for (const worlds::Ball& ball : read_balls(folder).balls)

@@ -10,9 +10,11 @@
 
 #include "harness/verify/readers/euroc_reader.h"
 #include "harness/verify/readers/kitti_readers.h"
+#include "harness/verify/readers/log/mrclam_reader.h"
 #include "harness/verify/readers/plain_reader.h"
 #include "harness/verify/readers/recording/recording_readers.h"
 #include "harness/verify/readers/scene/scene_readers.h"
+#include "harness/verify/readers/shards/webdataset_reader.h"
 #include "harness/verify/readers/stereo_readers.h"
 #include "harness/verify/readers/tum_reader.h"
 #include "harness/verify/readers/vslamlab_reader.h"
@@ -30,9 +32,10 @@ std::vector<std::string_view> known_formats() {
 }  // namespace
 
 std::span<const DatasetReader> dataset_readers() {
-  constexpr bool kRig = true, kNoRig = false;
+  constexpr const char* kImported = "";
+  constexpr const char* kNoRig = "does not say how two cameras are mounted; expected a layout of a rig";
   static constexpr std::array kReaders = {
-      DatasetReader{"plain", looks_plain, read_plain_view},
+      DatasetReader{"plain", looks_plain, read_plain_view, "is what `detect` and `slam` read as it is"},
       DatasetReader{"euroc", looks_like_euroc, read_euroc_view},
       DatasetReader{"kitti-odometry", looks_like_kitti_odometry, read_kitti_odometry_view},
       DatasetReader{"kitti-stereo-2012", looks_like_kitti_stereo_2012, read_kitti_stereo_2012_view},
@@ -47,8 +50,12 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view, kNoRig},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
-      DatasetReader{"rosbag", looks_like_rosbag, read_rosbag_view, kRig, read_rosbag_log},
-      DatasetReader{"mcap", looks_like_mcap, read_mcap_view, kRig, read_mcap_log},
+      DatasetReader{"rosbag", looks_like_rosbag, read_rosbag_view, kImported, read_rosbag_log},
+      DatasetReader{"mcap", looks_like_mcap, read_mcap_view, kImported, read_mcap_log},
+      DatasetReader{"webdataset", looks_like_webdataset, read_webdataset_view,
+                    "has its pictures in archives; unpack them, or render another format"},
+      DatasetReader{"mrclam", looks_like_mrclam, read_mrclam_view,
+                    "has no pictures; `slam` reads it as it is"},
   };
   return kReaders;
 }

@@ -18,9 +18,8 @@ struct DatasetReader {
   /// @throws std::runtime_error, one line, where nothing of the folder can be read. What is wrong with single
   ///   files is a fault.
   DatasetView (*read)(const std::filesystem::path& folder);
-  /// Whether it says how two cameras are mounted; else pictures have a pose each, as if all cameras were
-  /// apart.
-  bool has_rig = true;
+  /// Why `import` does not read it, after "the format NAME"; empty where it does.
+  std::string_view not_imported;
   /// Reads the odometry, with what was seen and the true path where they are there, but no instants; null
   /// where the format has none. @throws std::runtime_error as `read`
   RecordedStreams (*read_log)(const std::filesystem::path& folder) = nullptr;

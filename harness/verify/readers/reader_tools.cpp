@@ -7,6 +7,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "harness/dataset/drive_json.h"
+#include "harness/io/file_list.h"
+#include "harness/io/json_file.h"
 #include "harness/verify/channel_files.h"
 
 namespace stereobench::harness {
@@ -21,7 +24,10 @@ void read_or_blame(DatasetView& view, const std::string& file, const std::functi
     std::string what = error.what();
     const std::string path = (view.folder / file).string();
     if (what.starts_with(path)) what.erase(0, path.size());
-    if (what.starts_with(": ")) what.erase(0, 2);
+    if (what.starts_with(": "))
+      what.erase(0, 2);
+    else if (what.starts_with(":"))  // a line's number follows
+      what.replace(0, 1, "line ");
     view.faults.push_back({file, "", what});
   }
 }
@@ -132,6 +138,17 @@ Eigen::Isometry3d as_rigid(const Eigen::Matrix4d& matrix) {
   Eigen::Isometry3d pose;
   pose.matrix() = matrix;
   return pose;
+}
+
+double said_of_shutter(const fs::path& folder, std::string_view key) {
+  if (!fs::exists(folder / kDatasetJson)) return 0.0;
+  constexpr double kMost = 1e9;
+  return read_json_file(folder / kDatasetJson, [&](const JsonValue& json) {
+    const auto drive = json.find(kDrive);
+    const auto shutter = drive ? drive->find("shutter") : std::nullopt;
+    const auto value = shutter ? shutter->find(key) : std::nullopt;
+    return value ? value->number(-kMost, kMost) : 0.0;
+  });
 }
 
 std::string place_of(const ViewPose& pose) {

@@ -48,6 +48,11 @@ std::optional<Eigen::Isometry3d> pose_at(const std::vector<ViewPose>& poses, std
 /// A matrix that is meant to be rigid; checks look at how far it is from that.
 Eigen::Isometry3d as_rigid(const Eigen::Matrix4d& matrix);
 
+/// A number that dataset.json says of the shutter, "readout_s".
+/// @return 0 where nothing says it: pictures are taken to be of one instant
+/// @throws std::runtime_error, one line, where dataset.json cannot be read
+double said_of_shutter(const std::filesystem::path& folder, std::string_view key);
+
 /// "file: line" as messages name it.
 std::string place_of(const ViewPose& pose);
 

@@ -25,14 +25,14 @@ void flip_a_bit(const PlantedSet& set, const std::string& name) {
 
 /// What says how the set was rendered, and the manifest, as they are in the set that was copied.
 void put_manifest_back(const PlantedSet& set, const std::string& format) {
-  for (const char* name : {kDatasetJson, kManifest})
-    fs::copy_file(rendered(kBend, kAllFormats, kBendFrames) / format / name, set.path(name));
+  for (const char* name : {kDatasetJson, kManifest}) fs::copy_file(whole_set(format) / name, set.path(name));
 }
 
 TEST(FilesOfASet, HaveTheBytesThatTheManifestLists) {
   for (const auto& [format, file] :
        {std::pair("plain", "right_depth/000003.pfm"), std::pair("euroc", "mav0/body.yaml"),
-        std::pair("kitti-odometry", "sequences/00/image_3/000002.png")}) {
+        std::pair("kitti-odometry", "sequences/00/image_3/000002.png"),
+        std::pair("webdataset", "bend_0-000000.tar"), std::pair("mrclam", "Robot1_Odometry.dat")}) {
     const PlantedSet set(format);
     put_manifest_back(set, format);
     EXPECT_EQ(set.faults(), "") << format;

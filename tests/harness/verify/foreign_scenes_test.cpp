@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "harness/io/picture_file.h"
+#include "harness/verify/readers/scene/picture_pairs.h"
 #include "tests/harness/verify/planted_set.h"
 
 namespace stereobench::harness {
@@ -67,6 +68,9 @@ class ReconstructedScene {
   TestFolder folder_;
 };
 
+// Mutations tried: readers that take a pose for its inverse, the first pixel's corner for its centre, errors
+// of points for none, corners of no point for points, photographs for a way, or an object that is there twice
+// for one; places of objects without an error; packed runs whose differences begin one late, or in rows.
 TEST(ColmapOfOthers, IsReadWithItsErrorsAndWithoutFaults) {
   const ReconstructedScene scene;
   EXPECT_EQ(reader_of(scene.path()).format, "colmap");
@@ -98,6 +102,19 @@ TEST(ColmapOfOthers, HasAFaultWhereItsErrorsAreLargerThanItSays) {
                        "7 SIMPLE_RADIAL 640 480 600 320 240 -0.05\n"
                        "3 FULL_OPENCV 640 480 600 601 320 240 0 0 0 0 0 0 0 0\n");
   EXPECT_THAT(faults_of(scene.path(), "colmap"), HasSubstr("focal length too long by 2"));
+}
+
+// Mutation: halves missed although most pictures have none.
+TEST(PicturePairs, MissAHalfWhereMostAreWhole) {
+  const std::vector<std::string> pairs = {"left/a.png", "right/a.png", "left/b.png", "right/b.png",
+                                          "x/right/c.png"};
+  const auto missing = missing_halves(picture_pairs(pairs), pairs);
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing.front(), std::pair(std::string("x/left/c.png"), std::string("x/right/c.png")));
+  const std::vector<std::string> single = {"left/a.png", "right/a.png", "left/b.png", "left/c.png",
+                                           "front/d.png"};
+  EXPECT_TRUE(missing_halves(picture_pairs(single), single).empty());
+  EXPECT_EQ(picture_pairs(single).size(), 4U);
 }
 
 TEST(CocoOfOthers, HasPolygonsCrowdsAndNoPictures) {

@@ -188,10 +188,16 @@ std::string faults_of(const fs::path& folder, const std::string& format) {
   return lines;
 }
 
-PlantedSet::PlantedSet(const std::string& format) : format_(format) {
+fs::path whole_set(const std::string& format) {
+  if (format == "mrclam") return rendered(kBend, format, kLogFrames);
+  if (format == "webdataset") return rendered(kBend, format, kSceneFrames);
   const bool is_scene = kSceneFormats.find(format) != std::string::npos;
-  const fs::path from =
-      rendered(kBend, is_scene ? kSceneFormats : kAllFormats, is_scene ? kSceneFrames : kBendFrames) / format;
+  return rendered(kBend, is_scene ? kSceneFormats : kAllFormats, is_scene ? kSceneFrames : kBendFrames) /
+         format;
+}
+
+PlantedSet::PlantedSet(const std::string& format) : format_(format) {
+  const fs::path from = whole_set(format);
   fs::copy(from, folder_.path() / format, fs::copy_options::recursive);
   for (const char* name : {"dataset.json", "manifest-sha256.txt"}) fs::remove(path(name));
 }

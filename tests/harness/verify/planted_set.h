@@ -36,6 +36,13 @@ inline const std::string kAllFormats =
 /// The formats of scenes; rendered apart, since they take other drives than the others.
 inline const std::string kSceneFormats = "colmap,coco,bop,nerfstudio";
 
+/// Archives and logs: rendered apart, and each by itself, since they take any drive.
+inline const std::string kShardsAndLogs = "webdataset,mrclam";
+inline const std::vector<std::string> kLogFrames = {"--set", "identity=known"};
+
+/// The data set that copies of a format are made from.
+std::filesystem::path whole_set(const std::string& format);
+
 /// All faults of a folder, a line each.
 std::string faults_of(const std::filesystem::path& folder, const std::string& format);
 

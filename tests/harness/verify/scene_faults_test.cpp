@@ -221,7 +221,9 @@ void write_metres(const PlantedSet& set) {
 
 class PlantedInScene : public testing::TestWithParam<SceneCase> {};
 
-// Law: a fault that the format has redundancy for is found, and called what it is.
+// Mutations tried: poses of each camera taken for those of a body, balls looked for in the world, missing
+// pictures and wrong points of tracks let be. Law: a fault that the format has redundancy for is found, and
+// called what it is.
 TEST_P(PlantedInScene, IsFoundAndNamed) {
   const PlantedSet set(GetParam().format);
   GetParam().plant(set);

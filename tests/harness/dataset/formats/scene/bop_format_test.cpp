@@ -92,7 +92,10 @@ TEST(BopFormat, MasksAreTheWholeBallAndWhatIsSeenOfIt) {
 // Law: level x depth_scale is the depth in mm.
 TEST(BopFormat, HasDepthOfBothCameras) {
   const WrittenDrive drive("bop");
-  const double scale = nlohmann::json::parse(drive.text("camera.json")).at("depth_scale");
+  const auto camera = nlohmann::json::parse(drive.text("camera.json"));
+  const double scale = camera.at("depth_scale");
+  const cv::Size size = drive.picture(scene_of(Side::kLeft) + "rgb/000002.png").size();
+  EXPECT_EQ(cv::Size(camera.at("width"), camera.at("height")), size);  // mutation: the width for the height
   for (const Side side : kBothSides) {
     const renderer::StereoFrame frame = drive.frame(2);
     const cv::Mat levels = drive.picture(scene_of(side) + "depth/000002.png");
