@@ -5,7 +5,7 @@
 
 #include "harness/commands/commands.h"
 #include "harness/process/progress.h"
-#include "harness/verify/verify_dataset.h"
+#include "harness/verify/verify_collection.h"
 
 namespace stereobench::harness {
 namespace {
@@ -17,14 +17,21 @@ struct VerifyArguments {
   std::string format;
 };
 
-int verify(const VerifyArguments& arguments) {
+Verification verification_of(const VerifyArguments& arguments,
+                             const std::function<void(double)>& on_progress) {
+  if (arguments.format.empty() && is_collection(arguments.folder))
+    return verify_collection(arguments.folder, on_progress);
   const DatasetReader& reader =
       arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
+  return verify_dataset(arguments.folder, reader, on_progress);
+}
+
+int verify(const VerifyArguments& arguments) {
   const std::string name = fs::absolute(arguments.folder / "").parent_path().filename().string();
   Verification found;
   {
     Progress progress("verify " + name, 1.0);
-    found = verify_dataset(arguments.folder, reader, [&](double done) { progress.show(done); });
+    found = verification_of(arguments, [&](double done) { progress.show(done); });
   }
   for (const Fault& fault : found.faults) fmt::print("{}\n", line_of(fault));
   fmt::print("{}: {}, {}; checked: {}\n", name, found.format,
@@ -41,7 +48,7 @@ int verify(const VerifyArguments& arguments) {
 void add_verify_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("verify", "prove a data set of any format, whoever wrote it");
   auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("dataset", arguments->folder, "folder of a data set")->required();
+  command->add_option("dataset", arguments->folder, "folder of a data set or a collection")->required();
   command->add_option("--as", arguments->format, "its format, where the folder does not tell")
       ->type_name("NAME");
   command->footer(

@@ -97,14 +97,13 @@ std::vector<std::string> counts_of(const std::vector<Link>& links) {
   return lines;
 }
 
-/// Faults that several checks have found are named once.
+}  // namespace
+
 void leave_out_repeated(std::vector<Fault>& faults) {
   std::set<std::tuple<std::string, std::string, std::string>> known;
   std::erase_if(
       faults, [&](const Fault& fault) { return !known.emplace(fault.file, fault.frame, fault.what).second; });
 }
-
-}  // namespace
 
 Verification verify_dataset(const std::filesystem::path& folder, const DatasetReader& reader,
                             const std::function<void(double)>& on_progress) {

@@ -25,6 +25,9 @@ struct Verification {
 Verification verify_dataset(const std::filesystem::path& folder, const DatasetReader& reader,
                             const std::function<void(double)>& on_progress);
 
+/// Faults that several checks have found are named once.
+void leave_out_repeated(std::vector<Fault>& faults);
+
 /// "left_depth/000002.pfm: frame 000002: NaN at column 3, row 4".
 std::string line_of(const Fault& fault);
 
