@@ -100,10 +100,10 @@ Field<Struct> set_key(std::vector<std::string> Struct::*member) {
           [member](const YamlValue& value, Struct& object) { read_set(value, object.*member); });
 }
 
-const Fields<Variation>& variation_keys() {
-  static const Fields<Variation> keys({
-      name_key("name", "Of the variation: letters, digits, _ and -.", &Variation::name),
-      set_key(&Variation::set),
+const Fields<DriveVariation>& variation_keys() {
+  static const Fields<DriveVariation> keys({
+      name_key("name", "Of the variation: letters, digits, _ and -.", &DriveVariation::name),
+      set_key(&DriveVariation::set),
   });
   return keys;
 }
@@ -211,7 +211,7 @@ void claim_worlds(const YamlValue& entry, const DriveGroup& drives, std::map<Wor
 
 /// Folders are called NAME, or NAME-VARIATION.
 void claim_folders(const YamlValue& entry, const DriveGroup& drives, std::set<std::string>& folders) {
-  for (const Variation& variation : drives.variations)
+  for (const DriveVariation& variation : drives.variations)
     if (!folders.insert(folder_name(drives, variation)).second)
       entry.at_key("name").refuse("expected a name of its own for each group of drives and its variations");
 }
@@ -223,7 +223,7 @@ std::string_view name_of(Split split) {
   return kNames.at(static_cast<std::size_t>(split));
 }
 
-std::string folder_name(const DriveGroup& drives, const Variation& variation) {
+std::string folder_name(const DriveGroup& drives, const DriveVariation& variation) {
   return variation.name.empty() ? drives.name : fmt::format("{}-{}", drives.name, variation.name);
 }
 

@@ -34,7 +34,7 @@ struct CollectionAbout {
 };
 
 /// The same worlds with something changed, e.g. a noisier camera.
-struct Variation {
+struct DriveVariation {
   std::string name;              ///< empty: nothing is changed
   std::vector<std::string> set;  ///< "key.path=value"
 };
@@ -46,11 +46,11 @@ struct DriveGroup {
   std::vector<std::string> set;                        ///< "key.path=value", of all variations
   FrameChoice frames;                                  ///< as it was asked for
   std::array<std::vector<std::uint64_t>, 3> seeds_of;  ///< by Split
-  std::vector<Variation> variations;                   ///< at least one
+  std::vector<DriveVariation> variations;              ///< at least one
 };
 
 /// What the folder of a variation's drives is called: NAME, or NAME-VARIATION.
-std::string folder_name(const DriveGroup& drives, const Variation& variation);
+std::string folder_name(const DriveGroup& drives, const DriveVariation& variation);
 
 struct Collection {
   std::filesystem::path file;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostShards = 1'000'000;
 
 /// What is rendered of a variation.
-RenderRequest request_of(const Collection& collection, const DriveGroup& drives, const Variation& variation,
-                         renderer::Backend backend) {
+RenderRequest request_of(const Collection& collection, const DriveGroup& drives,
+                         const DriveVariation& variation, renderer::Backend backend) {
   RenderRequest request = {.scenario = drives.scenario,
                            .overrides = drives.set,
                            .backend = backend,
@@ -28,7 +28,7 @@ RenderRequest request_of(const Collection& collection, const DriveGroup& drives,
   return request;
 }
 
-void add_drives(const DriveGroup& drives, const Variation& variation, const RenderRequest& request,
+void add_drives(const DriveGroup& drives, const DriveVariation& variation, const RenderRequest& request,
                 const std::filesystem::path& out, CollectionPlan& plan) {
   const Experiment& experiment = *plan.experiments.back();
   for (const Split split : kSplits) {
@@ -66,7 +66,7 @@ CollectionPlan plan_collection(const Collection& collection, renderer::Backend b
   plan.record = {
       .name = collection.name, .version = STEREOBENCH_VERSION, .about = collection.about, .datasets = {}};
   for (const DriveGroup& drives : collection.drives)
-    for (const Variation& variation : drives.variations) {
+    for (const DriveVariation& variation : drives.variations) {
       const RenderRequest request = request_of(collection, drives, variation, backend);
       plan.experiments.push_back(std::make_unique<const Experiment>(
           read_experiment(request.scenario, request.overrides, plan.meshes->occluders())));

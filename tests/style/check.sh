@@ -44,6 +44,18 @@ check_layers() {
     breach "$file: slam has never heard of an image"
   done < <(tracked 'slam/*' | xargs -r grep -l -E '# *include *<opencv' || true)
   check_rooms
+  check_types
+}
+
+# Two types of one name and namespace are one type to the linker, which takes the destructor of either.
+check_types() {
+  local module type
+  for module in slam vision worlds renderer harness; do
+    while read -r type; do
+      breach "$module: more than one header defines $type"
+    done < <(tracked "$module/*.h" | xargs -r grep -h -o -E '^(struct|class|enum class) [A-Z][A-Za-z0-9]*( final)?( : [^;{]*)? \{' |
+      sed -E 's/^(struct|class|enum class) ([A-Za-z0-9]*).*/\2/' | sort | uniq -d)
+  done
 }
 
 # Rooms are the folders within a module; a file beside them is a room of its own. None includes itself by way of others.

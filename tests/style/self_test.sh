@@ -53,6 +53,8 @@ clean_repository && mkdir slam/x slam/y && printf '#include "slam/y/b.h"\n' >sla
 clean_repository && mkdir slam/x && printf '#include "slam/x/b.h"\n' >slam/x/a.h && touch slam/x/b.h &&
   expect green layers "a room that includes itself"
 
+clean_repository && printf 'struct One {\n};\n' | tee slam/a.h >slam/b.h && expect red layers "one type in two headers"
+
 clean_repository && printf 'double a = std::sin(1.0);\n' >slam/a.cpp && expect red arithmetic "a sine of the C library"
 clean_repository && git add -A -f && printf 'double a = std::sin(1.0);\n' >slam/new.cpp &&
   bash "$here/check.sh" arithmetic . >/dev/null && { echo "a new file is not looked at"; failures=1; }

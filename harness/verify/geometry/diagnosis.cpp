@@ -118,7 +118,7 @@ bool is_mended(LinkKind kind, const KindResiduals& before, const KindResiduals& 
 /// How many kinds a hypothesis mends.
 /// @param all of all links before
 /// @return 0 for one that spoils another kind, or says nothing of what files say of each other
-int mended_by(const Residuals& all, const Comparison& change) {
+int mended_by(const Residuals& all, const ChangedResiduals& change) {
   constexpr std::size_t kFewest = 20;  // corners: some are found wrongly
   int mended = 0;
   for (const auto& [kind, residuals] : all) {
@@ -159,7 +159,7 @@ std::optional<Explanation> best_explanation(const DatasetView& view, const Claim
     if (cause.has_amount) one.amount = fitted(claims, cause, links);
     if (cause.has_amount && std::abs(one.amount.value) < cause.least) continue;
     cause.undo(one.claims, one.amount.value);
-    const Comparison change = compared(claims, one.claims, links);
+    const ChangedResiduals change = compared(claims, one.claims, links);
     one.mended = mended_by(before, change);
     one.left = disagreement(change.after, before);
     if (one.mended > 0) all.push_back(std::move(one));
@@ -239,7 +239,7 @@ void find_small_amounts(const DatasetView& view, const Claims& claims, const std
         {value / cause.least, value / (kSure * one.amount.sd), one.amount.moves_px / kCommonError_px});
     if (cause.has_amount && !margins.is_beyond("amount by corners", beyond, 1.0)) continue;
     cause.undo(one.claims, one.amount.value);
-    const Comparison change = compared(claims, one.claims, corners);
+    const ChangedResiduals change = compared(claims, one.claims, corners);
     if (change.before.empty()) continue;
     one.left = disagreement(change.after, {}) / disagreement(change.before, {});
     const double gain = (1.0 - one.left) / (1.0 - (cause.has_amount ? kGain : kGainOfCertain));

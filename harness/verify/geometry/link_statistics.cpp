@@ -37,7 +37,7 @@ Residuals residuals_of(const Claims& claims, const std::vector<Link>& links) {
   return all;
 }
 
-Comparison compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links) {
+ChangedResiduals compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links) {
   std::vector<Link> common;
   for (const Link& link : links)
     if (residual_px(claims, link) && residual_px(changed, link)) common.push_back(link);

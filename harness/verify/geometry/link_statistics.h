@@ -30,11 +30,11 @@ using Residuals = std::map<LinkKind, KindResiduals>;
 Residuals residuals_of(const Claims& claims, const std::vector<Link>& links);
 
 /// What a change of claims makes of the links that both claims say something of.
-struct Comparison {
+struct ChangedResiduals {
   Residuals before, after;
 };
 
-Comparison compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links);
+ChangedResiduals compared(const Claims& claims, const Claims& changed, const std::vector<Link>& links);
 
 /// Of suspicious kinds, and of bad ones: which share of the links the residual is greater than.
 inline constexpr double kMostLinks = 0.9, kHalfOfLinks = 0.5;

@@ -44,7 +44,7 @@ void write_planted_mcap(AtomicFile& file, const std::vector<PlantedMessage>& mes
 PlantedRecording::PlantedRecording(const std::string& format)
     : format_(format), name_(format == "rosbag" ? "bend_0.bag" : "bend_0.mcap") {
   const std::filesystem::path from = rendered(kBend, kRecordings, {"--frames", "2..7"}) / format / name_;
-  const Recording recording = format == "rosbag" ? read_bag(from) : read_mcap(from);
+  const RecordedFile recording = format == "rosbag" ? read_bag(from) : read_mcap(from);
   for (const RecordedMessage& message : recording.messages)
     messages.push_back({recording.topics[message.topic].name, message.stamp_ns, message.sequence.value_or(0),
                         message_bytes(recording, message)});

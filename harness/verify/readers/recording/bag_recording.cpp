@@ -61,7 +61,7 @@ class BagReading {
  public:
   explicit BagReading(const std::filesystem::path& file) : file_(file) { recording_.file = file; }
 
-  Recording read() {
+  RecordedFile read() {
     const std::string begin = file_.piece(0, std::min<std::uint64_t>(kBagVersion.size(), file_.size()));
     if (begin != kBagVersion)
       file_.refuse(0, begin.starts_with(kBagBegins) ? "expected a bag of version 2.0; run `rosbag fix`"
@@ -123,7 +123,7 @@ class BagReading {
   }
 
   FilePieces file_;
-  Recording recording_;
+  RecordedFile recording_;
   std::map<std::uint32_t, std::size_t> topic_of_;  ///< by number of the connection
   /// Of the last chunk: by connection, where its messages begin, and when they were recorded.
   std::map<std::uint32_t, std::vector<std::pair<std::int64_t, std::uint64_t>>> in_chunk_;
@@ -210,7 +210,7 @@ void BagReading::read_chunk_info(const ReadBagRecord& record) {
 
 }  // namespace
 
-Recording read_bag(const std::filesystem::path& file) {
+RecordedFile read_bag(const std::filesystem::path& file) {
   return BagReading(file).read();
 }
 

@@ -58,7 +58,7 @@ std::string_view LittleValues::bytes(std::uint64_t count) {
   return bytes_.substr(at_ - count, count);
 }
 
-std::string message_bytes(const Recording& recording, const RecordedMessage& message, std::uint64_t most) {
+std::string message_bytes(const RecordedFile& recording, const RecordedMessage& message, std::uint64_t most) {
   return FilePieces(recording.file).piece(message.at, std::min(message.size, most));
 }
 

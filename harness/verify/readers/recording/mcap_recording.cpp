@@ -44,7 +44,7 @@ class McapReading {
  public:
   explicit McapReading(const std::filesystem::path& file) : file_(file) { recording_.file = file; }
 
-  Recording read() {
+  RecordedFile read() {
     const std::uint64_t magic = kMcapEnds.size(), end = file_.size();
     if (end < magic || file_.piece(0, magic) != kMcapEnds)
       file_.refuse(0, "expected the magic bytes of MCAP, version 0");
@@ -91,7 +91,7 @@ class McapReading {
   }
 
   FilePieces file_;
-  Recording recording_;
+  RecordedFile recording_;
   std::map<std::uint16_t, std::string> types_;     ///< by number of the schema
   std::map<std::uint16_t, std::size_t> topic_of_;  ///< by number of the channel
   bool is_at_end_of_data_ = false, is_at_footer_ = false;
@@ -195,7 +195,7 @@ void McapReading::read_statistics(const ReadMcapRecord& record) {
 
 }  // namespace
 
-Recording read_mcap(const std::filesystem::path& file) {
+RecordedFile read_mcap(const std::filesystem::path& file) {
   return McapReading(file).read();
 }
 

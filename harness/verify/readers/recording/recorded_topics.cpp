@@ -9,7 +9,7 @@
 namespace stereobench::harness {
 namespace {
 
-bool has_messages(const Recording& recording, std::string_view topic, std::string_view type) {
+bool has_messages(const RecordedFile& recording, std::string_view topic, std::string_view type) {
   return std::ranges::any_of(recording.messages, [&](const RecordedMessage& message) {
     const RecordedTopic& of = recording.topics[message.topic];
     return of.name == topic && of.type == type;
@@ -17,7 +17,7 @@ bool has_messages(const Recording& recording, std::string_view topic, std::strin
 }
 
 /// "/stereo/left/" and "/stereo/right/", where both have pictures.
-std::array<std::string, 2> camera_topics(const Recording& recording) {
+std::array<std::string, 2> camera_topics(const RecordedFile& recording) {
   constexpr std::string_view kLeft = "/left/image_raw", kRight = "/right/", kRaw = "image_raw";
   for (const RecordedTopic& topic : recording.topics) {
     if (!topic.name.ends_with(kLeft) || topic.type != "sensor_msgs/Image") continue;
@@ -37,7 +37,7 @@ std::array<std::string, 2> camera_topics(const Recording& recording) {
 }
 
 /// /odom, or else the first one that is not true.
-std::string odometry_topic(const Recording& recording) {
+std::string odometry_topic(const RecordedFile& recording) {
   std::string found;
   for (const RecordedTopic& topic : recording.topics) {
     if (topic.type != "nav_msgs/Odometry" || topic.name.starts_with("/ground_truth")) continue;
@@ -49,10 +49,10 @@ std::string odometry_topic(const Recording& recording) {
 
 }  // namespace
 
-OpenRecording opened(Recording recording) {
+OpenRecording opened(RecordedFile recording) {
   OpenRecording open = {
       .recording = std::move(recording), .name = {}, .cameras = {}, .odometry = {}, .faults = {}};
-  const Recording& of = open.recording;
+  const RecordedFile& of = open.recording;
   open.name = of.file.filename().string();
   for (const std::string& fault : of.faults) open.faults.push_back({open.name, "", fault});
   open.cameras = camera_topics(of);
@@ -69,7 +69,7 @@ OpenRecording opened(Recording recording) {
   return open;
 }
 
-std::vector<const RecordedMessage*> messages_of(const Recording& recording, std::string_view topic,
+std::vector<const RecordedMessage*> messages_of(const RecordedFile& recording, std::string_view topic,
                                                 std::string_view type) {
   std::vector<const RecordedMessage*> messages;
   for (const RecordedMessage& message : recording.messages)

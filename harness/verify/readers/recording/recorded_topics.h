@@ -19,7 +19,7 @@ namespace stereobench::harness {
 
 /// A recording, and what is said of it.
 struct OpenRecording {
-  Recording recording;
+  RecordedFile recording;
   std::string name;                    ///< of the file in its folder
   std::array<std::string, 2> cameras;  ///< by vision::Side: "/stereo/left/" before image_raw and camera_info
   std::string odometry;                ///< its topic; empty where there is none
@@ -36,10 +36,10 @@ struct OpenRecording {
 /// Finds the cameras and the odometry.
 /// @throws std::runtime_error, one line that lists the topics, where there are no pictures of a left and a
 ///   right camera
-OpenRecording opened(Recording recording);
+OpenRecording opened(RecordedFile recording);
 
 /// The messages of a topic, also where several programs sent them. Empty where there are none of the type.
-std::vector<const RecordedMessage*> messages_of(const Recording& recording, std::string_view topic,
+std::vector<const RecordedMessage*> messages_of(const RecordedFile& recording, std::string_view topic,
                                                 std::string_view type);
 
 /// A message and its value.

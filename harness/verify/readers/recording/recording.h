@@ -19,14 +19,14 @@ struct RecordedTopic {
 
 /// A message, whose bytes are one piece of the file.
 struct RecordedMessage {
-  std::size_t topic = 0;                  ///< index into Recording::topics
+  std::size_t topic = 0;                  ///< index into RecordedFile::topics
   std::int64_t stamp_ns = 0;              ///< when it was recorded
   std::uint64_t at = 0;                   ///< its first byte in the file
   std::uint64_t size = 0;                 ///< bytes
   std::optional<std::uint32_t> sequence;  ///< counts a topic's messages, where the container says it
 };
 
-struct Recording {
+struct RecordedFile {
   std::filesystem::path file;
   std::vector<RecordedTopic> topics;
   std::vector<RecordedMessage> messages;  ///< in the order of the file
@@ -38,16 +38,16 @@ struct Recording {
 /// its indices is held against the messages.
 /// @throws std::runtime_error, one line, for a file that is none, is cut short, was not closed, or has
 ///   compressed chunks
-Recording read_bag(const std::filesystem::path& file);
+RecordedFile read_bag(const std::filesystem::path& file);
 
 /// Reads an MCAP file (mcap.dev/spec), with chunks or without, from its first record to its footer; its
 /// checksums and counts are held against the data.
 /// @throws std::runtime_error, one line, for a file that is none, is cut short, or has compressed chunks
-Recording read_mcap(const std::filesystem::path& file);
+RecordedFile read_mcap(const std::filesystem::path& file);
 
 /// The bytes of a message. @param most only so many, from the first one on
 /// @throws std::runtime_error, one line, where they cannot be read
-std::string message_bytes(const Recording& recording, const RecordedMessage& message,
+std::string message_bytes(const RecordedFile& recording, const RecordedMessage& message,
                           std::uint64_t most = std::uint64_t(-1));
 
 }  // namespace stereobench::harness

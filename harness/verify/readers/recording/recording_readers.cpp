@@ -26,7 +26,7 @@ constexpr std::uint64_t kHeaderBytes = 4096;
 struct ContainerKind {
   const char* format;
   const char* ending;
-  Recording (*read)(const fs::path& file);
+  RecordedFile (*read)(const fs::path& file);
 };
 constexpr ContainerKind kBag = {"rosbag", ".bag", read_bag}, kMcap = {"mcap", ".mcap", read_mcap};
 
@@ -91,7 +91,7 @@ RecordedPictures recorded_pictures(OpenRecording& from, std::size_t side, std::s
 void add_recorded_picture(const OpenRecording& from, ViewFrame& frame, Side side,
                           const RecordedMessage& message) {
   const std::string file = from.place_of(from.cameras[index_of(side)] + kPicture);
-  const Recording place = {
+  const RecordedFile place = {
       .file = from.recording.file, .topics = {}, .messages = {}, .faults = {}, .checked = {}};
   const fs::path path = from.recording.file.parent_path() / file;
   frame.channels[index_of(side)][Channel::kPicture] = {
