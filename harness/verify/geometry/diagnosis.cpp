@@ -96,7 +96,7 @@ std::string file_of(const DatasetView& view, Suspect suspect) {
       return view.poses_file;
     case Suspect::kDepth:
       return view.depth_file;
-    case Suspect::kPictures:
+    case Suspect::kPicture:
       return view.pictures_file;
   }
   return {};

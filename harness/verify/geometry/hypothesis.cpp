@@ -119,11 +119,11 @@ void add_frames(std::vector<Hypothesis>& all) {
                         [](Claims& claims) { claims.depth_instant = kAfter; }));
   all.push_back(certain(Suspect::kDepth, "a frame early: it is that of the frame after",
                         [](Claims& claims) { claims.depth_instant = kBefore; }));
-  all.push_back(certain(Suspect::kPictures, "pictures are a frame late: each is that of the frame before",
+  all.push_back(certain(Suspect::kPicture, "pictures are a frame late: each is that of the frame before",
                         [](Claims& claims) { claims.picture_shift = -1; }));
-  all.push_back(certain(Suspect::kPictures, "pictures are a frame early: each is that of the frame after",
+  all.push_back(certain(Suspect::kPicture, "pictures are a frame early: each is that of the frame after",
                         [](Claims& claims) { claims.picture_shift = 1; }));
-  all.push_back(certain(Suspect::kPictures, "swapped cameras: the left picture is the right camera's",
+  all.push_back(certain(Suspect::kPicture, "swapped cameras: the left picture is the right camera's",
                         [](Claims& claims) { claims.pictures_are_swapped = true; }));
   all.push_back(certain(Suspect::kDepth, "depth along the ray instead of planar Z",
                         [](Claims& claims) { claims.depth_is_along_ray = true; }));

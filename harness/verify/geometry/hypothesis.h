@@ -12,7 +12,7 @@
 namespace stereobench::harness {
 
 /// Which file is at fault where a hypothesis holds.
-enum class Suspect { kCalibration, kPoses, kDepth, kPictures };
+enum class Suspect { kCalibration, kPoses, kDepth, kPicture };
 
 struct Hypothesis {
   Suspect suspect = Suspect::kCalibration;
