@@ -135,7 +135,7 @@ TEST(LogFiles, RefusesALogThatCouldNotBeReadBack) {
   log = random_log(1);
   log.steps[0].odometry.push_back({1.0, 0.0, 0.1});
   EXPECT_THROW(log_files(log), std::invalid_argument);
-  EXPECT_THROW(log_files({}), std::invalid_argument);
+  EXPECT_THROW(log_files(MeasurementLog{}), std::invalid_argument);
 }
 
 TEST(ReadLog, UnderstandsTheSmallLog) {
