@@ -283,7 +283,7 @@ std::string file_of(const DatasetView& view, const Link& link) {
 /// Frames that are off alone: half of a frame's links of a kind.
 void find_single_frames(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
                         Margins& margins, std::vector<Fault>& faults) {
-  constexpr std::size_t kFewestExact = 1, kFewestMeasured = 8;
+  constexpr std::size_t kFewestExact = 1, kFewestMeasured = 24;
   constexpr double kGrossAlone_px = 3.0;
   std::map<std::tuple<std::size_t, vision::Side, LinkKind>, std::vector<const Link*>> groups;
   for (const Link& link : links) groups[{link.from, link.from_side, link.kind}].push_back(&link);
