@@ -217,7 +217,7 @@ Claims explain(const DatasetView& view, const std::vector<Link>& links, std::vec
 /// What corners say of amounts that are too small to be seen in any one of them.
 void find_small_amounts(const DatasetView& view, const Claims& claims, const std::vector<Link>& links,
                         Margins& margins, std::vector<Fault>& faults) {
-  constexpr double kSure = 8.0, kGain = 0.97, kGainOfCertain = 0.75;
+  constexpr double kSure = 8.0, kGain = 0.9, kGainOfCertain = 0.75;
   constexpr std::size_t kLeast = 60;
   // What comes nearer grows, unevenly within the patch that is searched: all of a floor seems to move on.
   constexpr double kCommonError_px = 0.2;
