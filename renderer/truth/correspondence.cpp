@@ -35,6 +35,7 @@ struct PlaceOfPoint {
   Eigen::Vector2d px;  ///< only where it is before the camera
 };
 
+/// Whether four pixels all see one primitive.
 bool is_alone(const std::array<int, 4>& around, int primitive) {
   return around[0] == primitive && around[1] == primitive && around[2] == primitive && around[3] == primitive;
 }

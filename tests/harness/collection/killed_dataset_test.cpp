@@ -40,8 +40,7 @@ void expect_whole_files(const fs::path& folder, const std::map<std::string, std:
   if (!fs::exists(folder)) return;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
-    // A drive's process may end its file after its parent was killed: what is no final name may be gone by
-    // now.
+    // A drive's process may outlive its killed parent: what has no final name may be gone by now.
     if (name.ends_with(".tmp") || name.ends_with("dataset.unfinished.json")) continue;
     if (name.find("/dataset.parts") != std::string::npos) continue;  // of a container
     if (!entry.is_regular_file()) continue;
