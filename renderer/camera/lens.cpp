@@ -1,17 +1,14 @@
 #include "renderer/camera/lens.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include <Eigen/LU>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "renderer/camera/readback.h"
-#include "renderer/camera/remap.h"
 #include "vision/camera/distortion.h"
 #include "vision/camera/pinhole_rig.h"
 #include "vision/camera/rig.h"
@@ -19,18 +16,26 @@
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kOversampling = vision::kPinholeDensity;
-static_assert(kOversampling == 2);  // gather_light gathers four places a pixel
-constexpr int kMargin_px = 2;       // for the interpolation at the border
+constexpr int kMargin_px = 2;  // for the neighbours of a place
 
-/// Where a row of a grid of `density` by `density` places a pixel looks in the pinhole's picture.
-void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int density, int row,
-          std::vector<cv::Vec2d>& places) {
+/// Variances, in squared pixels of the pinhole's picture, of what a pixel gathers there: with that of the
+/// pinhole's own pixels they make kBlur in the distorted picture, wherever the lens draws together or apart.
+/// @param slope d place / d direction
+Eigen::Vector2d spread_of(const Eigen::Matrix2d& slope) {
+  constexpr double kOfAPixel = 1.0 / 12.0;  // variance of a square of light
+  constexpr double kBlur = (kLeastSpread + kOfAPixel) / (vision::kPinholeDensity * vision::kPinholeDensity);
+  const Eigen::Matrix2d pinhole_by_distorted = vision::kPinholeDensity * slope.inverse();
+  return kBlur * pinhole_by_distorted.rowwise().squaredNorm().array() - kOfAPixel;
+}
+
+/// What the centres of a row's pixels see of the pinhole's picture.
+std::vector<PinholePlace> places_of_row(const vision::StereoRig& rig, const vision::Intrinsics& pinhole,
+                                        int row) {
+  std::vector<PinholePlace> places;
   Eigen::Vector2d last = Eigen::Vector2d::Zero(), before = last;
-  for (std::size_t column = 0; column < places.size(); ++column) {
-    const Eigen::Vector2d pixel((static_cast<double>(column) + 0.5) / density - 0.5,
-                                (row + 0.5) / density - 0.5);
-    const Eigen::Vector2d distorted = vision::pixel_ray(rig.intrinsics, pixel).head<2>();
+  for (int column = 0; column < rig.intrinsics.width_px; ++column) {
+    const Eigen::Vector2d distorted =
+        vision::pixel_ray(rig.intrinsics, Eigen::Vector2d(column, row)).head<2>();
     std::optional<Eigen::Vector2d> found;
     if (column >= 2)
       found = vision::undistort(rig.distortion, distorted, 2.0 * last - before);  // it goes on so
@@ -38,28 +43,15 @@ void look(const vision::StereoRig& rig, const vision::Intrinsics& pinhole, int d
     if (!found) throw std::invalid_argument("Lens: the lens folds its picture");
     before = std::exchange(last, *found);
     const Eigen::Vector2d at = vision::project(pinhole, found->homogeneous());
-    places[column] = {at.x(), at.y()};
+    places.push_back(place_at(at, spread_of(vision::distortion_slope(rig.distortion, *found))));
   }
+  return places;
 }
 
-cv::Vec2s rounded(const cv::Vec2d& place) {
-  return {static_cast<short>(std::lround(place[0])), static_cast<short>(std::lround(place[1]))};
-}
-
-/// The rows of the pinhole's picture that each row of the distorted one has places in.
-std::vector<cv::Range> rows_of(const cv::Mat& places) {
-  std::vector<cv::Range> rows;
-  for (int first = 0; first < places.rows; first += kOversampling) {
-    cv::Range seen(std::numeric_limits<int>::max(), 0);
-    for (int row = first; row < first + kOversampling; ++row) {
-      const auto* at = places.ptr<cv::Vec2s>(row);
-      const auto [low, high] =
-          std::minmax_element(at, at + places.cols, [](const auto& a, const auto& b) { return a[1] < b[1]; });
-      seen = {std::min<int>(seen.start, (*low)[1]), std::max<int>(seen.end, (*high)[1])};
-    }
-    rows.push_back(seen);
-  }
-  return rows;
+cv::Range rows_of(const std::vector<PinholePlace>& places) {
+  const auto [low, high] =
+      std::ranges::minmax_element(places, {}, [](const PinholePlace& place) { return place.row; });
+  return {low->row, high->row};
 }
 
 }  // namespace
@@ -72,25 +64,12 @@ vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig) {
   return *pinhole;
 }
 
-Lens::Lens(const vision::StereoRig& rig)
-    : pinhole_(pinhole_rig_of(rig)),
-      light_places_(kOversampling * rig.intrinsics.height_px, kOversampling * rig.intrinsics.width_px,
-                    CV_16SC2),
-      light_fractions_(light_places_.size(), CV_16UC1),
-      truth_places_(rig.intrinsics.height_px, rig.intrinsics.width_px, CV_16SC2) {
-  std::vector<cv::Vec2d> places(static_cast<std::size_t>(light_places_.cols));
-  for (int row = 0; row < light_places_.rows; ++row) {
-    look(rig, pinhole_.intrinsics, kOversampling, row, places);
-    cv::Mat light, at = light_places_.row(row), fractions = light_fractions_.row(row);
-    cv::Mat(places, false).reshape(2, 1).convertTo(light, CV_32F);
-    cv::convertMaps(light, cv::noArray(), at, fractions, CV_16SC2);
+Lens::Lens(const vision::StereoRig& rig) : pinhole_(pinhole_rig_of(rig)), width_px_(rig.intrinsics.width_px) {
+  for (int row = 0; row < rig.intrinsics.height_px; ++row) {
+    const std::vector<PinholePlace> places = places_of_row(rig, pinhole_.intrinsics, row);
+    places_.insert(places_.end(), places.begin(), places.end());
+    rows_seen_.push_back(rows_of(places));
   }
-  places.resize(static_cast<std::size_t>(truth_places_.cols));
-  for (int row = 0; row < truth_places_.rows; ++row) {
-    look(rig, pinhole_.intrinsics, 1, row, places);
-    std::transform(places.begin(), places.end(), truth_places_.ptr<cv::Vec2s>(row), rounded);
-  }
-  rows_seen_ = rows_of(light_places_);
 }
 
 cv::Range Lens::rows_seen(const cv::Range& rows) const {
@@ -105,25 +84,18 @@ cv::Range Lens::rows_seen(const cv::Range& rows) const {
 
 RenderedImage Lens::distort(const RenderedImage& undistorted, int first_row, const cv::Range& rows,
                             PicturePool& pool) const {
-  const cv::Size size(truth_places_.cols, rows.size());
   const bool is_fine = undistorted.colour.depth() == CV_16U;
-  RenderedImage distorted =
-      blank_frame(size, is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
+  RenderedImage distorted = blank_frame({width_px_, rows.size()},
+                                        is_fine ? LightDepth::kSixteenBits : LightDepth::kEightBits, pool);
   const auto distort_row = [&](int v) {
-    const int row = rows.start + v;
-    const auto light = [&](int k) {
-      const int dense = kOversampling * row + k;
-      return LightPlaces{light_places_.ptr<cv::Vec2s>(dense), light_fractions_.ptr<std::uint16_t>(dense)};
-    };
+    const PinholePlace* places = places_.data() + static_cast<std::ptrdiff_t>(width_px_) * (rows.start + v);
+    const UndistortedRows light{undistorted.colour, first_row};
     if (is_fine)
-      gather_light({light(0), light(1)}, {undistorted.colour, first_row},
-                   distorted.colour.ptr<std::uint16_t>(v), size.width);
+      gather_light(places, light, distorted.colour.ptr<std::uint16_t>(v), width_px_);
     else
-      gather_light({light(0), light(1)}, {undistorted.colour, first_row}, distorted.colour.ptr(v),
-                   size.width);
-    const auto* truth = truth_places_.ptr<cv::Vec2s>(row);
-    pick(truth, {undistorted.ball_id, first_row}, distorted.ball_id.ptr(v), size.width);
-    pick(truth, {undistorted.depth_m, first_row}, distorted.depth_m.ptr<float>(v), size.width);
+      gather_light(places, light, distorted.colour.ptr(v), width_px_);
+    pick(places, {undistorted.ball_id, first_row}, distorted.ball_id.ptr(v), width_px_);
+    pick(places, {undistorted.depth_m, first_row}, distorted.depth_m.ptr<float>(v), width_px_);
   };
   cv::parallel_for_({0, rows.size()}, [&](const cv::Range& part) {
     for (int v = part.start; v < part.end; ++v) distort_row(v);

@@ -6,19 +6,20 @@
 #include <opencv2/core.hpp>
 
 #include "renderer/camera/picture_pool.h"
+#include "renderer/camera/remap.h"
 #include "renderer/types.h"
 #include "vision/types.h"
 
 namespace stereobench::renderer {
 
-/// The rig without distortion, with twice as many pixels each way, that sees all that a rig's lenses see.
+/// The pinhole rig that sees all that a rig's lenses see (pinhole_rig.h).
 /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
 vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig);
 
 /// Distorts pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is
-/// drawn by a pinhole camera with twice as many pixels each way, and its light gathered per pixel of the
-/// distorted picture at four places. Truth is that of the pinhole's pixel nearest to where the distorted
-/// pixel's centre looks, a third of a pixel off at most.
+/// drawn by a pinhole camera of more pixels, and its light gathered for each pixel of the distorted picture
+/// around the place that its centre sees. Truth is that of the pinhole's pixel nearest to that place, a third
+/// of a pixel off each way at most.
 class Lens {
  public:
   /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw
@@ -27,7 +28,7 @@ class Lens {
   /// The rig without distortion whose pictures distort() takes.
   const vision::StereoRig& pinhole_rig() const { return pinhole_; }
 
-  int height_px() const { return truth_places_.rows; }
+  int height_px() const { return static_cast<int>(rows_seen_.size()); }
 
   /// The rows of the pinhole's picture that some rows of the distorted one are made of.
   cv::Range rows_seen(const cv::Range& rows) const;
@@ -40,9 +41,9 @@ class Lens {
 
  private:
   vision::StereoRig pinhole_;
-  cv::Mat light_places_, light_fractions_;  ///< OpenCV's fixed-point maps, at twice the resolution
-  cv::Mat truth_places_;                    ///< CV_16SC2, the pixel that each pixel's centre sees
-  std::vector<cv::Range> rows_seen_;        ///< by each row
+  int width_px_;
+  std::vector<PinholePlace> places_;  ///< that each pixel's centre sees, row by row
+  std::vector<cv::Range> rows_seen_;  ///< by each row
 };
 
 }  // namespace stereobench::renderer

@@ -1,107 +1,157 @@
 #include "renderer/camera/remap.h"
 
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include <opencv2/core/hal/intrin.hpp>
-#include <opencv2/imgproc.hpp>
 
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kWays = cv::INTER_TAB_SIZE;  ///< places from one pixel to the next
+constexpr double kSpreadStep = (kMostSpread - kLeastSpread) / (kSpreads - 1);
+constexpr int kWeightBits = 7;
+constexpr int kWhole = 1 << kWeightBits;  ///< sum of the weights of three pixels
 
-/// Weights of two neighbours for each place between them, ready to be multiplied with.
-struct Weights {
-  Weights() {
-    for (short way = 0; way < kWays; ++way) {
-      const auto rest = static_cast<short>(kWays - way);
-      std::fill_n(first[way], 8, rest);
-      std::fill_n(second[way], 8, way);
-      for (int i = 0; i < 8; ++i) in_turns[way][i] = i % 2 == 0 ? rest : way;
+/// Weights of the pixel before a place, of the nearest one and of the one after.
+using Weights = std::array<std::int16_t, 3>;
+
+/// Weights around a place `phase` after its nearest pixel. The mean is exact: the last weight less the first
+/// is the phase. The variance is as near to the spread as whole weights allow.
+Weights weights_of(int phase, double spread) {
+  static_assert(kPhases == kWhole);
+  const double after = static_cast<double>(phase) / kWhole;
+  int outer = static_cast<int>(std::floor(kWhole * (spread + after * after)));  // sum of first and last
+  if ((outer - phase) % 2 != 0) ++outer;
+  return {static_cast<std::int16_t>((outer - phase) / 2), static_cast<std::int16_t>(kWhole - outer),
+          static_cast<std::int16_t>((outer + phase) / 2)};
+}
+
+/// Weights of a phase and a spread, ready to be multiplied with.
+struct ReadyWeights {
+  alignas(16) std::int16_t of_row[3][8];
+  alignas(16) std::int16_t first_two[8];  ///< in turns
+  alignas(16) std::int16_t last[8];       ///< in turns with 0
+};
+
+class WeightTable {
+ public:
+  WeightTable() : ready_(kSpreads * kPhases) {
+    for (int spread = 0; spread < kSpreads; ++spread)
+      for (int phase = -kPhases / 2; phase < kPhases / 2; ++phase)
+        fill(ready_[index(phase, spread)], weights_of(phase, kLeastSpread + spread * kSpreadStep));
+  }
+
+  const ReadyWeights& across(const PinholePlace& place) const {
+    return ready_[index(place.right_of, place.across)];
+  }
+  const ReadyWeights& down(const PinholePlace& place) const { return ready_[index(place.below, place.down)]; }
+
+ private:
+  static std::size_t index(int phase, int spread) {
+    return static_cast<std::size_t>(spread * kPhases + phase + kPhases / 2);
+  }
+
+  static void fill(ReadyWeights& ready, const Weights& weights) {
+    for (std::size_t k = 0; k < 3; ++k) std::fill_n(ready.of_row[k], 8, weights[k]);
+    for (std::size_t i = 0; i < 8; ++i) {
+      ready.first_two[i] = weights[i % 2];
+      ready.last[i] = i % 2 == 0 ? weights[2] : std::int16_t{0};
     }
   }
-  alignas(16) short first[kWays][8];
-  alignas(16) short second[kWays][8];
-  alignas(16) short in_turns[kWays][8];
+
+  std::vector<ReadyWeights> ready_;
 };
 
-/// Blue, green and red between four pixels, rounded as cv::remap does; the fourth number is anything.
-/// @param pixel the first of the four; two bytes beyond the second are looked at
-cv::v_int32x4 light_between(const Weights& weights, const std::uint8_t* pixel, std::size_t step,
-                            unsigned fraction) {
-  const unsigned right = fraction % kWays, down = fraction / kWays;
-  const cv::v_int16x8 above = cv::v_reinterpret_as_s16(cv::v_load_expand(pixel));
-  const cv::v_int16x8 below = cv::v_reinterpret_as_s16(cv::v_load_expand(pixel + step));
-  const cv::v_int16x8 between = cv::v_mul_wrap(above, cv::v_load_aligned(weights.first[down])) +
-                                cv::v_mul_wrap(below, cv::v_load_aligned(weights.second[down]));
-  cv::v_int16x8 neighbours, rest;
-  cv::v_zip(between, cv::v_rotate_right<3>(between), neighbours, rest);
-  const cv::v_int32x4 light = cv::v_dotprod(neighbours, cv::v_load_aligned(weights.in_turns[right]));
-  static_assert(kWays * kWays == 1 << 10);
-  return (light + cv::v_setall_s32(kWays * kWays / 2)) >> 10;
+/// Blue, green and red of three neighbours of a row, weighed; the fourth number is anything.
+/// @param pixels blue, green, red of the first two; @param later of the last two
+cv::v_int32x4 weighed(const cv::v_int16x8& pixels, const cv::v_int16x8& later, const cv::v_int16x8& first_two,
+                      const cv::v_int16x8& last) {
+  cv::v_int16x8 pairs, single, rest;
+  cv::v_zip(pixels, later, pairs, rest);
+  cv::v_zip(cv::v_rotate_right<3>(later), cv::v_setzero_s16(), single, rest);
+  return cv::v_dotprod(pairs, first_two) + cv::v_dotprod(single, last);
 }
 
-constexpr int kMiddleStep = 1 << 15;  // light of 16 bits is told from the middle: products are signed
-
-/// Blue, green and red between two neighbours of one row, from the middle, times the weights of both.
-cv::v_int32x4 weighed(const std::uint16_t* pixel, const cv::v_int16x8& in_turns) {
-  const cv::v_int16x8 from_middle =
-      cv::v_reinterpret_as_s16(cv::v_load(pixel) ^ cv::v_setall_u16(kMiddleStep));
-  cv::v_int16x8 neighbours, rest;
-  cv::v_zip(from_middle, cv::v_rotate_right<3>(from_middle), neighbours, rest);
-  return cv::v_dotprod(neighbours, in_turns);
+/// Light of 8 bits around a place, times kWhole^2: columns first, whose sums fit 16 bits.
+/// @param pixel the first of nine
+cv::v_int32x4 light_around(const ReadyWeights& across, const ReadyWeights& down, const std::uint8_t* pixel,
+                           std::size_t step) {
+  cv::v_int16x8 pixels = cv::v_setzero_s16(), later = cv::v_setzero_s16();
+  for (std::size_t k = 0; k < 3; ++k, pixel += step) {
+    const cv::v_int16x8 weight = cv::v_load_aligned(down.of_row[k]);
+    pixels += cv::v_mul_wrap(cv::v_reinterpret_as_s16(cv::v_load_expand(pixel)), weight);
+    later += cv::v_mul_wrap(cv::v_reinterpret_as_s16(cv::v_load_expand(pixel + 3)), weight);
+  }
+  return weighed(pixels, later, cv::v_load_aligned(across.first_two), cv::v_load_aligned(across.last));
 }
 
-/// The same between four pixels, not rounded: 1024 times the light; the fourth number is anything.
-cv::v_int32x4 light_between(const Weights& weights, const std::uint16_t* pixel, std::size_t step,
-                            unsigned fraction) {
-  const unsigned right = fraction % kWays, down = fraction / kWays;
-  const cv::v_int16x8 in_turns = cv::v_load_aligned(weights.in_turns[right]);
-  return weighed(pixel, cv::v_mul_wrap(in_turns, cv::v_load_aligned(weights.first[down]))) +
-         weighed(pixel + step, cv::v_mul_wrap(in_turns, cv::v_load_aligned(weights.second[down])));
+constexpr int kMiddle = 1 << 15;  // light of 16 bits is told from the middle: products are signed
+
+/// The same of 16 bits, from the middle.
+cv::v_int32x4 light_around(const ReadyWeights& across, const ReadyWeights& down, const std::uint16_t* pixel,
+                           std::size_t step) {
+  const cv::v_int16x8 first_two = cv::v_load_aligned(across.first_two);
+  const cv::v_int16x8 last = cv::v_load_aligned(across.last);
+  const auto from_middle = [](const std::uint16_t* light) {
+    return cv::v_reinterpret_as_s16(cv::v_load(light) ^ cv::v_setall_u16(kMiddle));
+  };
+  cv::v_int32x4 sum = cv::v_setzero_s32();
+  for (std::size_t k = 0; k < 3; ++k, pixel += step) {
+    const cv::v_int16x8 weight = cv::v_load_aligned(down.of_row[k]);
+    sum += weighed(from_middle(pixel), from_middle(pixel + 3), cv::v_mul_wrap(first_two, weight),
+                   cv::v_mul_wrap(last, weight));
+  }
+  return sum;
 }
 
-/// How the mean of four lights is taken of their sum: by how many bits the sum is larger, and what it is told
-/// from.
+/// What light_around is told from, times kWhole^2.
 template <class Level>
-struct Mean;
+constexpr int kOrigin = 0;
 template <>
-struct Mean<std::uint8_t> {
-  static constexpr int kBits = 2;
-  static constexpr int kMiddle = 0;
-};
-template <>
-struct Mean<std::uint16_t> {
-  static constexpr int kBits = 12;
-  static constexpr int kMiddle = kMiddleStep << kBits;
-};
+constexpr int kOrigin<std::uint16_t> = kMiddle << (2 * kWeightBits);
 
 }  // namespace
 
+PinholePlace place_at(const Eigen::Vector2d& column_row, const Eigen::Vector2d& spread) {
+  const long right = std::lround(column_row.x() * kPhases), down = std::lround(column_row.y() * kPhases);
+  const auto nearest = [](long phases) {
+    return static_cast<std::int16_t>((phases + kPhases / 2) >> kWeightBits);
+  };
+  const auto number = [](double variance) {
+    return static_cast<std::uint8_t>(
+        std::lround((std::clamp(variance, kLeastSpread, kMostSpread) - kLeastSpread) / kSpreadStep));
+  };
+  PinholePlace place{nearest(right), nearest(down), 0, 0, number(spread.x()), number(spread.y())};
+  place.right_of = static_cast<std::int8_t>(right - kPhases * place.column);
+  place.below = static_cast<std::int8_t>(down - kPhases * place.row);
+  return place;
+}
+
 template <class Level>
-void gather_light(const LightPlaces (&places)[2], const UndistortedRows& undistorted, Level* distorted,
+void gather_light(const PinholePlace* places, const UndistortedRows& undistorted, Level* distorted,
                   int width) {
-  static const Weights weights;
-  constexpr int kBits = Mean<Level>::kBits;
+  static const WeightTable table;
+  constexpr int kBits = 2 * kWeightBits;
   const std::size_t step = undistorted.pixels.step1();
   const auto* origin =
       undistorted.pixels.ptr<Level>() - static_cast<std::ptrdiff_t>(step) * undistorted.first_row;
-  const auto at = [&](const cv::Vec2s& place) {
-    return origin + step * static_cast<std::size_t>(place[1]) + 3 * place[0];
+  const auto first_of_nine = [&](const PinholePlace& place) {
+    return origin + static_cast<std::ptrdiff_t>(step) * (place.row - 1) + 3 * (place.column - 1);
   };
   for (int u = 0; u < width; ++u) {
-    const Level* soon = at(places[1].pixels[std::min(2 * u + kPlacesAhead, 2 * width - 1)]);
-    __builtin_prefetch(soon);
-    __builtin_prefetch(soon + step);
-    cv::v_int32x4 sum = cv::v_setall_s32(Mean<Level>::kMiddle + (1 << (kBits - 1)));
-    for (const LightPlaces& row : places)
-      for (int k = 2 * u; k < 2 * u + 2; ++k)
-        sum += light_between(weights, at(row.pixels[k]), step, row.fractions[k]);
+    __builtin_prefetch(first_of_nine(places[std::min(u + kPlacesAhead, width - 1)]) + 2 * step);
+    const PinholePlace& place = places[u];
+    const cv::v_int32x4 sum =
+        light_around(table.across(place), table.down(place), first_of_nine(place), step) +
+        cv::v_setall_s32(kOrigin<Level> + (1 << (kBits - 1)));
     int levels[4];
     cv::v_store(levels, sum >> kBits);
     for (int c = 0; c < 3; ++c) *distorted++ = static_cast<Level>(levels[c]);
   }
 }
 
-template void gather_light(const LightPlaces (&)[2], const UndistortedRows&, std::uint8_t*, int);
-template void gather_light(const LightPlaces (&)[2], const UndistortedRows&, std::uint16_t*, int);
+template void gather_light(const PinholePlace*, const UndistortedRows&, std::uint8_t*, int);
+template void gather_light(const PinholePlace*, const UndistortedRows&, std::uint16_t*, int);
 
 }  // namespace stereobench::renderer

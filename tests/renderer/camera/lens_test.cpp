@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "renderer/renderer.h"
+#include "vision/camera/pinhole_rig.h"
 #include "vision/camera/rig.h"
 #include "vision/palette.h"
 
@@ -86,6 +87,55 @@ TEST_P(LensTest, ShowsBallsWhereDistortedRaysArrive) {
       EXPECT_NEAR(seen.m01 / seen.m00, expected.m01 / expected.m00, 0.01) << x << ' ' << y;
       EXPECT_NEAR(seen.m00 / full / expected.m00, 1.0, 0.005) << x << ' ' << y;
     }
+  }
+}
+
+/// By how much the light of small balls is spread further than their outlines, each way, in squared pixels:
+/// the mean over balls near the picture's middle, and over those towards its corners.
+struct Blurs {
+  Eigen::Vector2d inner, outer;
+};
+
+Blurs blurs_behind(const vision::Distortion& lens) {
+  const vision::StereoRig rig = rig_with(lens);
+  worlds::World world = ball_at(rig, {0.0, 0.0, 15.0});
+  const Eigen::Matrix3d turn = vision::robot_from_camera(rig).linear();
+  const Eigen::Vector3d middle_m = world.balls.front().centre_m;
+  std::vector<Eigen::Vector3d> places;
+  for (double x = -9.0; x <= 9.0; x += 1.23)
+    for (double y = -6.0; y <= 6.0; y += 1.11) places.emplace_back(x, y, 15.0);
+  world.balls.clear();
+  for (const Eigen::Vector3d& at : places)
+    world.balls.push_back({middle_m + turn * (at - Eigen::Vector3d(0.0, 0.0, 15.0)), kBallRadius_m, 0});
+  const cv::Mat picture =
+      Renderer(world, rig, Backend::kOsmesa, LightDepth::kSixteenBits).render({}).left.colour;
+  Eigen::Vector2d sum[2] = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  int balls[2] = {0, 0};
+  for (const Eigen::Vector3d& at : places) {
+    constexpr int kAround_px = 9;
+    const Eigen::Vector2d centre = vision::image_point(rig, at);
+    const cv::Rect area(static_cast<int>(centre.x()) - kAround_px, static_cast<int>(centre.y()) - kAround_px,
+                        2 * kAround_px, 2 * kAround_px);
+    const cv::Moments seen = light_of(picture(area)), outline = distorted_outline(rig, at);
+    const std::size_t part = at.head<2>().norm() < 5.0 ? 0 : 1;
+    sum[part] += Eigen::Vector2d(seen.mu20 / seen.m00 - outline.mu20 / outline.m00,
+                                 seen.mu02 / seen.m00 - outline.mu02 / outline.m00);
+    ++balls[part];
+  }
+  return {sum[0] / balls[0], sum[1] / balls[1]};
+}
+
+// A box of a pixel without a lens; behind one, what a pinhole of finite density cannot do without. Mutations:
+// the least spread at all places; a pixel's own variance forgotten.
+TEST(Lens, BlursAlikeAllOverThePicture) {
+  constexpr double kOfAPixel = 1.0 / 12.0, kDensity = vision::kPinholeDensity;
+  constexpr double kBehindALens = (kLeastSpread + kOfAPixel) / (kDensity * kDensity);
+  const Blurs without = blurs_behind({}), behind = blurs_behind(kBarrel);
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(without.inner[axis], kOfAPixel, 0.006) << axis;
+    EXPECT_NEAR(without.outer[axis], kOfAPixel, 0.006) << axis;
+    EXPECT_NEAR(behind.inner[axis], kBehindALens, 0.006) << axis;
+    EXPECT_NEAR(behind.outer[axis], kBehindALens, 0.006) << axis;
   }
 }
 

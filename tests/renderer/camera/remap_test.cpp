@@ -1,97 +1,148 @@
-/// Light gathered from between pixels, held to OpenCV's two steps that it does in one.
+/// Light gathered from between pixels. Three weights each way are known by three moments: of light that is
+/// constant, linear and quadratic.
 
 #include "renderer/camera/remap.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
 namespace stereobench::renderer {
 namespace {
 
 constexpr int kFirstRow = 7;  // of those that are there
-constexpr int kWidth = 301, kHeight = 40;
+constexpr int kWidth = 3001;
+constexpr int kColumns = 113, kRows = 97;
 
-/// Noise, blacks and whites: what rounds and what saturates.
-cv::Mat noise(int type, std::uint64_t seed) {
-  cv::Mat picture(97, 113, type);
+/// Places anywhere around which there are pixels.
+std::vector<PinholePlace> places(std::uint64_t seed) {
+  std::vector<PinholePlace> at;
   cv::RNG random(seed);
-  random.fill(picture, cv::RNG::UNIFORM, -80, 335);
+  for (int u = 0; u < kWidth; ++u)
+    at.push_back(
+        place_at({random.uniform(1.0, kColumns - 4.0), kFirstRow + random.uniform(1.0, kRows - 3.0)},
+                 {random.uniform(kLeastSpread, kMostSpread), random.uniform(kLeastSpread, kMostSpread)}));
+  return at;
+}
+
+double spread_of(std::uint8_t number) {
+  return kLeastSpread + (kMostSpread - kLeastSpread) * number / (kSpreads - 1);
+}
+
+double column_of(const PinholePlace& place) {
+  return place.column + static_cast<double>(place.right_of) / kPhases;
+}
+
+double row_of(const PinholePlace& place) {
+  return place.row + static_cast<double>(place.below) / kPhases;
+}
+
+/// A picture of what a function makes of a column and a row.
+template <class Level, class Function>
+cv::Mat picture_of(int type, Function light) {
+  cv::Mat picture(kRows, kColumns, type);
+  for (int v = 0; v < kRows; ++v)
+    for (int u = 0; u < kColumns; ++u)
+      for (int c = 0; c < 3; ++c)
+        picture.ptr<Level>(v)[3 * u + c] = cv::saturate_cast<Level>(light(u, v + kFirstRow, c));
   return picture;
 }
 
-/// Places anywhere between the rows that are there, at all fractions.
-cv::Mat places(std::uint64_t seed) {
-  cv::Mat at(2 * kHeight, 2 * kWidth, CV_32FC2);
-  cv::RNG random(seed);
-  for (int v = 0; v < at.rows; ++v)
-    for (int u = 0; u < at.cols; ++u)
-      at.at<cv::Vec2f>(v, u) = {
-          static_cast<float>(random.uniform(0, 32 * 110)) / 32.0F,
-          static_cast<float>(kFirstRow) + static_cast<float>(random.uniform(0, 32 * 95)) / 32.0F};
-  return at;
+template <class Level>
+std::vector<Level> gathered(const std::vector<PinholePlace>& at, const cv::Mat& picture) {
+  std::vector<Level> light(3 * at.size());
+  gather_light(at.data(), {picture, kFirstRow}, light.data(), static_cast<int>(at.size()));
+  return light;
 }
 
 class Gather : public testing::TestWithParam<std::uint64_t> {};
 
-// Mutations: no rounding; the ways to the next column and row taken for each other.
-TEST_P(Gather, IsOpenCvsRemapAndMean) {
-  const cv::Mat undistorted = noise(CV_8UC3, GetParam());
-  const cv::Mat wanted = places(GetParam() + 100);
-  cv::Mat pixels, fractions, dense, expected;
-  cv::convertMaps(wanted, cv::noArray(), pixels, fractions, CV_16SC2);
-  cv::remap(undistorted, dense, pixels - cv::Scalar(0, kFirstRow), fractions, cv::INTER_LINEAR);
-  cv::resize(dense, expected, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_AREA);
-  cv::Mat distorted(kHeight, kWidth, CV_8UC3);
-  for (int v = 0; v < kHeight; ++v) {
-    const auto row = [&](int k) {
-      return LightPlaces{pixels.ptr<cv::Vec2s>(2 * v + k), fractions.ptr<std::uint16_t>(2 * v + k)};
-    };
-    gather_light({row(0), row(1)}, {undistorted, kFirstRow}, distorted.ptr(v), kWidth);
-  }
-  EXPECT_EQ(cv::norm(distorted, expected, cv::NORM_INF), 0.0);
-}
-
-// The same of 16 bits, in double precision. Mutations: as above; weights of three places.
-TEST_P(Gather, OfSixteenBitsIsTheMeanOfFourPlaces) {
-  cv::Mat undistorted(97, 113, CV_16UC3);
+// Mutations: floor instead of the nearest pixel; places rounded to 1/64 of a pixel.
+TEST_P(Gather, PlacesAreKeptToOnePhase) {
   cv::RNG random(GetParam());
-  random.fill(undistorted, cv::RNG::UNIFORM, -20000, 85000);
-  cv::Mat pixels, fractions;
-  cv::convertMaps(places(GetParam() + 100), cv::noArray(), pixels, fractions, CV_16SC2);
-  cv::Mat distorted(kHeight, kWidth, CV_16UC3);
-  for (int v = 0; v < kHeight; ++v) {
-    const auto row = [&](int k) {
-      return LightPlaces{pixels.ptr<cv::Vec2s>(2 * v + k), fractions.ptr<std::uint16_t>(2 * v + k)};
-    };
-    gather_light({row(0), row(1)}, {undistorted, kFirstRow}, distorted.ptr<std::uint16_t>(v), kWidth);
-    for (int u = 0; u < kWidth; ++u) {
-      cv::Vec3d sum;
-      for (int k = 0; k < 4; ++k) {
-        const cv::Vec2s& at = pixels.at<cv::Vec2s>(2 * v + k / 2, 2 * u + k % 2);
-        const int fraction = fractions.at<std::uint16_t>(2 * v + k / 2, 2 * u + k % 2);
-        const double right = fraction % 32 / 32.0, down = fraction / 32 / 32.0;
-        const auto light = [&](int du, int dv) {
-          return cv::Vec3d(undistorted.at<cv::Vec3w>(at[1] - kFirstRow + dv, at[0] + du));
-        };
-        sum += (1 - down) * ((1 - right) * light(0, 0) + right * light(1, 0)) +
-               down * ((1 - right) * light(0, 1) + right * light(1, 1));
-      }
-      for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(distorted.at<cv::Vec3w>(v, u)[c], sum[c] / 4.0, 0.5) << u << ", " << v;
-    }
+  for (int i = 0; i < 1000; ++i) {
+    const double column = random.uniform(-20.0, 9000.0), row = random.uniform(-20.0, 9000.0);
+    const double across = random.uniform(0.0, 1.0), down = random.uniform(0.0, 1.0);
+    const PinholePlace place = place_at({column, row}, {across, down});
+    EXPECT_NEAR(spread_of(place.across), std::clamp(across, kLeastSpread, kMostSpread), 0.501 / 64.0);
+    EXPECT_NEAR(spread_of(place.down), std::clamp(down, kLeastSpread, kMostSpread), 0.501 / 64.0);
+    EXPECT_NEAR(column_of(place), column, 0.5 / kPhases + 1e-9);
+    EXPECT_NEAR(row_of(place), row, 0.5 / kPhases + 1e-9);
+    EXPECT_LE(std::abs(place.column - column), 0.5 + 0.5 / kPhases);
+    EXPECT_LE(std::abs(place.row - row), 0.5 + 0.5 / kPhases);
   }
 }
 
-TEST_P(Gather, PicksThePixelsOfPlaces) {
-  const cv::Mat undistorted = noise(CV_32FC1, GetParam());
-  cv::Mat pixels, fractions;
-  cv::convertMaps(places(GetParam()), cv::noArray(), pixels, fractions, CV_16SC2);
-  std::vector<float> picked(kWidth);
-  pick(pixels.ptr<cv::Vec2s>(3), {undistorted, kFirstRow}, picked.data(), kWidth);
-  for (int u = 0; u < kWidth; ++u) {
-    const cv::Vec2s& at = pixels.at<cv::Vec2s>(3, u);
-    ASSERT_EQ(picked[static_cast<std::size_t>(u)], undistorted.at<float>(at[1] - kFirstRow, at[0])) << u;
+// Mutations: no rounding; the ways to the next column and row taken for each other; weights of one way
+// turned round; blue for green.
+TEST_P(Gather, LightThatIsLinearIsKept) {
+  const auto light = [](double column, double row, int c) {
+    return 20000.0 + 300.0 * column - 150.0 * row + 5.0 * c;
+  };
+  const std::vector<PinholePlace> at = places(GetParam());
+  const auto seen = gathered<std::uint16_t>(at, picture_of<std::uint16_t>(CV_16UC3, light));
+  for (std::size_t u = 0; u < at.size(); ++u)
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(seen[3 * u + static_cast<std::size_t>(c)], light(column_of(at[u]), row_of(at[u]), c),
+                  0.5001)
+          << u;
+}
+
+// What is quadratic grows by the spread. Mutations: the least spread at all places; both ways' spreads taken
+// for each other.
+TEST_P(Gather, BlursByTheSpread) {
+  const auto across = [](double column, double, int) { return 4.0 * (column - 50.0) * (column - 50.0); };
+  const auto down = [](double, double row, int) { return 4.0 * (row - 50.0) * (row - 50.0); };
+  const auto both = [](double column, double row, int) { return 5.0 * column * row; };
+  const std::vector<PinholePlace> at = places(GetParam());
+  const auto seen_across = gathered<std::uint16_t>(at, picture_of<std::uint16_t>(CV_16UC3, across));
+  const auto seen_down = gathered<std::uint16_t>(at, picture_of<std::uint16_t>(CV_16UC3, down));
+  const auto seen_both = gathered<std::uint16_t>(at, picture_of<std::uint16_t>(CV_16UC3, both));
+  for (std::size_t u = 0; u < at.size(); ++u) {
+    const double column = column_of(at[u]), row = row_of(at[u]);
+    ASSERT_NEAR(seen_across[3 * u], across(column, row, 0) + 4.0 * spread_of(at[u].across),
+                4.0 / kPhases + 0.5)
+        << u;
+    ASSERT_NEAR(seen_down[3 * u + 1], down(column, row, 1) + 4.0 * spread_of(at[u].down), 4.0 / kPhases + 0.5)
+        << u;
+    ASSERT_NEAR(seen_both[3 * u + 2], both(column, row, 2), 0.5001) << u;
   }
+}
+
+// Noise, blacks and whites: what rounds and what saturates. Mutation: sums of 16 bits that wrap.
+TEST_P(Gather, OfEightBitsIsThatOfSixteenRounded) {
+  cv::Mat levels(kRows, kColumns, CV_8UC3), fine;
+  cv::RNG random(GetParam());
+  random.fill(levels, cv::RNG::UNIFORM, -80, 335);
+  levels.convertTo(fine, CV_16U, 256.0);
+  const std::vector<PinholePlace> at = places(GetParam() + 100);
+  const auto seen = gathered<std::uint8_t>(at, levels);
+  const auto expected = gathered<std::uint16_t>(at, fine);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    ASSERT_NEAR(seen[i], expected[i] / 256.0, 0.5 + 0.5 / 256.0) << i;
+}
+
+TEST_P(Gather, BlackAndWhiteStay) {
+  const std::vector<PinholePlace> at = places(GetParam());
+  for (const int level : {0, 255})
+    for (const std::uint8_t seen :
+         gathered<std::uint8_t>(at, cv::Mat(kRows, kColumns, CV_8UC3, cv::Scalar::all(level))))
+      ASSERT_EQ(seen, level);
+  for (const int level : {0, 65535})
+    for (const std::uint16_t seen :
+         gathered<std::uint16_t>(at, cv::Mat(kRows, kColumns, CV_16UC3, cv::Scalar::all(level))))
+      ASSERT_EQ(seen, level);
+}
+
+TEST_P(Gather, PicksTheNearestPixels) {
+  cv::Mat undistorted(kRows, kColumns, CV_32FC1);
+  cv::RNG random(GetParam());
+  random.fill(undistorted, cv::RNG::UNIFORM, -80, 335);
+  const std::vector<PinholePlace> at = places(GetParam());
+  std::vector<float> picked(at.size());
+  pick(at.data(), {undistorted, kFirstRow}, picked.data(), kWidth);
+  for (std::size_t u = 0; u < at.size(); ++u)
+    ASSERT_EQ(picked[u], undistorted.at<float>(at[u].row - kFirstRow, at[u].column)) << u;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Gather, testing::Range(std::uint64_t{0}, std::uint64_t{5}));
