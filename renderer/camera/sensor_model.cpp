@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/camera/defocus.h"
 #include "renderer/camera/image_noise.h"
 #include "renderer/types.h"
 #include "slam/math/elementary.h"
@@ -16,98 +17,6 @@ namespace {
 constexpr float kWhite = 255.0F;
 constexpr float kFewElectrons = 16.0F;  // up to here their number is drawn by inversion
 constexpr int kStepsPerLevel = 64;      // of the encoder's table: finer than the steepest part of sRGB
-
-/// A row of light, three channels a pixel.
-using Row = std::vector<float>;
-
-/// Half a Gaussian, normalised as the whole one: the weight of the centre, then of each neighbour outwards.
-/// It is the Gaussian's discrete analogue, exp(-t) I_n(t) with t = sd^2 (Lindeberg 1990), whose variance is t
-/// however small: samples of the Gaussian itself blur by less than half a pixel too little. The ratios of the
-/// Bessel functions come from their recurrence, I_n-1 = I_n+1 + (2n / t) I_n, read downwards.
-std::vector<float> half_gaussian(double sd_px) {
-  const double variance = sd_px * sd_px;
-  const auto reach = static_cast<std::size_t>(std::ceil(4.0 * sd_px)) + 2;
-  std::vector<double> ratios(reach + 1);  // of each weight to the one before
-  double ratio = 0.0;
-  for (std::size_t n = 2 * reach + 30; n > 0; --n) {
-    ratio = 1.0 / (2.0 * static_cast<double>(n) / variance + ratio);
-    if (n <= reach) ratios[n] = ratio;
-  }
-  std::vector<double> weights = {1.0};
-  double sum = 1.0;
-  for (std::size_t n = 1; n <= reach; ++n) {
-    weights.push_back(weights.back() * ratios[n]);
-    sum += 2.0 * weights.back();
-  }
-  std::vector<float> normalised;
-  for (const double weight : weights) normalised.push_back(static_cast<float>(weight / sum));
-  return normalised;
-}
-
-/// Adds weighted neighbours on both sides, the nearest ones first.
-/// @param sum of `size` values @param before, after where the neighbours of the first value are
-void add_neighbours(float* sum, const float* before, const float* after, float weight, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) sum[i] += weight * (before[i] + after[i]);
-}
-
-/// Copies a row of a picture, whatever its light is told in.
-void take_row(const cv::Mat& light, int y, float* row) {
-  const int size = 3 * light.cols;
-  if (light.depth() == CV_8U)
-    std::copy_n(light.ptr(y), size, row);
-  else
-    std::copy_n(light.ptr<std::uint16_t>(y), size, row);
-}
-
-/// The rows of a picture out of focus: blurred along rows, then along columns; beyond the border lies what is
-/// at the border. OpenCV's blur of floats has other bits on other processors.
-class Defocus {
- public:
-  /// @param light outlives it
-  Defocus(const cv::Mat& light, double sd_px)
-      : light_(light),
-        weights_(half_gaussian(sd_px)),
-        reach_(weights_.size() - 1),
-        size_(3 * static_cast<std::size_t>(light.cols)),
-        wide_(size_ + 6 * reach_),
-        across_(2 * reach_ + 1, Row(size_)) {}
-
-  /// @param y each row in turn, from 0
-  void take(int y, Row& row) {
-    const int reach = static_cast<int>(reach_);
-    for (; blurred_ < std::min(y + reach + 1, light_.rows); ++blurred_) blur_across(blurred_);
-    const auto row_at = [&](int at) { return across(std::clamp(at, 0, light_.rows - 1)).data(); };
-    std::transform(row_at(y), row_at(y) + size_, row.begin(),
-                   [&](float light) { return weights_[0] * light; });
-    for (int k = 1; k <= reach; ++k)
-      add_neighbours(row.data(), row_at(y - k), row_at(y + k), weights_[static_cast<std::size_t>(k)], size_);
-  }
-
- private:
-  /// The rows around the one that is asked for are kept, blurred along themselves.
-  Row& across(int y) { return across_[static_cast<std::size_t>(y) % across_.size()]; }
-
-  void blur_across(int y) {
-    float* const centre = wide_.data() + 3 * reach_;
-    take_row(light_, y, centre);
-    for (std::size_t i = 0; i < 3 * reach_; ++i) {
-      wide_[i] = centre[i % 3];
-      centre[size_ + i] = centre[size_ - 3 + i % 3];
-    }
-    Row& sum = across(y);
-    for (std::size_t i = 0; i < size_; ++i) sum[i] = weights_[0] * centre[i];
-    for (std::size_t k = 1; k <= reach_; ++k)
-      add_neighbours(sum.data(), centre - 3 * k, centre + 3 * k, weights_[k], size_);
-  }
-
-  const cv::Mat& light_;
-  std::vector<float> weights_;
-  std::size_t reach_;
-  std::size_t size_;  ///< of a row
-  Row wide_;          ///< a row with its border
-  std::vector<Row> across_;
-  int blurred_ = 0;  ///< rows along themselves so far
-};
 
 /// Keeps of each pixel's light what the vignette leaves.
 void darken_corners(Row& row, int y, const cv::Size& size, double vignette) {
@@ -198,8 +107,14 @@ class Chip {
       // Of few electrons, the root is that of a number below 0, perhaps; they are counted below.
       normal_[i] = expected + std::sqrt(expected - 1.0F / 18.0F) * z + (z * z - 1.0F) / 6.0F;
     }
-    for (std::size_t i = 0; i < row.size(); ++i)
-      row[i] = row[i] < kFewElectrons ? poisson_by_inversion(row[i], bits_[i]) : normal_[i];
+    int few = 0;
+    for (const float expected : row) few += expected < kFewElectrons ? 1 : 0;
+    for (std::size_t i = 0; few > 0 && i < row.size(); ++i) {
+      if (row[i] >= kFewElectrons) continue;
+      normal_[i] = poisson_by_inversion(row[i], bits_[i]);
+      --few;
+    }
+    std::swap(row, normal_);
   }
 
   bool grains_;
@@ -227,26 +142,50 @@ double decode(double stored, const worlds::CameraSensor& sensor) {
   return stored <= 0.04045 ? stored / 12.92 : slam::power((stored + 0.055) / 1.055, 2.4);
 }
 
-/// The stored byte of a level, by table.
+/// The stored bytes of levels, by table.
 class Encoder {
  public:
   explicit Encoder(const worlds::CameraSensor& sensor)
-      : linear_(sensor.encoding == worlds::Encoding::kLinear) {
-    for (std::size_t i = 0; i < codes_.size(); ++i) {
-      const double light = static_cast<double>(i) / (255.0 * kStepsPerLevel);
-      codes_[i] = static_cast<std::uint8_t>(std::lround(255.0 * encode(std::min(light, 1.0), sensor)));
-    }
+      : steps_per_level_(sensor.encoding == worlds::Encoding::kLinear ? 1 : kStepsPerLevel),
+        codes_(255 * static_cast<std::size_t>(steps_per_level_) + 1) {
+    fill(sensor, 0, codes_.size() - 1);
   }
 
-  std::uint8_t operator()(float level) const {
-    const float clamped = std::clamp(level, 0.0F, kWhite);  // NaN cannot be: all that goes in is finite
-    if (linear_) return static_cast<std::uint8_t>(clamped + 0.5F);
-    return codes_[static_cast<std::size_t>(clamped * kStepsPerLevel + 0.5F)];
+  /// @param places as many as there are levels, which it overwrites
+  void encode_row(const Row& levels, std::vector<int>& places, std::uint8_t* stored) const {
+    const auto steps = static_cast<float>(steps_per_level_);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const float clamped = std::clamp(levels[i], 0.0F, kWhite);  // NaN cannot be: all that goes in is finite
+      places[i] = static_cast<int>(clamped * steps + 0.5F);
+    }
+    const std::uint8_t* const codes = codes_.data();  // a store of a byte might change what is not local
+    const int* const at = places.data();
+    for (std::size_t i = 0, size = levels.size(); i < size; ++i) stored[i] = codes[at[i]];
   }
 
  private:
-  bool linear_;
-  std::array<std::uint8_t, 255 * kStepsPerLevel + 1> codes_{};
+  std::uint8_t code(const worlds::CameraSensor& sensor, std::size_t step) const {
+    const double light = static_cast<double>(step) / static_cast<double>(codes_.size() - 1);
+    return static_cast<std::uint8_t>(std::lround(255.0 * encode(std::min(light, 1.0), sensor)));
+  }
+
+  /// Fills what lies from one step to another: codes never fall, so what lies between two that are the same
+  /// is known.
+  void fill(const worlds::CameraSensor& sensor, std::size_t first, std::size_t last) {
+    codes_[first] = code(sensor, first);
+    codes_[last] = code(sensor, last);
+    if (codes_[first] == codes_[last]) {
+      std::fill(codes_.begin() + static_cast<std::ptrdiff_t>(first),
+                codes_.begin() + static_cast<std::ptrdiff_t>(last), codes_[first]);
+    } else if (last - first > 1) {
+      const std::size_t middle = (first + last) / 2;
+      fill(sensor, first, middle);
+      fill(sensor, middle, last);
+    }
+  }
+
+  int steps_per_level_;
+  std::vector<std::uint8_t> codes_;  ///< by step of light
 };
 
 /// Hands on the levels of each row, not yet encoded.
@@ -277,8 +216,9 @@ cv::Mat develop(const cv::Mat& light, const worlds::CameraSensor& sensor, std::u
                 std::uint64_t sequence) {
   const Encoder encoder(sensor);
   cv::Mat levels(light.size(), CV_8UC3);
+  std::vector<int> places(3 * static_cast<std::size_t>(light.cols));
   develop_rows(light, sensor, seed, sequence,
-               [&](const Row& row, int y) { std::ranges::transform(row, levels.ptr(y), encoder); });
+               [&](const Row& row, int y) { encoder.encode_row(row, places, levels.ptr(y)); });
   return levels;
 }
 
