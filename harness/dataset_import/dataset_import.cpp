@@ -77,6 +77,8 @@ std::optional<RigCalibration> calibration_of(const DatasetView& view, const Impo
   const bool is_one_place =
       cameras[0].body_from_camera.translation() == cameras[1].body_from_camera.translation();
   if (!view.has_calibration || (!imported.are_pairs && is_one_place)) return std::nullopt;
+  if (const auto& robot = imported.frames.front().robot)
+    return RigCalibration{.rig = robot->rig, .cameras = {}};
   try {
     return imported_rig(cameras);
   } catch (const std::runtime_error& error) {
@@ -90,7 +92,10 @@ std::optional<ImportedLog> log_of(const ImportRequest& request, const ImportedFr
                                   const std::optional<RigCalibration>& calibration, const ViewCamera& left) {
   if (!imported.have_times) return std::nullopt;
   const RigCalibration one_camera = {.rig = {.baseline_m = 0.0, .height_m = 0.0}, .cameras = {}};
-  ImportedLog log = imported_log(imported.frames, body_from_robot(calibration.value_or(one_camera), left));
+  const bool is_on_robot = imported.frames.front().robot.has_value();
+  ImportedLog log =
+      imported_log(imported.frames, is_on_robot ? Eigen::Isometry3d::Identity()
+                                                : body_from_robot(calibration.value_or(one_camera), left));
   if (request.odometry_from_truth) add_odometry_from_truth(log);
   return log;
 }
@@ -121,10 +126,15 @@ bool has_file(const DatasetView& view, const ChannelFile& picture) {
   return fs::is_regular_file(view.folder / picture.file);
 }
 
+/// Whether a picture is stored as a file's bytes; else as levels.
+bool is_encoded(const DatasetView& view, const ChannelFile& picture) {
+  return picture.bytes || has_file(view, picture);
+}
+
 std::string picture_name(const DatasetView& view, const ImportedFrames& imported, std::size_t i, Side side) {
   const ChannelFile& file = *find_channel(imported.frames[i], side, Channel::kPicture);
   return fmt::format("{:06}{}", imported.numbers[i],
-                     has_file(view, file) ? fs::path(file.file).extension().string() : ".png");
+                     is_encoded(view, file) ? fs::path(file.file).extension().string() : ".png");
 }
 
 std::string pictures_csv(const ImportedFrames& imported, std::int64_t epoch_ns) {
@@ -151,7 +161,7 @@ void write_pictures(const ImportRequest& request, const DatasetView& view, const
       if (has_file(view, file))
         files.place(view.folder / file.file, to);
       else
-        unpacked.write(to, encoded(".png", file.read()));
+        unpacked.write(to, file.bytes ? file.bytes() : encoded(".png", file.read()));
     }
     on_progress(static_cast<double>(i + 1) / static_cast<double>(imported.frames.size()));
   }
@@ -184,8 +194,10 @@ ImportedDataset import_dataset(const ImportRequest& request, const std::function
   require_sound(view);
   ImportedFrames frames = frames_to_import(view, request.only);
   if (request.odometry_from_truth) keep_frames_with_poses(view, frames);
+  const std::optional<PairSpread> spread = put_on_one_body(view, frames);
   ImportedDataset done = {.format = view.format, .frames = frames.frames.size(), .left_out = frames.left_out};
   done.are_pairs = frames.are_pairs;
+  done.spread = spread;
   const std::array<ViewCamera, 2> cameras = sized_cameras(view, frames, done.are_grey);
   done.calibration = calibration_of(view, frames, cameras);
   if (request.pitch_down_rad) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "harness/dataset_import/imported_log.h"
+#include "harness/dataset_import/posed_pairs.h"
 #include "harness/io/calibration_file.h"
 #include "harness/verify/readers/reader_registry.h"
 
@@ -31,6 +32,7 @@ struct ImportedDataset {
   bool are_pairs = false;
   bool are_grey = false;
   std::optional<RigCalibration> calibration;
+  std::optional<PairSpread> spread;         ///< where the rig is by poses of pairs
   std::optional<ImportedLog> log;           ///< where the layout has times
   std::optional<RecordedStreams> recorded;  ///< where it has odometry that a log has a place for
   std::string without_odometry;             ///< why it is left out, where the layout has some

@@ -22,7 +22,7 @@ const std::string& left_picture(const ViewFrame& frame) {
 }
 
 bool is_called(const ViewFrame& frame, const std::string& only) {
-  if (only.empty() || frame.name == only) return true;
+  if (only.empty() || frame.name == only || frame.drive == only) return true;
   const fs::path folders = fs::path(left_picture(frame)).parent_path();
   return std::ranges::find(folders, fs::path(only)) != folders.end();
 }
@@ -55,13 +55,14 @@ void require_one_drive(const DatasetView& view, const std::vector<ViewFrame>& fr
   }
 }
 
-/// The numbers that frames are named by; empty where they are not, or not in order.
+/// The numbers that frames are named by, behind their folders; empty where they are not, or not in order.
 std::vector<std::size_t> numbers_in_names(const std::vector<ViewFrame>& frames) {
   std::vector<std::size_t> numbers;
   for (const ViewFrame& frame : frames) {
-    const char* const end = frame.name.data() + frame.name.size();
+    const std::string name = fs::path(frame.name).filename().string();
+    const char* const end = name.data() + name.size();
     std::size_t number = 0;
-    const auto [stop, error] = std::from_chars(frame.name.data(), end, number);
+    const auto [stop, error] = std::from_chars(name.data(), end, number);
     if (error != std::errc() || stop != end || (!numbers.empty() && number <= numbers.back())) return {};
     numbers.push_back(number);
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset_import/few_decimals.h"
 #include "harness/rig_calibration/rectified_rig.h"
 #include "slam/math/angles.h"
 #include "slam/math/elementary.h"
@@ -53,16 +54,12 @@ RigCalibration rig_of_two(const std::array<ViewCamera, 2>& cameras, const Vector
   return rectified_rig(fit, RigModel::kTwoCameras, size.width_px, size.height_px);
 }
 
-/// An angle that came through a quaternion or a matrix is off by its last digits.
-/// @return that of the fewest decimals of a degree, at most nine, that it is but for these; else itself
+/// An angle that came through a quaternion or a matrix, without the last digits that this cost.
 double in_short_degrees(double angle_rad) {
-  constexpr double kRounding_rad = 1e-14, kMostParts = 1e9;
-  for (double parts = 1.0; parts <= kMostParts; parts *= 10.0) {
-    const double degrees = std::round(angle_rad * slam::kDegreesPerRad * parts) / parts;
-    if (std::abs(degrees * slam::kRadPerDegree - angle_rad) <= kRounding_rad)
-      return degrees * slam::kRadPerDegree + 0.0;  // -0 becomes 0
-  }
-  return angle_rad;
+  constexpr double kRounding_rad = 1e-14;
+  const double degrees = angle_rad * slam::kDegreesPerRad;
+  const double shorter = in_few_decimals(degrees, kRounding_rad * slam::kDegreesPerRad);
+  return shorter == degrees ? angle_rad : shorter * slam::kRadPerDegree;
 }
 
 /// Takes height and pitch from a body that is a robot.
@@ -101,7 +98,7 @@ RigCalibration imported_rig(const std::array<ViewCamera, 2>& cameras) {
   if (is_same(cameras[0], cameras[1]) && is_along_rows(right_in_left_m)) {
     calibration.rig.intrinsics = cameras[0].pinhole;
     calibration.rig.distortion = cameras[0].lens;
-    calibration.rig.right_turn_rad = turn_angles(left_from_right);
+    calibration.rig.right_turn_rad = turn_angles(left_from_right).unaryExpr(&in_short_degrees);
   } else {
     calibration = rig_of_two(cameras, right_in_left_m, left_from_right);
   }

@@ -28,7 +28,7 @@ struct Fault {
 
 /// Whether a fault is that a frame has not all of its files: the others are as good as without it.
 inline bool is_missing_frame(const Fault& fault) {
-  return fault.what.starts_with("missing frame");
+  return fault.what.starts_with("missing frame") || fault.what.starts_with("missing member");
 }
 
 /// A kind of picture that a frame may have of each camera, and the form in which it is read.
@@ -45,9 +45,10 @@ enum class Channel {
 
 /// A picture of a frame that is read when it is asked for.
 struct ChannelFile {
-  std::string file;               ///< its place in the folder
-  double step = 0.0;              ///< of the stored levels, px or m; 0 for 32-bit floats
-  std::function<cv::Mat()> read;  ///< @throws std::runtime_error, one line, for what cannot be read
+  std::string file;                         ///< its place in the folder
+  double step = 0.0;                        ///< of the stored levels, px or m; 0 for 32-bit floats
+  std::function<cv::Mat()> read;            ///< @throws std::runtime_error, one line, for what cannot be read
+  std::function<std::string()> bytes = {};  ///< where the file is in an archive, else null. @throws alike
 };
 
 /// A camera on a body. Its frame is x right, y down, z forward.
@@ -83,12 +84,20 @@ struct BallsFile {
   std::vector<ViewBallTruth> balls;
 };
 
+/// A robot, where a layout says all of it: the rig that vision is told, and where the robot is in the world.
+struct ViewRobot {
+  vision::StereoRig rig;
+  Eigen::Isometry3d world_from_robot = Eigen::Isometry3d::Identity();
+};
+
 /// One instant. Arrays are by vision::Side.
 struct ViewFrame {
   std::string name;
+  std::string drive = {};  ///< its name, where drives are told apart by more than folders
   std::array<std::optional<std::int64_t>, 2> stamp_ns;
   std::array<std::optional<Eigen::Isometry3d>, 2> world_from_body;  ///< when each camera looked
   std::array<ViewCamera, 2> cameras;
+  std::optional<ViewRobot> robot = {};
   std::array<std::map<Channel, ChannelFile>, 2> channels;
   std::array<std::optional<BallsFile>, 2> balls;
   /// Pictures, and those of which they are a part: the same values, or none.

@@ -32,7 +32,7 @@ const std::vector<std::string> kWithTruth = {"--truth", "balls,disparity,flow"};
 const std::vector<std::string> kBallsOfBend = {"--ball-radius-m", "0.1", "--ball-radius-sd-m", "0"};
 const std::string kAllPairs =
     "plain,kitti-odometry,kitti-stereo,kitti-stereo-2012,kitti-scene-flow,euroc,middlebury,eth3d,sceneflow,"
-    "vslamlab,rosbag,mcap";
+    "vslamlab,rosbag,mcap,webdataset";
 
 std::string without_last_line(const std::string& lines) {
   return lines.substr(0, lines.rfind('\n', lines.size() - 2) + 1);
@@ -65,27 +65,40 @@ TEST_P(CarriedDrive, DetectWritesTheSameBytes) {
 }
 
 // f B is rounded, and divided by f it is no longer B.
-const std::vector<std::string> kOddRig = {"--set", "rig.focal_px=281.37", "--set", "rig.baseline_m=0.1201"};
+// Places whose first pixel is (0.5, 0.5) are rounded, and half a pixel less they are others.
+const std::vector<std::string> kOddRig = {"--set", "rig.focal_px=281.37", "--set", "rig.baseline_m=0.1201",
+                                          "--set", "rig.cx_px=127.7",     "--set", "rig.cy_px=127.61"};
 
 INSTANTIATE_TEST_SUITE_P(
     RoundTrip, CarriedDrive,
-    testing::Values(
-        Carried{"level", kAllPairs, with(kOddRig, kWithTruth), {}},
-        Carried{
-            "pitched_as_the_layout_says", "plain,euroc,rosbag,mcap", {"--set", "rig.pitch_down_deg=7.3"}, {}},
-        Carried{"pitched_as_is_told",
-                kAllPairs,
-                with({"--set", "rig.pitch_down_deg=7.3"}, kWithTruth),
-                {"--pitch-down-deg", "7.3"}},
-        Carried{"turned", "plain,euroc,vslamlab", {"--set", "rig.right_turn_deg=[0.3,-0.2,0.1]"}, {}},
-        Carried{"behind_lenses",
-                "plain,euroc,vslamlab,rosbag,mcap",
-                {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0]", "--set", "rig.pixel_aspect=1.01"},
-                {}},
-        Carried{"behind_lenses_with_k3",
-                "plain,vslamlab,rosbag,mcap",
-                {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0.01]"},
-                {}}),
+    testing::Values(Carried{"level", kAllPairs, with(kOddRig, kWithTruth), {}},
+                    Carried{"pitched_as_the_layout_says",
+                            "plain,euroc,rosbag,mcap,webdataset",
+                            {"--set", "rig.pitch_down_deg=7.3"},
+                            {}},
+                    Carried{"pitched_as_is_told",
+                            kAllPairs,
+                            with({"--set", "rig.pitch_down_deg=7.3"}, kWithTruth),
+                            {"--pitch-down-deg", "7.3"}},
+                    Carried{"turned",
+                            "plain,euroc,vslamlab,webdataset",
+                            {"--set", "rig.right_turn_deg=[0.3,-0.2,0.1]"},
+                            {}},
+                    Carried{"behind_lenses",
+                            "plain,euroc,vslamlab,rosbag,mcap,webdataset",
+                            {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0]", "--set",
+                             "rig.pixel_aspect=1.01"},
+                            {}},
+                    Carried{"behind_lenses_with_k3",
+                            "plain,vslamlab,rosbag,mcap,webdataset",
+                            {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0.01]"},
+                            {}},
+                    // A shard says what vision is told, and when each camera looked.
+                    Carried{"told_another_rig_and_late",
+                            "plain,webdataset",
+                            {"--set", "believed_rig={focal_px: 283.1, pitch_down_deg: 0.7}", "--set",
+                             "shutter={right_delay_s: 0.004, late_probability: 0.5, late_s: 0.03}"},
+                            {}}),
     [](const auto& carried) { return std::string(carried.param.name); });
 
 // TUM has one camera.
@@ -149,7 +162,7 @@ TEST(RoundTrip, SlamOnTruePathsFindsTheSame) {
       "--set",
       "path={kind: polyline, points_m: [[0, 0], [0.5, 0], [0.5, 1.4]], corner_radius_m: 0.3, "
       "speed_mps: 1, step_s: 0.1}"};
-  const fs::path sets = rendered(kBend, "plain,euroc,kitti-odometry,vslamlab", short_drive);
+  const fs::path sets = rendered(kBend, "plain,euroc,kitti-odometry,vslamlab,webdataset", short_drive);
   const fs::path plain = scratch.path() / "plain";
   fs::copy(sets / "plain", plain, fs::copy_options::recursive);
   drive_exactly(plain);
@@ -157,7 +170,7 @@ TEST(RoundTrip, SlamOnTruePathsFindsTheSame) {
   const auto wanted = slam_of(plain, detections, scratch.path() / "wanted")["filters"]["ekf"];
   EXPECT_LT(wanted["ate_rms_m"]["mean"].get<double>(), 0.01);
   EXPECT_GT(wanted["ate_rms_m"]["mean"].get<double>(), 1e-6);
-  for (const char* format : {"euroc", "kitti-odometry", "vslamlab"}) {
+  for (const char* format : {"euroc", "kitti-odometry", "vslamlab", "webdataset"}) {
     const fs::path imported = scratch.path() / format;
     import_to(imported, sets / format, {"--odometry-from-truth"});
     const auto found = slam_of(imported, detections, scratch.path() / "out" / format)["filters"]["ekf"];

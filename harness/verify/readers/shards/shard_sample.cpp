@@ -66,6 +66,7 @@ ShardSample shard_sample(const std::string& text) {
                         .is_late = number_of(json.at("late_s")) != 0.0,
                         .said_of_rig = {},
                         .rig = read_rig(json.at("rig")),
+                        .believed_rig = read_rig(json.at(json.find("believed_rig") ? "believed_rig" : "rig")),
                         .world_from_robot = rows_in(json.at("world_from_robot")),
                         .world_from_camera = {rows_in(json.at("world_from_left_camera")),
                                               rows_in(json.at("world_from_right_camera"))}};

@@ -30,7 +30,7 @@ struct ShardSample {
   std::int64_t stamp_ns = 0;
   bool is_late = false;  ///< its pictures were taken after its time
   nlohmann::json said_of_rig;
-  vision::StereoRig rig;
+  vision::StereoRig rig, believed_rig;
   Eigen::Isometry3d world_from_robot = Eigen::Isometry3d::Identity();
   std::array<Eigen::Isometry3d, 2> world_from_camera;
   std::vector<SampleBall> balls;

@@ -47,9 +47,10 @@ void add_pictures(const DatasetView& view, const ShardFiles& files, ViewFrame& f
     const Side side = kind.starts_with("right") ? Side::kRight : Side::kLeft;
     const bool is_named = kind.starts_with("left") || side == Side::kRight;
     if (!is_named && kind.find('.') != std::string::npos) continue;  // "mask.png" is no camera's picture
+    const fs::path archive = view.folder / files.shard;
     frame.channels[index_of(side)][Channel::kPicture] = {
-        files.place(kind), 0.0,
-        [archive = view.folder / files.shard, file = member] { return decoded_member(archive, file); }};
+        files.place(kind), 0.0, [archive, file = member] { return decoded_member(archive, file); },
+        [archive, file = member] { return read_member(archive, file); }};
   }
 }
 
@@ -83,6 +84,8 @@ void add_geometry(DatasetView& view, const SampleOfFiles& sample, const BallPlac
     frame.balls[i] = balls_of(said, sample.files.place(kSampleJson), camera, i, places);
   }
   frame.stamp_ns = {said.stamp_ns, said.stamp_ns};
+  frame.drive = fmt::format("{}_{}", said.drive, said.seed);
+  frame.robot = {said.believed_rig, said.world_from_robot};
   view.poses.push_back({.file = sample.files.shard,
                         .stamp_ns = said.stamp_ns,
                         .matrix = said.world_from_camera[0].matrix(),
