@@ -34,10 +34,15 @@ const DatasetReader& foreign_reader(const ImportArguments& arguments) {
 std::string rig_line(const ImportedDataset& done) {
   if (!done.calibration) return "no calibration of two cameras: `detect` needs --rig for pairs";
   const vision::StereoRig& rig = done.calibration->rig;
-  return fmt::format("rig: {} x {} px, focal length {:.2f} px, baseline {:.4f} m, looking {:.2f} deg down{}",
-                     rig.intrinsics.width_px, rig.intrinsics.height_px, rig.intrinsics.focal_px,
-                     rig.baseline_m, rig.pitch_down_rad * slam::kDegreesPerRad,
-                     done.calibration->cameras ? "; two different cameras, which `detect` rectifies" : "");
+  const std::string spread =
+      done.spread ? fmt::format("; pairs are off it by up to {:.3f} px and {:.3f} % of the baseline",
+                                done.spread->px, 100.0 * done.spread->share)
+                  : "";
+  return fmt::format(
+      "rig: {} x {} px, focal length {:.2f} px, baseline {:.4f} m, looking {:.2f} deg down{}{}",
+      rig.intrinsics.width_px, rig.intrinsics.height_px, rig.intrinsics.focal_px, rig.baseline_m,
+      rig.pitch_down_rad * slam::kDegreesPerRad,
+      done.calibration->cameras ? "; two different cameras, which `detect` rectifies" : "", spread);
 }
 
 std::string odometry_text(const ImportedDataset& done, bool is_from_truth) {
@@ -91,7 +96,9 @@ void add_import_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("import", "turn a data set of any layout into what `detect` and `slam` read");
   auto arguments = std::make_shared<ImportArguments>();
-  command->add_option("dataset", arguments->folder, "folder of a data set of KITTI, EuRoC, TUM, ROS, ...")
+  command
+      ->add_option("dataset", arguments->folder,
+                   "folder of a data set of KITTI, EuRoC, TUM, ROS, COLMAP, ...")
       ->required();
   command->add_option("-o,--out", arguments->request.out, "folder for the result; a new one")->required();
   command->add_option("--as", arguments->format, "its format, where the folder does not tell")
@@ -112,8 +119,10 @@ void add_import_command(CLI::App& program, Action& action) {
   add_quiet_option(*command);
   command->footer(
       "Pictures are linked, or copied where the file system has no links, and never decoded; those of bags\n"
-      "and MCAP become PNG. Frames without a partner are left out. True poses are put on the floor. Balls'\n"
-      "sizes and colours, which no layout has, are options of `detect`.\n\n"
+      "and MCAP become PNG. Frames without a partner are left out. Of COLMAP, BOP and Nerfstudio the rig is\n"
+      "where the poses of both pictures have it; folders called left and right tell which are a pair. True\n"
+      "poses are put on the floor. Balls' sizes and colours, which no layout has, are options of\n"
+      "`detect`.\n\n"
       "Example: stereobench import MH_01_easy --out out/mh_01");
   command->callback([arguments, &action] { action = [arguments] { return import_folder(*arguments); }; });
 }

@@ -33,7 +33,6 @@ std::vector<std::string_view> known_formats() {
 
 std::span<const DatasetReader> dataset_readers() {
   constexpr const char* kImported = "";
-  constexpr const char* kNoRig = "does not say how two cameras are mounted; expected a layout of a rig";
   static constexpr std::array kReaders = {
       DatasetReader{"plain", looks_plain, read_plain_view, "is what `detect` and `slam` read as it is"},
       DatasetReader{"euroc", looks_like_euroc, read_euroc_view},
@@ -44,11 +43,11 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"tum", looks_like_tum, read_tum_view},
       DatasetReader{"vslamlab", looks_like_vslamlab, read_vslamlab_view},
       DatasetReader{"sceneflow", looks_like_sceneflow, read_sceneflow_view},
-      DatasetReader{"colmap", looks_like_colmap, read_colmap_view, kNoRig},
+      DatasetReader{"colmap", looks_like_colmap, read_colmap_view},
       DatasetReader{"coco", looks_like_coco, read_coco_view,
                     "says nothing of cameras; expected a layout with their lenses and places"},
-      DatasetReader{"bop", looks_like_bop, read_bop_view, kNoRig},
-      DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view, kNoRig},
+      DatasetReader{"bop", looks_like_bop, read_bop_view},
+      DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
       DatasetReader{"rosbag", looks_like_rosbag, read_rosbag_view, kImported, read_rosbag_log},

@@ -126,12 +126,12 @@ TEST_F(ForeignEuroc, OtherModelsAreRefused) {
   EXPECT_FALSE(fs::exists(scratch.path() / "in"));
 }
 
-TEST(Import, TakesNoLayoutWithoutARig) {
+TEST(Import, TakesNoLayoutWithoutCameras) {
   const TestFolder folder, scratch;
-  folder.write("transforms.json", "{}");
+  folder.write("annotations/instances_val.json", "{}");
   const Outcome refused = import_from(folder, scratch);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("the format nerfstudio does not say how two cameras are mounted"));
+  EXPECT_THAT(refused.err, HasSubstr("the format coco says nothing of cameras"));
   EXPECT_FALSE(fs::exists(scratch.path() / "in"));
 }
 

@@ -32,7 +32,7 @@ const std::vector<std::string> kWithTruth = {"--truth", "balls,disparity,flow"};
 const std::vector<std::string> kBallsOfBend = {"--ball-radius-m", "0.1", "--ball-radius-sd-m", "0"};
 const std::string kAllPairs =
     "plain,kitti-odometry,kitti-stereo,kitti-stereo-2012,kitti-scene-flow,euroc,middlebury,eth3d,sceneflow,"
-    "vslamlab,rosbag,mcap,webdataset";
+    "vslamlab,rosbag,mcap,webdataset,colmap,bop,nerfstudio";
 
 std::string without_last_line(const std::string& lines) {
   return lines.substr(0, lines.rfind('\n', lines.size() - 2) + 1);
@@ -81,16 +81,16 @@ INSTANTIATE_TEST_SUITE_P(
                             with({"--set", "rig.pitch_down_deg=7.3"}, kWithTruth),
                             {"--pitch-down-deg", "7.3"}},
                     Carried{"turned",
-                            "plain,euroc,vslamlab,webdataset",
+                            "plain,euroc,vslamlab,webdataset,colmap,bop,nerfstudio",
                             {"--set", "rig.right_turn_deg=[0.3,-0.2,0.1]"},
                             {}},
                     Carried{"behind_lenses",
-                            "plain,euroc,vslamlab,rosbag,mcap,webdataset",
+                            "plain,euroc,vslamlab,rosbag,mcap,webdataset,colmap,nerfstudio",
                             {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0]", "--set",
                              "rig.pixel_aspect=1.01"},
                             {}},
                     Carried{"behind_lenses_with_k3",
-                            "plain,vslamlab,rosbag,mcap,webdataset",
+                            "plain,vslamlab,rosbag,mcap,webdataset,colmap,nerfstudio",
                             {"--set", "rig.distortion=[-0.2,0.05,0.001,0.0005,0.01]"},
                             {}},
                     // A shard says what vision is told, and when each camera looked.
