@@ -9,8 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/dataset/formats/container/mcap_format.h"
-#include "harness/dataset/formats/container/rosbag_format.h"
+#include "harness/dataset/formats/container/recording_format.h"
 #include "harness/dataset/formats/container/webdataset_format.h"
 #include "harness/dataset/formats/odometry/euroc_format.h"
 #include "harness/dataset/formats/odometry/kitti_odometry_format.h"

@@ -29,10 +29,18 @@ std::vector<std::string_view> known_formats() {
   return names;
 }
 
+/// The row of a kind of recording.
+template <const RecordingKind& kKind>
+constexpr DatasetReader recording_reader() {
+  return {kKind.format,
+          [](const std::filesystem::path& folder) { return looks_like_recording(folder, kKind); },
+          [](const std::filesystem::path& folder) { return read_recording_view(folder, kKind); }, "",
+          [](const std::filesystem::path& folder) { return read_recording_log(folder, kKind); }};
+}
+
 }  // namespace
 
 std::span<const DatasetReader> dataset_readers() {
-  constexpr const char* kImported = "";
   static constexpr std::array kReaders = {
       DatasetReader{"plain", looks_plain, read_plain_view, "is what `detect` and `slam` read as it is"},
       DatasetReader{"euroc", looks_like_euroc, read_euroc_view},
@@ -50,8 +58,8 @@ std::span<const DatasetReader> dataset_readers() {
       DatasetReader{"nerfstudio", looks_like_nerfstudio, read_nerfstudio_view},
       DatasetReader{"eth3d", looks_like_eth3d, read_eth3d_view},
       DatasetReader{"middlebury", looks_like_middlebury, read_middlebury_view},
-      DatasetReader{"rosbag", looks_like_rosbag, read_rosbag_view, kImported, read_rosbag_log},
-      DatasetReader{"mcap", looks_like_mcap, read_mcap_view, kImported, read_mcap_log},
+      recording_reader<kRosbagKind>(),
+      recording_reader<kMcapKind>(),
       DatasetReader{"webdataset", looks_like_webdataset, read_webdataset_view},
       DatasetReader{"mrclam", looks_like_mrclam, read_mrclam_view,
                     "has no pictures; `slam` reads it as it is"},

@@ -3,25 +3,16 @@
 #include <algorithm>
 #include <concepts>
 
+#include "harness/dataset/formats/container/bag_records.h"
 #include "harness/types.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
 /// The record after it has this size, so that it can be replaced when the rest is known.
 constexpr std::size_t kHeadRecord = 4096;
 /// A chunk ends with the message that makes it larger, as those of the `rosbag` program.
 constexpr std::size_t kChunkBytes = 768 * 1024;
-
-enum class BagOp : std::uint8_t {
-  kMessage = 2,
-  kHead = 3,
-  kIndex = 4,
-  kChunk = 5,
-  kChunkInfo = 6,
-  kConnection = 7
-};
 
 /// Unsigned, least byte first.
 template <std::unsigned_integral Number>
@@ -45,7 +36,7 @@ std::string bag_time(std::int64_t ns) {
 class BagFields {
  public:
   BagFields() = default;
-  explicit BagFields(BagOp op) { add("op", little(static_cast<std::uint8_t>(op))); }
+  explicit BagFields(BagOp op) { add(bag_field::kOp, little(static_cast<std::uint8_t>(op))); }
   BagFields& add(std::string_view name, std::string_view value) {
     bytes_ += little32(name.size() + 1 + value.size());
     bytes_.append(name).append("=").append(value);
@@ -82,9 +73,9 @@ void BagFile::append(std::string_view bytes) {
 std::string BagFile::connection_record(std::size_t connection) const {
   const BagConnection& about = connections_[connection];
   BagFields fields(BagOp::kConnection), data;
-  fields.add("conn", little32(connection)).add("topic", about.topic);
-  data.add("topic", about.topic)
-      .add("type", about.type)
+  fields.add(bag_field::kConnection, little32(connection)).add(bag_field::kTopic, about.topic);
+  data.add(bag_field::kTopic, about.topic)
+      .add(bag_field::kType, about.type)
       .add("md5sum", about.md5)
       .add("message_definition", about.definition);
   if (about.is_latched) data.add("latching", "1");
@@ -93,9 +84,9 @@ std::string BagFile::connection_record(std::size_t connection) const {
 
 std::string BagFile::head_record(std::uint64_t index_place, std::size_t connections) const {
   BagFields fields(BagOp::kHead);
-  fields.add("index_pos", little(index_place))
-      .add("conn_count", little32(connections))
-      .add("chunk_count", little32(chunks_.size()));
+  fields.add(bag_field::kIndexPlace, little(index_place))
+      .add(bag_field::kConnectionCount, little32(connections))
+      .add(bag_field::kChunkCount, little32(chunks_.size()));
   const std::size_t padding = kHeadRecord - record_head(fields, 0).size();
   return bag_record(fields, std::string(padding, ' '));
 }
@@ -107,7 +98,7 @@ void BagFile::add(std::size_t connection, std::int64_t stamp_ns, std::string_vie
   chunk_index_[connection].push_back({stamp_ns, chunk_.size()});
   chunks_.back().last_ns = stamp_ns;
   BagFields fields(BagOp::kMessage);
-  fields.add("conn", little32(connection)).add("time", bag_time(stamp_ns));
+  fields.add(bag_field::kConnection, little32(connection)).add(bag_field::kTime, bag_time(stamp_ns));
   chunk_ += record_head(fields, message.size());
   chunk_ += message;
   if (chunk_.size() > kChunkBytes) end_chunk();
@@ -116,14 +107,16 @@ void BagFile::add(std::size_t connection, std::int64_t stamp_ns, std::string_vie
 void BagFile::end_chunk() {
   if (chunk_index_.empty()) return;
   BagFields chunk(BagOp::kChunk);
-  chunk.add("compression", "none").add("size", little32(chunk_.size()));
+  chunk.add(bag_field::kCompression, kBagUncompressed).add("size", little32(chunk_.size()));
   append(record_head(chunk, chunk_.size()));
   append(chunk_);
   for (const auto& [connection, entries] : chunk_index_) {
     std::string data;
     for (const IndexEntry& entry : entries) data += bag_time(entry.stamp_ns) + little32(entry.offset);
     BagFields index(BagOp::kIndex);
-    index.add("ver", little32(1)).add("conn", little32(connection)).add("count", little32(entries.size()));
+    index.add("ver", little32(1))
+        .add(bag_field::kConnection, little32(connection))
+        .add("count", little32(entries.size()));
     append(bag_record(index, data));
     chunks_.back().messages[connection] = entries.size();
   }

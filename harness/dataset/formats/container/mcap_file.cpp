@@ -8,21 +8,10 @@
 
 #include <zlib.h>
 
+#include "harness/dataset/formats/container/mcap_records.h"
+
 namespace stereobench::harness {
 namespace {
-
-constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
-
-enum class McapOp : std::uint8_t {
-  kHeader = 1,
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kStatistics = 11,
-  kSummaryOffset = 14,
-  kDataEnd = 15
-};
 
 /// The content of a record.
 class McapContent {
@@ -99,7 +88,7 @@ std::string McapFile::channel_records() const {
                                                  .number16(i)
                                                  .number16(static_cast<std::size_t>(schema) + 1)
                                                  .text(channels_[i].topic)
-                                                 .text("cdr")
+                                                 .text(kMcapCdr)
                                                  .text(no_quality));
   }
   return records;

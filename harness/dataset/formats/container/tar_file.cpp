@@ -5,19 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/formats/container/tar_header.h"
+
 namespace stereobench::harness {
 namespace {
-
-constexpr std::size_t kTarBlock = 512;
-
-/// A field of the header.
-struct TarField {
-  std::size_t at = 0;
-  std::size_t size = 0;
-};
-constexpr TarField kTarName = {0, 100}, kTarMode = {100, 8}, kTarUser = {108, 8}, kTarGroup = {116, 8},
-                   kTarSize = {124, 12}, kTarTime = {136, 12}, kTarSum = {148, 8}, kTarType = {156, 1},
-                   kTarMagic = {257, 8}, kTarMajor = {329, 8}, kTarMinor = {337, 8};
 
 /// Octal digits that fill a field but for the zero byte at its end.
 std::string octal(std::size_t value, const TarField& field) {
@@ -32,17 +23,19 @@ std::string tar_header(std::string_view name, std::size_t bytes) {
       throw std::invalid_argument(fmt::format("{}: has no place in the header of an archive", text));
     header.replace(field.at, text.size(), text);
   };
-  set(kTarName, name);
-  set(kTarMode, octal(kReadable, kTarMode));
-  for (const TarField& field : {kTarUser, kTarGroup, kTarTime, kTarMajor, kTarMinor})
+  set(tar_field::kName, name);
+  set(tar_field::kMode, octal(kReadable, tar_field::kMode));
+  for (const TarField& field :
+       {tar_field::kUser, tar_field::kGroup, tar_field::kTime, tar_field::kMajor, tar_field::kMinor})
     set(field, octal(0, field));
-  set(kTarSize, octal(bytes, kTarSize));
-  set(kTarType, "0");
-  set(kTarMagic, std::string_view("ustar\00000", kTarMagic.size));
-  set(kTarSum, std::string(kTarSum.size, ' '));  // the sum is taken over blanks in its own place
+  set(tar_field::kSize, octal(bytes, tar_field::kSize));
+  set(tar_field::kType, "0");
+  set(tar_field::kMagic, std::string_view("ustar\00000", tar_field::kMagic.size));
+  set(tar_field::kSum,
+      std::string(tar_field::kSum.size, ' '));  // the sum is taken over blanks in its own place
   std::size_t sum = 0;
   for (const char byte : header) sum += static_cast<unsigned char>(byte);
-  set(kTarSum, fmt::format("{:06o}{} ", sum, '\0'));
+  set(tar_field::kSum, fmt::format("{:06o}{} ", sum, '\0'));
   return header;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/formats/container/bag_records.h"
 #include "harness/types.h"
 #include "harness/verify/readers/recording/file_pieces.h"
 #include "harness/verify/readers/recording/recording.h"
@@ -11,17 +12,8 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr std::string_view kBagBegins = "#ROSBAG V";
-constexpr std::string_view kBagVersion = "#ROSBAG V2.0\n";
-
-enum BagRecordOp : std::uint8_t {
-  kBagMessage = 2,
-  kBagHead = 3,
-  kBagIndex = 4,
-  kBagChunk = 5,
-  kBagChunkInfo = 6,
-  kBagConnection = 7
-};
+/// What bags of any version begin with.
+constexpr std::string_view kAnyBagMagic = kBagMagic.substr(0, kBagMagic.find('V') + 1);
 
 /// "name=value" after "name=value", each behind its length.
 std::map<std::string, std::string> bag_fields(std::string_view bytes) {
@@ -41,6 +33,7 @@ struct ReadBagRecord {
   std::uint64_t data_at = 0, data_size = 0;
 
   std::uint64_t end() const { return data_at + data_size; }
+  BagOp op() const { return static_cast<BagOp>(number<std::uint8_t>(bag_field::kOp)); }
   const std::string& field(const std::string& name) const {
     const auto found = fields.find(name);
     if (found == fields.end()) throw std::runtime_error(fmt::format("expected a field {}", name));
@@ -62,11 +55,11 @@ class BagReading {
   explicit BagReading(const std::filesystem::path& file) : file_(file) { recording_.file = file; }
 
   RecordedFile read() {
-    const std::string begin = file_.piece(0, std::min<std::uint64_t>(kBagVersion.size(), file_.size()));
-    if (begin != kBagVersion)
-      file_.refuse(0, begin.starts_with(kBagBegins) ? "expected a bag of version 2.0; run `rosbag fix`"
-                                                    : "expected \"#ROSBAG V2.0\": it is no bag of ROS 1");
-    const ReadBagRecord head = record_at(kBagVersion.size(), file_.size());
+    const std::string begin = file_.piece(0, std::min<std::uint64_t>(kBagMagic.size(), file_.size()));
+    if (begin != kBagMagic)
+      file_.refuse(0, begin.starts_with(kAnyBagMagic) ? "expected a bag of version 2.0; run `rosbag fix`"
+                                                      : "expected \"#ROSBAG V2.0\": it is no bag of ROS 1");
+    const ReadBagRecord head = record_at(kBagMagic.size(), file_.size());
     file_.at_record(head.at, [&] { read_head(head); });
     for (std::uint64_t at = head.end(); at < file_.size();) {
       const ReadBagRecord record = record_at(at, file_.size());
@@ -98,10 +91,10 @@ class BagReading {
   std::string data_of(const ReadBagRecord& record) { return file_.piece(record.data_at, record.data_size); }
 
   void read_head(const ReadBagRecord& head) {
-    if (head.number<std::uint8_t>("op") != kBagHead) throw std::runtime_error("expected the bag's head");
-    connections_ = head.number<std::uint32_t>("conn_count");
-    chunks_ = head.number<std::uint32_t>("chunk_count");
-    const auto index_at = head.number<std::uint64_t>("index_pos");
+    if (head.op() != BagOp::kHead) throw std::runtime_error("expected the bag's head");
+    connections_ = head.number<std::uint32_t>(bag_field::kConnectionCount);
+    chunks_ = head.number<std::uint32_t>(bag_field::kChunkCount);
+    const auto index_at = head.number<std::uint64_t>(bag_field::kIndexPlace);
     if (index_at == 0) throw std::runtime_error("the bag was never closed; run `rosbag reindex`");
     if (index_at > file_.size())
       throw std::runtime_error(
@@ -131,16 +124,16 @@ class BagReading {
 };
 
 void BagReading::read_record(const ReadBagRecord& record) {
-  switch (record.number<std::uint8_t>("op")) {
-    case kBagChunk:
+  switch (record.op()) {
+    case BagOp::kChunk:
       return read_chunk(record);
-    case kBagConnection:
+    case BagOp::kConnection:
       return read_connection(record);
-    case kBagIndex:
+    case BagOp::kIndex:
       return read_index(record);
-    case kBagChunkInfo:
+    case BagOp::kChunkInfo:
       return read_chunk_info(record);
-    case kBagMessage:
+    case BagOp::kMessage:
       return read_message(record);
     default:
       return;  // of later versions
@@ -148,42 +141,43 @@ void BagReading::read_record(const ReadBagRecord& record) {
 }
 
 void BagReading::read_connection(const ReadBagRecord& record) {
-  const auto number = record.number<std::uint32_t>("conn");
+  const auto number = record.number<std::uint32_t>(bag_field::kConnection);
   if (topic_of_.contains(number)) return;  // each stands in a chunk and in the index
   topic_of_[number] = recording_.topics.size();
   ReadBagRecord about;
   about.fields = bag_fields(data_of(record));
-  recording_.topics.push_back({record.field("topic"), about.field("type"), RosVersion::kOne});
+  recording_.topics.push_back(
+      {record.field(bag_field::kTopic), about.field(bag_field::kType), RosVersion::kOne});
 }
 
 void BagReading::read_chunk(const ReadBagRecord& chunk) {
-  if (chunk.field("compression") != "none")
-    throw std::runtime_error(
-        fmt::format("the chunk is compressed by {}; run `rosbag decompress`", chunk.field("compression")));
+  if (chunk.field(bag_field::kCompression) != kBagUncompressed)
+    throw std::runtime_error(fmt::format("the chunk is compressed by {}; run `rosbag decompress`",
+                                         chunk.field(bag_field::kCompression)));
   ++chunks_found_;
   in_chunk_.clear();
   for (std::uint64_t at = chunk.data_at; at < chunk.end();) {
     const ReadBagRecord record = record_at(at, chunk.end());
     file_.at_record(record.at, [&] {
-      if (record.number<std::uint8_t>("op") == kBagConnection) read_connection(record);
-      if (record.number<std::uint8_t>("op") != kBagMessage) return;
+      if (record.op() == BagOp::kConnection) read_connection(record);
+      if (record.op() != BagOp::kMessage) return;
       read_message(record);
-      in_chunk_[record.number<std::uint32_t>("conn")].emplace_back(recording_.messages.back().stamp_ns,
-                                                                   at - chunk.data_at);
+      in_chunk_[record.number<std::uint32_t>(bag_field::kConnection)].emplace_back(
+          recording_.messages.back().stamp_ns, at - chunk.data_at);
     });
     at = record.end();
   }
 }
 
 void BagReading::read_message(const ReadBagRecord& record) {
-  const auto topic = topic_of_.find(record.number<std::uint32_t>("conn"));
+  const auto topic = topic_of_.find(record.number<std::uint32_t>(bag_field::kConnection));
   if (topic == topic_of_.end()) throw std::runtime_error("a message of a connection that is not described");
-  LittleValues time(record.field("time"));
+  LittleValues time(record.field(bag_field::kTime));
   recording_.messages.push_back({topic->second, bag_time_of(time), record.data_at, record.data_size, {}});
 }
 
 void BagReading::read_index(const ReadBagRecord& record) {
-  const auto number = record.number<std::uint32_t>("conn");
+  const auto number = record.number<std::uint32_t>(bag_field::kConnection);
   std::vector<std::pair<std::int64_t, std::uint64_t>> entries;
   const std::string data = data_of(record);
   for (LittleValues values(data); !values.is_at_end();) {

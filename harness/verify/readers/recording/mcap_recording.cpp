@@ -4,28 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/formats/container/mcap_records.h"
 #include "harness/verify/readers/recording/file_pieces.h"
 #include "harness/verify/readers/recording/recording.h"
 
 namespace stereobench::harness {
 namespace {
 
-constexpr std::string_view kMcapEnds = "\x89MCAP0\r\n";
 constexpr std::uint64_t kMcapHeadBytes = sizeof(std::uint8_t) + sizeof(std::uint64_t);
-
-enum McapRecordOp : std::uint8_t {
-  kMcapFooter = 2,
-  kMcapSchema = 3,
-  kMcapChannel = 4,
-  kMcapMessage = 5,
-  kMcapChunk = 6,
-  kMcapStatistics = 11,
-  kMcapDataEnd = 15
-};
 
 struct ReadMcapRecord {
   std::uint64_t at = 0;  ///< in the file
-  std::uint8_t op = 0;
+  McapOp op = McapOp::kHeader;
   std::uint64_t data_at = 0, data_size = 0;
 
   std::uint64_t end() const { return data_at + data_size; }
@@ -45,8 +35,8 @@ class McapReading {
   explicit McapReading(const std::filesystem::path& file) : file_(file) { recording_.file = file; }
 
   RecordedFile read() {
-    const std::uint64_t magic = kMcapEnds.size(), end = file_.size();
-    if (end < magic || file_.piece(0, magic) != kMcapEnds)
+    const std::uint64_t magic = kMcapMagic.size(), end = file_.size();
+    if (end < magic || file_.piece(0, magic) != kMcapMagic)
       file_.refuse(0, "expected the magic bytes of MCAP, version 0");
     std::uint64_t at = magic;
     while (!is_at_footer_) {
@@ -54,7 +44,7 @@ class McapReading {
       file_.at_record(at, [&] { read_record(record); });
       at = record.end();
     }
-    if (end - at != magic || file_.piece(at, magic) != kMcapEnds)
+    if (end - at != magic || file_.piece(at, magic) != kMcapMagic)
       file_.refuse(at, "expected the magic bytes of MCAP behind the footer, and nothing else");
     recording_.checked.push_back(fmt::format("checksums of MCAP ({})", checksums_));
     return std::move(recording_);
@@ -64,7 +54,7 @@ class McapReading {
   ReadMcapRecord record_at(std::uint64_t at, std::uint64_t end) {
     const std::string head = file_.piece(at, kMcapHeadBytes, end);
     LittleValues values(head);
-    ReadMcapRecord record = {.at = at, .op = values.number<std::uint8_t>()};
+    ReadMcapRecord record = {.at = at, .op = static_cast<McapOp>(values.number<std::uint8_t>())};
     record.data_at = at + kMcapHeadBytes;
     record.data_size = values.number<std::uint64_t>();
     file_.require(record.data_at, record.data_size, end);
@@ -100,17 +90,17 @@ class McapReading {
 
 void McapReading::read_record(const ReadMcapRecord& record) {
   // The summary repeats schemas and channels.
-  if (record.op == kMcapSchema) return read_schema(record);
-  if (record.op == kMcapChannel) return read_channel(record);
-  if (record.op == kMcapMessage) return read_message(record);
-  if (record.op == kMcapChunk) return read_chunk(record);
-  if (record.op == kMcapStatistics) return read_statistics(record);
-  if (record.op == kMcapDataEnd) {
+  if (record.op == McapOp::kSchema) return read_schema(record);
+  if (record.op == McapOp::kChannel) return read_channel(record);
+  if (record.op == McapOp::kMessage) return read_message(record);
+  if (record.op == McapOp::kChunk) return read_chunk(record);
+  if (record.op == McapOp::kStatistics) return read_statistics(record);
+  if (record.op == McapOp::kDataEnd) {
     is_at_end_of_data_ = true;
     const std::string data = data_of(record);
     compare_crc("data", LittleValues(data).number<std::uint32_t>(), 0, record.at);
   }
-  if (record.op == kMcapFooter) {
+  if (record.op == McapOp::kFooter) {
     if (!is_at_end_of_data_) throw std::runtime_error("expected the end of the data before the footer");
     is_at_footer_ = true;
     const std::string data = data_of(record);
@@ -142,7 +132,7 @@ void McapReading::read_channel(const ReadMcapRecord& record) {
   if (schema != 0 && !types_.contains(schema))
     throw std::runtime_error(fmt::format("{}: its schema {} is not described", topic, schema));
   topic_of_[number] = recording_.topics.size();
-  recording_.topics.push_back({std::string(topic), is_one || encoding == "cdr" ? types_[schema] : "",
+  recording_.topics.push_back({std::string(topic), is_one || encoding == kMcapCdr ? types_[schema] : "",
                                is_one ? RosVersion::kOne : RosVersion::kTwo});
 }
 
@@ -178,8 +168,8 @@ void McapReading::read_chunk(const ReadMcapRecord& record) {
   compare_crc("chunk", crc, at, end);
   while (at < end) {
     const ReadMcapRecord inner = record_at(at, end);
-    if (inner.op != kMcapSchema && inner.op != kMcapChannel && inner.op != kMcapMessage)
-      throw std::runtime_error(fmt::format("a record of kind {} in a chunk", inner.op));
+    if (inner.op != McapOp::kSchema && inner.op != McapOp::kChannel && inner.op != McapOp::kMessage)
+      throw std::runtime_error(fmt::format("a record of kind {} in a chunk", static_cast<int>(inner.op)));
     file_.at_record(at, [&] { read_record(inner); });
     at = inner.end();
   }

@@ -23,14 +23,7 @@ constexpr const char* kPicture = "image_raw";
 /// Headers end within so many bytes.
 constexpr std::uint64_t kHeaderBytes = 4096;
 
-struct ContainerKind {
-  const char* format;
-  const char* ending;
-  RecordedFile (*read)(const fs::path& file);
-};
-constexpr ContainerKind kBag = {"rosbag", ".bag", read_bag}, kMcap = {"mcap", ".mcap", read_mcap};
-
-OpenRecording open_in(const fs::path& folder, const ContainerKind& kind) {
+OpenRecording open_in(const fs::path& folder, const RecordingKind& kind) {
   const std::set<std::string> names = stems_in(folder, kind.ending);
   if (names.size() != 1)
     throw std::runtime_error(fmt::format(
@@ -157,7 +150,7 @@ void add_recorded_frames(OpenRecording& from, const std::array<RecordedPictures,
   }
 }
 
-DatasetView view_of(OpenRecording from, const fs::path& folder, const ContainerKind& kind) {
+DatasetView view_of(OpenRecording from, const fs::path& folder, const RecordingKind& kind) {
   DatasetView view = {.format = kind.format, .folder = folder};
   view.poses_of = PosesOf::kBody;
   view.calibration_file = fmt::format("{}: camera_info and /tf_static", from.name);
@@ -186,29 +179,16 @@ DatasetView view_of(OpenRecording from, const fs::path& folder, const ContainerK
 
 }  // namespace
 
-bool looks_like_rosbag(const fs::path& folder) {
-  return !stems_in(folder, kBag.ending).empty();
+bool looks_like_recording(const fs::path& folder, const RecordingKind& kind) {
+  return !stems_in(folder, kind.ending).empty();
 }
 
-DatasetView read_rosbag_view(const fs::path& folder) {
-  return view_of(open_in(folder, kBag), folder, kBag);
+DatasetView read_recording_view(const fs::path& folder, const RecordingKind& kind) {
+  return view_of(open_in(folder, kind), folder, kind);
 }
 
-RecordedStreams read_rosbag_log(const fs::path& folder) {
-  OpenRecording from = open_in(folder, kBag);
-  return recorded_streams(from);
-}
-
-bool looks_like_mcap(const fs::path& folder) {
-  return !stems_in(folder, kMcap.ending).empty();
-}
-
-DatasetView read_mcap_view(const fs::path& folder) {
-  return view_of(open_in(folder, kMcap), folder, kMcap);
-}
-
-RecordedStreams read_mcap_log(const fs::path& folder) {
-  OpenRecording from = open_in(folder, kMcap);
+RecordedStreams read_recording_log(const fs::path& folder, const RecordingKind& kind) {
+  OpenRecording from = open_in(folder, kind);
   return recorded_streams(from);
 }
 

@@ -5,19 +5,29 @@
 
 #include "harness/logs/recorded_streams.h"
 #include "harness/verify/dataset_view.h"
+#include "harness/verify/readers/recording/recording.h"
 
 namespace stereobench::harness {
+
+/// A kind of container.
+struct RecordingKind {
+  const char* format;  ///< its name
+  const char* ending;  ///< of the container's file
+  RecordedFile (*read)(const std::filesystem::path& file);
+};
+
+inline constexpr RecordingKind kRosbagKind = {"rosbag", ".bag", read_bag},
+                               kMcapKind = {"mcap", ".mcap", read_mcap};
+
+bool looks_like_recording(const std::filesystem::path& folder, const RecordingKind& kind);
 
 /// Pictures are messages: `.../left/image_raw` and `.../right/image_raw`, with camera_info; their ChannelFile
 /// is named CONTAINER/TOPIC. Poses are those of /ground_truth/pose.
 /// @throws std::runtime_error, one line, for a folder of none or of several containers, and for one that
 ///   cannot be read to its end (recording.h)
-bool looks_like_rosbag(const std::filesystem::path& folder);
-DatasetView read_rosbag_view(const std::filesystem::path& folder);
-RecordedStreams read_rosbag_log(const std::filesystem::path& folder);
+DatasetView read_recording_view(const std::filesystem::path& folder, const RecordingKind& kind);
 
-bool looks_like_mcap(const std::filesystem::path& folder);
-DatasetView read_mcap_view(const std::filesystem::path& folder);
-RecordedStreams read_mcap_log(const std::filesystem::path& folder);
+/// @throws std::runtime_error as read_recording_view
+RecordedStreams read_recording_log(const std::filesystem::path& folder, const RecordingKind& kind);
 
 }  // namespace stereobench::harness

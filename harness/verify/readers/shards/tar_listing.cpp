@@ -10,29 +10,22 @@
 
 #include <fmt/format.h>
 
+#include "harness/dataset/formats/container/tar_header.h"
+
 namespace stereobench::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBlock = 512;
-using Block = std::array<char, kBlock>;
+using Block = std::array<char, kTarBlock>;
 
-/// A field of a header's block.
-struct HeaderField {
-  std::size_t at = 0;
-  std::size_t size = 0;
-};
-constexpr HeaderField kName = {0, 100}, kSize = {124, 12}, kSum = {148, 8}, kType = {156, 1},
-                      kPrefix = {345, 155};
-
-std::string_view field_of(const Block& block, const HeaderField& field) {
+std::string_view field_of(const Block& block, const TarField& field) {
   const std::string_view whole(block.data() + field.at, field.size);
   return whole.substr(0, whole.find('\0'));
 }
 
 /// Octal digits between blanks.
-std::optional<std::uint64_t> octal_in(const Block& block, const HeaderField& field) {
+std::optional<std::uint64_t> octal_in(const Block& block, const TarField& field) {
   constexpr int kOctal = 8;
   std::string_view digits = field_of(block, field);
   while (digits.starts_with(' ')) digits.remove_prefix(1);
@@ -46,8 +39,8 @@ std::optional<std::uint64_t> octal_in(const Block& block, const HeaderField& fie
 /// The sum of a header's bytes; its own field counts as blanks.
 std::uint64_t sum_of(const Block& block) {
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const bool is_own = i >= kSum.at && i < kSum.at + kSum.size;
+  for (std::size_t i = 0; i < kTarBlock; ++i) {
+    const bool is_own = i >= tar_field::kSum.at && i < tar_field::kSum.at + tar_field::kSum.size;
     sum += is_own ? static_cast<unsigned char>(' ') : static_cast<unsigned char>(block[i]);
   }
   return sum;
@@ -69,7 +62,8 @@ std::string path_in(std::string_view records) {
 }
 
 std::string name_in(const Block& block) {
-  const std::string_view name = field_of(block, kName), prefix = field_of(block, kPrefix);
+  const std::string_view name = field_of(block, tar_field::kName),
+                         prefix = field_of(block, tar_field::kPrefix);
   return prefix.empty() ? std::string(name) : fmt::format("{}/{}", prefix, name);
 }
 
@@ -86,20 +80,20 @@ std::string walk_tar(std::ifstream& stream, std::uint64_t bytes, const fs::path&
   std::string long_name;
   for (std::uint64_t at = 0;;) {
     Block block;
-    if (!stream.seekg(static_cast<std::streamoff>(at)).read(block.data(), kBlock))
+    if (!stream.seekg(static_cast<std::streamoff>(at)).read(block.data(), kTarBlock))
       return fmt::format("the archive is cut short: expected its end, two blocks of zeros, at byte {}", at);
-    at += kBlock;
+    at += kTarBlock;
     if (std::ranges::all_of(block, [](char byte) { return byte == '\0'; })) return {};
-    const auto size = octal_in(block, kSize), sum = octal_in(block, kSum);
+    const auto size = octal_in(block, tar_field::kSize), sum = octal_in(block, tar_field::kSum);
     if (!size || !sum || *sum != sum_of(block))
       return fmt::format("byte {}: expected the header of a member, or its sum is wrong (a flipped bit?)",
-                         at - kBlock);
+                         at - kTarBlock);
     TarMember member = {long_name.empty() ? name_in(block) : long_name, at, *size};
     if (*size > bytes - std::min(bytes, at))
       return fmt::format("the archive is cut short: {} has {} bytes from byte {} on, and the archive {}",
                          member.name, *size, at, bytes);
-    at += (*size + kBlock - 1) / kBlock * kBlock;
-    const char type = block[kType.at];
+    at += (*size + kTarBlock - 1) / kTarBlock * kTarBlock;
+    const char type = block[tar_field::kType.at];
     const bool is_note = type == 'x' || type == 'L';
     if (is_note && *size <= kLongestName) {
       const std::string text = read_member(archive, member);
