@@ -51,9 +51,11 @@ cv::Mat read_float_picture(const std::filesystem::path& file) {
   if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px)
     refuse_map(file, "has no size that a picture may have");
   const std::size_t begin = static_cast<std::size_t>(header.tellg()) + 1;
-  cv::Mat rows(height, width, kind == "Pf" ? CV_32FC1 : CV_32FC3);
-  const std::size_t size = rows.total() * rows.elemSize();
+  const int type = kind == "Pf" ? CV_32FC1 : CV_32FC3;
+  const std::size_t pixel = kind == "Pf" ? sizeof(float) : 3 * sizeof(float);
+  const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pixel;
   if (bytes.size() != begin + size) refuse_map(file, "is cut short, or longer than it says");
+  cv::Mat rows(height, width, type);
   std::memcpy(rows.data, bytes.data() + begin, size);
   if (scale > 0.0) reverse_bytes(rows);
   cv::Mat picture;

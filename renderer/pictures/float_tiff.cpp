@@ -25,12 +25,15 @@ void set_float_tags(TIFF* tiff, const cv::Mat& picture) {
   TIFFSetField(tiff, TIFFTAG_ZSTD_LEVEL, kZstdLevel);
 }
 
+/// Whether rows have a number for each pixel and channel; where rows share colours, libtiff makes other ones.
 bool holds_floats(TIFF* tiff) {
   const auto samples = tiff_tag<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL);
+  const auto width = tiff_tag<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH);
   return tiff_tag<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE) == 32 &&
          tiff_tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT) == SAMPLEFORMAT_IEEEFP &&
          tiff_tag<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_CONTIG &&
-         (samples == 1 || samples == 3) && TIFFIsTiled(tiff) == 0;
+         (samples == 1 || samples == 3) && TIFFIsTiled(tiff) == 0 &&
+         static_cast<std::size_t>(TIFFScanlineSize(tiff)) == std::size_t{width} * samples * sizeof(float);
 }
 
 }  // namespace

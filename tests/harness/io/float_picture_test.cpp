@@ -1,5 +1,6 @@
 #include "harness/io/float_picture.h"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "harness/io/picture_file.h"
+#include "renderer/pictures/tiff_memory.h"
 #include "tests/test_folder.h"
 
 namespace stereobench::harness {
@@ -37,6 +39,33 @@ TEST(FloatPicture, IsReadAsItWasWritten) {
     cv::imwrite((folder.path() / "b.pfm").string(), picture);
     EXPECT_TRUE(are_same(read_float_picture(folder.path() / "b.pfm"), picture));
   }
+}
+
+/// A column of luminances and colours of which four rows share one: libtiff makes a row of six numbers.
+std::string column_of_shared_colours() {
+  renderer::TiffOutput output;
+  renderer::OpenTiff tiff = renderer::open_tiff(output);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, 1U);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, 4U);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, 3);
+  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_YCBCR);
+  TIFFSetField(tiff.get(), TIFFTAG_YCBCRSUBSAMPLING, 4, 1);
+  TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, 4U);
+  std::array<float, 24> numbers = {};
+  TIFFWriteEncodedStrip(tiff.get(), 0, numbers.data(), sizeof(numbers));
+  tiff.reset();
+  return output.bytes;
+}
+
+// Rows that are longer than the picture's would be written beyond its end. Mutation: no look at their length.
+TEST(FloatPicture, OfTiffHasRowsOfItsPixels) {
+  const TestFolder folder;
+  const auto file = folder.write("a.tiff", column_of_shared_colours());
+  EXPECT_THAT([&] { read_float_picture(file); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("expected floats of 32 bits, 1 or 3 channels")));
 }
 
 // Laws: every bit is kept, numbers that are none too; OpenCV reads what is written, and what OpenCV writes
