@@ -11,6 +11,7 @@
 
 #include "harness/verify/checks/checks.h"
 #include "harness/verify/geometry/diagnosis.h"
+#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
 namespace {
@@ -131,9 +132,11 @@ Verification verify_dataset(const std::filesystem::path& folder, const DatasetRe
 }
 
 std::string line_of(const Fault& fault) {
-  std::string line = fault.file;
-  if (!fault.frame.empty()) line += fmt::format("{}frame {}", line.empty() ? "" : ": ", fault.frame);
-  return fmt::format("{}{}{}", line, line.empty() ? "" : ": ", fault.what);
+  constexpr std::size_t kMost = 1000;  // letters of each: names may be of files that anybody made up
+  std::string line = worlds::excerpt(fault.file, kMost);
+  if (!fault.frame.empty())
+    line += fmt::format("{}frame {}", line.empty() ? "" : ": ", worlds::excerpt(fault.frame, kMost));
+  return fmt::format("{}{}{}", line, line.empty() ? "" : ": ", worlds::excerpt(fault.what, kMost));
 }
 
 }  // namespace stereobench::harness

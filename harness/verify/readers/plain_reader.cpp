@@ -13,6 +13,7 @@
 #include "harness/io/json_file.h"
 #include "harness/verify/readers/reader_tools.h"
 #include "harness/verify/readers/rig_calibration_file.h"
+#include "harness/verify/readers/scene/scene_json.h"
 
 namespace stereobench::harness {
 namespace {
@@ -21,13 +22,6 @@ namespace fs = std::filesystem;
 using vision::Side;
 
 constexpr double kKittiDisparity_px = 1.0 / 256.0, kKittiShift_px = 1.0 / 64.0;
-
-cv::Rect box_in(const JsonValue& value) {
-  std::array<int, 4> box{};
-  const auto numbers = value.list(4, 4);
-  for (std::size_t i = 0; i < box.size(); ++i) box[i] = static_cast<int>(numbers[i].integer(-1, 1 << 20));
-  return box[2] <= 0 || box[3] <= 0 ? cv::Rect() : cv::Rect(box[0], box[1], box[2], box[3]);
-}
 
 template <int Size>
 Eigen::Matrix<double, Size, 1> vector_in(const JsonValue& value) {

@@ -172,6 +172,20 @@ TEST(PosesOfASet, AreRigid) {
   EXPECT_THAT(long_one.faults(), HasSubstr("the quaternion has length 1.1: expected 1"));
 }
 
+// A name that no file can have is that of a file that is missing. Mutation: asking for it may throw.
+TEST(FilesOfASet, MayHaveAnyNameInAManifest) {
+  const TestFolder set;
+  const std::string hash = sha256_of(""), name = std::string(5000, 'n') + "%0A";
+  set.write(kManifest, hash + "  " + name + "\n");
+  const ChecksumResult result = check_checksums(set.path());
+  ASSERT_EQ(result.faults.size(), 1U);
+  EXPECT_EQ(result.faults.front().what, "missing file: manifest-sha256.txt lists it");
+  EXPECT_EQ(changed_files(set.path(), read_manifest(set.path())).size(), 1U);
+  const std::string line = line_of(result.faults.front());
+  EXPECT_EQ(std::ranges::count(line, '\n'), 0);
+  EXPECT_LT(line.size(), 1200U);
+}
+
 TEST(Readers, SayWhatIsNoDataSet) {
   const TestFolder empty;
   EXPECT_THAT([&] { reader_of(empty.path()); },

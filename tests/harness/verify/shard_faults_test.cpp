@@ -143,6 +143,11 @@ void exchange_boxes(const PlantedSet& set) {
     for (auto& ball : sample["balls"]) std::swap(ball["left"]["bbox_visib"], ball["right"]["bbox_visib"]);
   });
 }
+void put_a_box_far_out(const PlantedSet& set) {
+  change_samples(set, [](ordered_json& sample, std::size_t i) {
+    if (i == 4) sample["balls"][0]["left"]["bbox_visib"][0] = 3e9;  // more than an int has
+  });
+}
 void exchange_cameras_of_balls(const PlantedSet& set) {
   change_samples(set, [](ordered_json& sample, std::size_t) {
     for (auto& ball : sample["balls"]) std::swap(ball["left"], ball["right"]);
@@ -190,6 +195,8 @@ constexpr ShardCase kShardCases[] = {
     {"robot_of_one", move_robot_of_one, "frame bend_0_000004: world_from_left_camera is 1 m"},
     {"ball", move_a_ball, "frame bend_0_000003: ball 0: colour 0, radius 0.1 m, centre [2.7, 0.3, 0.1]"},
     {"boxes", exchange_boxes, "frame bend_0_000002: ball 0: its left bbox_visib [88, 136, 32, 31] is "},
+    {"box_far_out", put_a_box_far_out,
+     "frame bend_0_000006: balls[0].left.bbox_visib[0]: expected a whole number from -1 to 1048576"},
     {"cameras_of_balls", exchange_cameras_of_balls, "points of the world in pictures, against poses"},
     {"time", repeat_a_time, "frame bend_0_000006: time 500000000 ns is not after that of the frame before"},
     {"nan", write_nan, "bend_0_000006.json: frame bend_0_000006: world_from_robot[1][3]: expected a number"},
@@ -206,6 +213,27 @@ TEST_P(PlantedInShard, IsFoundAndNamed) {
 
 INSTANTIATE_TEST_SUITE_P(Faults, PlantedInShard, testing::ValuesIn(kShardCases),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// Mutation: the place is a view of a product that is gone: asan_scopes and the fuzzer see it.
+TEST(ShardFaults, SayWhereTheRightCameraIs) {
+  const PlantedSet set("webdataset");
+  lengthen_baseline_of_rig(set);
+  EXPECT_THAT(set.faults(), AllOf(HasSubstr(": the right camera is [0.12, "),
+                                  HasSubstr("] m beside the left one, and baseline_m is 0.1212")));
+}
+
+// Whoever names an archive by a date has no millions of others. Mutation: a line for each.
+TEST(MissingShards, AreOneLine) {
+  const TestFolder set;
+  set.write("day-20260131.tar", std::string(1024, '\0'));
+  set.write("night-000000.tar", std::string(1024, '\0'));
+  set.write("night-000003.tar", std::string(1024, '\0'));
+  EXPECT_EQ(
+      faults_of(set.path(), "webdataset"),
+      "day-00000000.tar: missing files: those up to day-20260130.tar as well, and there is day-20260131.tar\n"
+      "night-000001.tar: missing files: those up to night-000002.tar as well, and there is "
+      "night-000003.tar\n");
+}
 
 // Samples of others: keys in folders, JPEG's other name, and a .json that says nothing of cameras.
 TEST(ShardsOfOthers, AreReadWithoutRigs) {

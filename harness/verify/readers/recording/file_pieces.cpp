@@ -7,8 +7,16 @@
 #include <zlib.h>
 
 #include "harness/verify/readers/recording/recording.h"
+#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
+
+namespace {
+
+/// Names from the file are part of what is said.
+constexpr std::size_t kMostOfRecord = 400;
+
+}  // namespace
 
 namespace fs = std::filesystem;
 
@@ -19,7 +27,7 @@ FilePieces::FilePieces(const fs::path& file) : file_(file), stream_(file, std::i
 }
 
 void FilePieces::refuse(std::uint64_t at, std::string_view what) const {
-  throw AtByte(fmt::format("{}: byte {}: {}", file_.string(), at, what));
+  throw AtByte(fmt::format("{}: byte {}: {}", file_.string(), at, worlds::excerpt(what, kMostOfRecord)));
 }
 
 void FilePieces::require(std::uint64_t at, std::uint64_t count, std::uint64_t end) const {

@@ -96,6 +96,7 @@ void McapReading::read_record(const ReadMcapRecord& record) {
   if (record.op == McapOp::kChunk) return read_chunk(record);
   if (record.op == McapOp::kStatistics) return read_statistics(record);
   if (record.op == McapOp::kDataEnd) {
+    if (is_at_end_of_data_) throw std::runtime_error("expected one end of the data (got a second one)");
     is_at_end_of_data_ = true;
     const std::string data = data_of(record);
     compare_crc("data", LittleValues(data).number<std::uint32_t>(), 0, record.at);

@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "harness/json/json_line.h"
+#include "worlds/yaml/excerpt.h"
+
 namespace stereobench::harness {
 namespace {
 
@@ -26,7 +29,8 @@ ViewCamera lens_of(const ReadCameraInfo& info) {
   constexpr double kSame_px = 1e-3;
   constexpr std::size_t kMostCoefficients = 5;
   const double fx = info.k[0], fy = info.k[4];
-  if (!(fx > 0.0) || !(fy > 0.0)) throw std::runtime_error("expected positive focal lengths in K");
+  if (!(fx >= kLeastPositive) || !(fy >= kLeastPositive))
+    throw std::runtime_error("expected positive focal lengths in K");
   if (!info.is_of_whole_picture)
     throw std::runtime_error("expected whole pictures (got binning or a region)");
   const bool is_plumb_bob = info.model == "plumb_bob" && info.d.size() <= kMostCoefficients;
@@ -93,8 +97,9 @@ class FixedFrames {
   std::map<std::string, ReadTransform> above_;  ///< by the child's name
 };
 
+/// 0 where P has none.
 double baseline_in(const ReadCameraInfo& right) {
-  return right.p[0] > 0.0 ? -right.p[3] / right.p[0] : 0.0;
+  return right.p[0] >= kLeastPositive ? -right.p[3] / right.p[0] : 0.0;
 }
 
 /// Where the right camera is in the left one, by how both are turned to be rectified.
@@ -129,8 +134,8 @@ std::optional<RecordedCameras> recorded_cameras(OpenRecording& from, const std::
     const std::string topic = from.cameras[side] + "camera_info";
     const auto info = info_of(from, topic);
     if (!info || info->k[0] == 0.0) {
-      cannot.push_back(
-          fmt::format("cameras and poses against pictures: {} says nothing of the camera", topic));
+      cannot.push_back(fmt::format("cameras and poses against pictures: {} says nothing of the camera",
+                                   worlds::excerpt(topic)));
       return std::nullopt;
     }
     infos[side] = *info;
@@ -149,7 +154,7 @@ std::optional<RecordedCameras> recorded_cameras(OpenRecording& from, const std::
     cannot.push_back(
         fmt::format("cameras and poses against pictures: no transform leads from {} to the cameras, and "
                     "P of the right one has no baseline",
-                    from.body));
+                    worlds::excerpt(from.body)));
     return std::nullopt;
   }
   found.cameras[0].body_from_camera = found.are_on_body ? *left : Isometry3d::Identity();

@@ -1,39 +1,49 @@
 #include "harness/verify/readers/recording/recorded_topics.h"
 
-#include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "worlds/yaml/excerpt.h"
+
 namespace stereobench::harness {
 namespace {
 
-bool has_messages(const RecordedFile& recording, std::string_view topic, std::string_view type) {
-  return std::ranges::any_of(recording.messages, [&](const RecordedMessage& message) {
-    const RecordedTopic& of = recording.topics[message.topic];
-    return of.name == topic && of.type == type;
-  });
+constexpr std::string_view kImageType = "sensor_msgs/Image";
+
+/// The topics that have a picture.
+std::set<std::string> topics_with_pictures(const RecordedFile& recording) {
+  std::vector<bool> is_used(recording.topics.size(), false);
+  for (const RecordedMessage& message : recording.messages) is_used[message.topic] = true;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (is_used[i] && recording.topics[i].type == kImageType) names.insert(recording.topics[i].name);
+  return names;
 }
 
 /// "/stereo/left/" and "/stereo/right/", where both have pictures.
 std::array<std::string, 2> camera_topics(const RecordedFile& recording) {
   constexpr std::string_view kLeft = "/left/image_raw", kRight = "/right/", kRaw = "image_raw";
+  const std::set<std::string> with_pictures = topics_with_pictures(recording);
   for (const RecordedTopic& topic : recording.topics) {
-    if (!topic.name.ends_with(kLeft) || topic.type != "sensor_msgs/Image") continue;
+    if (!topic.name.ends_with(kLeft) || topic.type != kImageType) continue;
     const std::string above = topic.name.substr(0, topic.name.size() - kLeft.size());
     const std::string right = above + std::string(kRight);
-    if (has_messages(recording, topic.name, topic.type) ||
-        has_messages(recording, right + std::string(kRaw), topic.type))
+    if (with_pictures.contains(topic.name) || with_pictures.contains(right + std::string(kRaw)))
       return {above + "/left/", right};
   }
   std::vector<std::string> topics;
   for (const RecordedTopic& topic : recording.topics)
     topics.push_back(
         fmt::format("{} {}", topic.name, topic.type.empty() ? "of another encoding" : topic.type));
-  throw std::runtime_error(fmt::format(
-      "{}: expected sensor_msgs/Image as .../left/image_raw and .../right/image_raw (got {})",
-      recording.file.string(), topics.empty() ? "no topics" : fmt::format("{}", fmt::join(topics, ", "))));
+  constexpr std::size_t kMostListed = 2000;
+  const std::string got =
+      topics.empty() ? "no topics" : worlds::excerpt(fmt::format("{}", fmt::join(topics, ", ")), kMostListed);
+  throw std::runtime_error(
+      fmt::format("{}: expected sensor_msgs/Image as .../left/image_raw and .../right/image_raw (got {})",
+                  recording.file.string(), got));
 }
 
 /// /odom, or else the first one that is not true.

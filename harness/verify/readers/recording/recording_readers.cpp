@@ -10,6 +10,7 @@
 #include "harness/verify/readers/reader_tools.h"
 #include "harness/verify/readers/recording/recorded_cameras.h"
 #include "harness/verify/readers/recording/recorded_log.h"
+#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
 namespace {
@@ -22,6 +23,9 @@ constexpr const char* kPicture = "image_raw";
 
 /// Headers end within so many bytes.
 constexpr std::uint64_t kHeaderBytes = 4096;
+
+/// Names of topics are part of what is said.
+constexpr std::size_t kMostSaidOfPicture = 1000;
 
 OpenRecording open_in(const fs::path& folder, const RecordingKind& kind) {
   const std::set<std::string> names = stems_in(folder, kind.ending);
@@ -92,7 +96,8 @@ void add_recorded_picture(const OpenRecording& from, ViewFrame& frame, Side side
         try {
           return read_ros_image(version, message_bytes(place, message));
         } catch (const std::runtime_error& error) {
-          throw std::runtime_error(fmt::format("{}: {}", path.string(), error.what()));
+          throw std::runtime_error(
+              worlds::excerpt(fmt::format("{}: {}", path.string(), error.what()), kMostSaidOfPicture));
         }
       }};
 }
@@ -172,7 +177,8 @@ DatasetView view_of(OpenRecording from, const fs::path& folder, const RecordingK
       "depth, which the layout has not: cameras, baseline and poses were held against corners of "
       "the pictures");
   if (cameras && !cameras->are_on_body)
-    view.cannot.push_back(fmt::format("poses: no transform leads from {} to the cameras", from.body));
+    view.cannot.push_back(
+        fmt::format("poses: no transform leads from {} to the cameras", worlds::excerpt(from.body)));
   view.faults = std::move(from.faults);
   return view;
 }

@@ -1,6 +1,8 @@
 #include "harness/verify/readers/recording/ros_values.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -9,9 +11,13 @@
 
 #include "harness/types.h"
 #include "harness/verify/readers/recording/file_pieces.h"
+#include "harness/verify/readers/scene/scene_json.h"
+#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
 namespace {
+
+constexpr std::uint32_t kLongest_px = 1 << 20;
 
 /// Takes values one after the other.
 class RosDecoder {
@@ -40,6 +46,26 @@ class RosDecoder {
     for (double& value : numbers) value = number<double>();
     return numbers;
   }
+  /// A length, an angle or a share.
+  double bounded() {
+    const double value = number<double>();
+    if (!(std::abs(value) <= kMostNumber))
+      throw std::runtime_error(fmt::format("expected numbers up to {:g} (got {:g})", kMostNumber, value));
+    return value;
+  }
+  template <std::size_t Count>
+  std::array<double, Count> all_bounded() {
+    std::array<double, Count> numbers;
+    for (double& value : numbers) value = bounded();
+    return numbers;
+  }
+  int pixels() {
+    const std::uint32_t value = count();
+    if (value > kLongest_px)
+      throw std::runtime_error(
+          fmt::format("expected sides of at most {} pixels (got {})", kLongest_px, value));
+    return static_cast<int>(value);
+  }
   std::uint32_t count() { return number<std::uint32_t>(); }
   std::string_view block() {
     const std::uint32_t size = count();
@@ -63,7 +89,7 @@ class RosDecoder {
     return header;
   }
   ReadPose pose() {
-    const auto at = doubles<7>();
+    const auto at = all_bounded<7>();
     return {{at[0], at[1], at[2]}, {at[6], at[3], at[4], at[5]}};
   }
 
@@ -91,8 +117,8 @@ constexpr std::array kRosEncodings = {RosEncoding{"mono8", CV_8UC1},
 const RosEncoding& ros_encoding(std::string_view name) {
   const auto* const found = std::ranges::find(kRosEncodings, name, &RosEncoding::name);
   if (found == kRosEncodings.end())
-    throw std::runtime_error(
-        fmt::format("expected pictures of mono8, bgr8, rgb8, bgra8 or rgba8 (got {})", name));
+    throw std::runtime_error(fmt::format("expected pictures of mono8, bgr8, rgb8, bgra8 or rgba8 (got {})",
+                                         worlds::excerpt(name)));
   return *found;
 }
 
@@ -119,7 +145,6 @@ cv::Mat read_ros_image(RosVersion version, std::string_view bytes) {
   const std::uint64_t step = in.count();
   const std::string_view data = in.block();
   const auto pixel = static_cast<std::uint64_t>(CV_ELEM_SIZE(encoding.type));
-  constexpr std::uint32_t kLongest_px = 1 << 20;
   if (rows == 0 || columns == 0 || rows > kLongest_px || columns > kLongest_px || step < columns * pixel ||
       data.size() < rows * step)
     throw std::runtime_error(fmt::format("expected {} x {} pixels of {} in rows of {} bytes (got {} bytes)",
@@ -139,18 +164,18 @@ ReadCameraInfo read_ros_camera_info(RosVersion version, std::string_view bytes) 
   RosDecoder in(version, bytes);
   ReadCameraInfo info;
   info.header = in.header();
-  info.height_px = static_cast<int>(in.count());
-  info.width_px = static_cast<int>(in.count());
+  info.height_px = in.pixels();
+  info.width_px = in.pixels();
   info.model = in.text();
   const std::uint32_t coefficients = in.count();
   constexpr std::uint32_t kMostCoefficients = 14;  // of the models that ROS knows
   if (coefficients > kMostCoefficients)
     throw std::runtime_error(
         fmt::format("expected at most {} coefficients of a lens (got {})", kMostCoefficients, coefficients));
-  for (std::uint32_t i = 0; i < coefficients; ++i) info.d.push_back(in.number<double>());
-  info.k = in.doubles<9>();
-  info.r = in.doubles<9>();
-  info.p = in.doubles<12>();
+  for (std::uint32_t i = 0; i < coefficients; ++i) info.d.push_back(in.bounded());
+  info.k = in.all_bounded<9>();
+  info.r = in.all_bounded<9>();
+  info.p = in.all_bounded<12>();
   const std::array binning = {in.count(), in.count()};
   const std::array region = {in.count(), in.count(), in.count(), in.count()};  // x, y, height, width; 0: all
   const std::array none = {0U, 0U, 0U, 0U};
@@ -186,7 +211,7 @@ ReadOdometry read_ros_odometry(RosVersion version, std::string_view bytes) {
   ReadOdometry odometry;
   odometry.header = in.header();
   odometry.child_frame = in.text();
-  in.pose();
+  in.doubles<7>();  // where it is by itself, which nothing is held against
   in.doubles<kCovariance>();
   const auto twist = in.doubles<6>();
   odometry.v_mps = twist[0], odometry.lateral_mps = twist[1], odometry.w_radps = twist[5];
@@ -194,7 +219,7 @@ ReadOdometry read_ros_odometry(RosVersion version, std::string_view bytes) {
 }
 
 slam::Pose read_ros_planar_pose(RosVersion version, std::string_view bytes) {
-  const auto at = RosDecoder(version, bytes).doubles<3>();
+  const auto at = RosDecoder(version, bytes).all_bounded<3>();
   return {at[0], at[1], at[2]};
 }
 

@@ -1,5 +1,7 @@
 #include "harness/verify/readers/scene/scene_json.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace stereobench::harness {
@@ -11,6 +13,13 @@ std::vector<double> numbers_of(const JsonValue& list, std::size_t count, std::ve
     if (digits != nullptr) digits->push_back(fmt::format("{}", numbers.back()));
   }
   return numbers;
+}
+
+cv::Rect box_in(const JsonValue& value) {
+  std::array<int, 4> box{};
+  const auto numbers = value.list(4, 4);
+  for (std::size_t i = 0; i < box.size(); ++i) box[i] = static_cast<int>(numbers[i].integer(-1, 1 << 20));
+  return box[2] <= 0 || box[3] <= 0 ? cv::Rect() : cv::Rect(box[0], box[1], box[2], box[3]);
 }
 
 Eigen::Isometry3d pose_of(const std::vector<double>& turn, const std::vector<double>& place) {

@@ -39,7 +39,8 @@ std::string wrong_right_pose(const ShardSample& sample) {
                                   vision::robot_from_camera(sample.rig, Side::kLeft).inverse() *
                                   vision::robot_from_camera(sample.rig, Side::kRight);
   if (is_same_pose(sample.world_from_camera[1], right)) return {};
-  const auto apart_m = (sample.world_from_camera[0].inverse() * sample.world_from_camera[1]).translation();
+  const Eigen::Vector3d apart_m =
+      (sample.world_from_camera[0].inverse() * sample.world_from_camera[1]).translation();
   return fmt::format(
       "world_from_right_camera is {} off where `rig` and world_from_left_camera put it: the "
       "right camera is {} m beside the left one, and baseline_m is {:.6g}",

@@ -25,9 +25,14 @@ void find_missing_shards(DatasetView& view, const std::set<std::string>& shards)
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error != std::errc() || end != digits.data() + digits.size()) continue;
     if (stem != before) before = stem, number_before = -1;
-    while (++number_before < number)
-      view.faults.push_back({fmt::format("{}-{:0{}}{}", stem, number_before, digits.size(), kTar), "",
-                             fmt::format("missing file: there is {}{}", shard, kTar)});
+    const auto name = [&](int of) { return fmt::format("{}-{:0{}}{}", stem, of, digits.size(), kTar); };
+    if (number - number_before > 2)
+      view.faults.push_back({name(number_before + 1), "",
+                             fmt::format("missing files: those up to {} as well, and there is {}{}",
+                                         name(number - 1), shard, kTar)});
+    else if (number - number_before == 2)
+      view.faults.push_back({name(number - 1), "", fmt::format("missing file: there is {}{}", shard, kTar)});
+    number_before = number;
   }
 }
 

@@ -26,13 +26,6 @@ Eigen::Isometry3d rows_in(const JsonValue& value) {
   return pose;
 }
 
-cv::Rect sample_box(const JsonValue& value) {
-  const std::vector<double> box = numbers_of(value, 4);
-  if (!(box[2] > 0.0) || !(box[3] > 0.0)) return {};
-  return {static_cast<int>(box[0]), static_cast<int>(box[1]), static_cast<int>(box[2]),
-          static_cast<int>(box[3])};
-}
-
 SampleBall sample_ball(const JsonValue& json) {
   SampleBall ball = {.ball = static_cast<int>(json.at("ball_id").integer(0, kMostCount - 1)),
                      .colour = json.at("colour").integer(-1, kMostCount)};
@@ -43,7 +36,7 @@ SampleBall sample_ball(const JsonValue& json) {
     const JsonValue seen = json.at(kCameras[side]);
     ball.centre_in_camera_m[side] = place_in(seen.at("centre_in_camera_m"));
     ball.px_count_visib[side] = seen.at("px_count_visib").integer(0, kMostCount);
-    ball.bbox_visib[side] = sample_box(seen.at("bbox_visib"));
+    ball.bbox_visib[side] = box_in(seen.at("bbox_visib"));
   }
   return ball;
 }

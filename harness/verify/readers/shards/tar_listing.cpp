@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "harness/dataset/formats/container/tar_header.h"
+#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
 namespace {
@@ -119,7 +120,8 @@ std::string read_member(const fs::path& archive, const TarMember& member) {
   std::string bytes(member.size, '\0');
   if (!stream.seekg(static_cast<std::streamoff>(member.at))
            .read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw std::runtime_error(fmt::format("{}: {} is cut short", archive.string(), member.name));
+    throw std::runtime_error(
+        fmt::format("{}: {} is cut short", archive.string(), worlds::excerpt(member.name)));
   return bytes;
 }
 
