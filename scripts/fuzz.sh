@@ -1,6 +1,7 @@
 #!/bin/bash
 # Feeds what reads files from anywhere (pictures, calibrations, detections, palettes, scenarios, logs, trajectories,
-# marks, meshes, results, suites, baselines) with mutated inputs of up to a megabyte under the sanitizers, by clang's libFuzzer. What it finds is left in build/fuzz/findings, with exit code 1.
+# marks, meshes, results, suites, baselines, recordings, archives, truth, lists of files) with mutated inputs of up to a
+# megabyte under the sanitizers, by clang's libFuzzer. What it finds is left in build/fuzz/findings, with exit code 1.
 # usage: scripts/fuzz.sh [MINUTES in all, default 10]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,7 +11,7 @@ cmake --preset fuzz -Wno-dev >/dev/null
 cmake --build --preset fuzz --target stereobench_fuzz
 program=$PWD/build/fuzz/tests/stereobench_fuzz
 entries=(scene picture calibration detections palette scenario log trajectory poses marks mesh
-  result suite baseline)
+  result suite baseline bag mcap shards tiff drive manifest collection)
 seconds=$((${1:-10} * 60 / ${#entries[@]}))
 mkdir -p build/fuzz/findings
 

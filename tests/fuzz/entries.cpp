@@ -185,7 +185,7 @@ void check_palette(Bytes bytes) {
 }
 
 std::span<const Entry> entries() {
-  static constexpr std::array<Entry, 14> kEntries = {{{"scene", check_scene, scene_seeds},
+  static constexpr std::array<Entry, 21> kEntries = {{{"scene", check_scene, scene_seeds},
                                                       {"picture", check_picture, picture_seeds},
                                                       {"calibration", check_calibration, calibration_seeds},
                                                       {"detections", check_detections, detection_seeds},
@@ -198,7 +198,14 @@ std::span<const Entry> entries() {
                                                       {"mesh", check_mesh, mesh_seeds},
                                                       {"result", check_result, result_seeds},
                                                       {"suite", check_suite, suite_seeds},
-                                                      {"baseline", check_baseline, baseline_seeds}}};
+                                                      {"baseline", check_baseline, baseline_seeds},
+                                                      {"bag", check_bag, bag_seeds},
+                                                      {"mcap", check_mcap, mcap_seeds},
+                                                      {"shards", check_shards, shard_seeds},
+                                                      {"tiff", check_float_picture, float_picture_seeds},
+                                                      {"drive", check_drive, drive_seeds},
+                                                      {"manifest", check_manifest, manifest_seeds},
+                                                      {"collection", check_collection, collection_seeds}}};
   return kEntries;
 }
 

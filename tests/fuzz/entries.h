@@ -59,6 +59,27 @@ std::vector<std::string> suite_seeds();
 void check_baseline(Bytes bytes);
 std::vector<std::string> baseline_seeds();
 
+/// A bag of ROS 1, an MCAP file, and an archive of WebDataset, each alone in a folder: the data set with its
+/// pictures, and the log.
+void check_bag(Bytes bytes);
+std::vector<std::string> bag_seeds();
+void check_mcap(Bytes bytes);
+std::vector<std::string> mcap_seeds();
+void check_shards(Bytes bytes);
+std::vector<std::string> shard_seeds();
+/// The bytes of truth as floats, TIFF or PFM.
+void check_float_picture(Bytes bytes);
+std::vector<std::string> float_picture_seeds();
+/// What dataset.json says of a drive.
+void check_drive(Bytes bytes);
+std::vector<std::string> drive_seeds();
+/// The list of a data set's files.
+void check_manifest(Bytes bytes);
+std::vector<std::string> manifest_seeds();
+/// The list of a collection's data sets.
+void check_collection(Bytes bytes);
+std::vector<std::string> collection_seeds();
+
 /// All of them.
 std::span<const Entry> entries();
 

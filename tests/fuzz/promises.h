@@ -24,14 +24,13 @@ inline void expect(bool holds, const char* promise) {
 
 /// Runs a reader; an error of a line is fine, or of one for each of the first wrong keys.
 template <typename Reader>
-void read_or_complain(const Reader& read) {
+void read_or_complain(const Reader& read, std::ptrdiff_t most_lines = 21) {
   try {
     read();
   } catch (const std::runtime_error& error) {
     const std::string_view text = error.what();
-    constexpr std::ptrdiff_t kMostLines = 21;
     const std::ptrdiff_t lines = 1 + std::count(text.begin(), text.end(), '\n');
-    expect(!text.empty() && lines <= kMostLines, "an error is a line, or one a wrong key");
+    expect(!text.empty() && lines <= most_lines, "an error is a line, or one a wrong key");
     expect(text.size() < static_cast<std::size_t>(lines) * 4096, "an error is not long");
   }
 }
