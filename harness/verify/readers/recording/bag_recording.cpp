@@ -187,8 +187,10 @@ void BagReading::read_index(const ReadBagRecord& record) {
   // Not those of another length: a chunk may be followed by any number of indices.
   std::vector<std::pair<std::int64_t, std::uint64_t>>& there = in_chunk_[number];
   const bool may_be_same = entries.size() == there.size();
-  if (may_be_same)
-    std::ranges::sort(entries), std::ranges::sort(there);  // messages need not be in order of time
+  if (may_be_same) {  // messages need not be in order of time
+    std::ranges::sort(entries);
+    std::ranges::sort(there);
+  }
   if (!may_be_same || entries != there)
     recording_.faults.push_back(
         fmt::format("byte {}: the index of a chunk is not that of its messages "
