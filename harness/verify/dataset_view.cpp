@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "vision/camera/distortion.h"
-#include "vision/camera/pinhole_rig.h"
 
 namespace stereobench::harness {
 
@@ -24,7 +23,7 @@ std::optional<Eigen::Vector3d> ray_of(const ViewCamera& camera, const Eigen::Vec
 
 double depth_beside(const ViewCamera& camera, const cv::Mat& depth_m, const cv::Point& pixel) {
   if (camera.lens == vision::Distortion{}) return 0.0;
-  constexpr double kBeside_px = 0.5 / vision::kPinholeDensity;
+  constexpr double kBeside_px = 0.5;
   const cv::Rect area({}, depth_m.size());
   const double here_m = depth_m.at<float>(pixel);
   const auto slope_m = [&](const cv::Point& step) {

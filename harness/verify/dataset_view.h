@@ -163,7 +163,7 @@ const ChannelFile* find_channel(const ViewFrame& frame, vision::Side side, Chann
 std::optional<Eigen::Vector3d> ray_of(const ViewCamera& camera, const Eigen::Vector2d& pixel_px);
 
 /// By what a pixel's depth may be off behind a lens, as a share of it: pictures are remapped from a
-/// pinhole's, whose nearest pixel is taken (decision 020), a third of a pixel beside each way at most.
+/// pinhole's, whose nearest pixel is taken (decision 020), half a pixel beside each way at most.
 /// @return 0 for a camera without a lens
 double depth_beside(const ViewCamera& camera, const cv::Mat& depth_m, const cv::Point& pixel);
 

@@ -19,18 +19,21 @@ namespace {
 constexpr int kMargin_px = 2;  // for the neighbours of a place
 
 /// Variances, in squared pixels of the pinhole's picture, of what a pixel gathers there: with that of the
-/// pinhole's own pixels they make kBlur in the distorted picture, wherever the lens draws together or apart.
+/// pinhole's own pixels they make kBlur along the distorted picture's rows and columns.
 /// @param slope d place / d direction
-Eigen::Vector2d spread_of(const Eigen::Matrix2d& slope) {
+/// @param density pixels of the pinhole's picture for one where the lens does not distort
+Eigen::Vector2d spread_of(const Eigen::Matrix2d& slope, double density) {
   constexpr double kOfAPixel = 1.0 / 12.0;  // variance of a square of light
-  constexpr double kBlur = (kLeastSpread + kOfAPixel) / (vision::kPinholeDensity * vision::kPinholeDensity);
-  const Eigen::Matrix2d pinhole_by_distorted = vision::kPinholeDensity * slope.inverse();
+  constexpr double kBlur =
+      (kLeastSpread + kOfAPixel) / (vision::kLeastPinholeDensity * vision::kLeastPinholeDensity);
+  const Eigen::Matrix2d pinhole_by_distorted = density * slope.inverse();
   return kBlur * pinhole_by_distorted.rowwise().squaredNorm().array() - kOfAPixel;
 }
 
 /// What the centres of a row's pixels see of the pinhole's picture.
 std::vector<PinholePlace> places_of_row(const vision::StereoRig& rig, const vision::Intrinsics& pinhole,
                                         int row) {
+  const double density = pinhole.focal_px / rig.intrinsics.focal_px;
   std::vector<PinholePlace> places;
   Eigen::Vector2d last = Eigen::Vector2d::Zero(), before = last;
   for (int column = 0; column < rig.intrinsics.width_px; ++column) {
@@ -43,15 +46,16 @@ std::vector<PinholePlace> places_of_row(const vision::StereoRig& rig, const visi
     if (!found) throw std::invalid_argument("Lens: the lens folds its picture");
     before = std::exchange(last, *found);
     const Eigen::Vector2d at = vision::project(pinhole, found->homogeneous());
-    places.push_back(place_at(at, spread_of(vision::distortion_slope(rig.distortion, *found))));
+    places.push_back(place_at(at, spread_of(vision::distortion_slope(rig.distortion, *found), density)));
   }
   return places;
 }
 
+/// The rows of the nearest pixels.
 cv::Range rows_of(const std::vector<PinholePlace>& places) {
   const auto [low, high] =
       std::ranges::minmax_element(places, {}, [](const PinholePlace& place) { return place.row; });
-  return {low->row, high->row};
+  return {low->row, high->row + 1};
 }
 
 }  // namespace
@@ -79,7 +83,7 @@ cv::Range Lens::rows_seen(const cv::Range& rows) const {
     seen = {std::min(seen.start, of_row.start), std::max(seen.end, of_row.end)};
   }
   return {std::max(seen.start - kMargin_px, 0),
-          std::min(seen.end + kMargin_px + 1, pinhole_.intrinsics.height_px)};
+          std::min(seen.end + kMargin_px, pinhole_.intrinsics.height_px)};
 }
 
 RenderedImage Lens::distort(const RenderedImage& undistorted, int first_row, const cv::Range& rows,

@@ -18,8 +18,8 @@ vision::StereoRig pinhole_rig_of(const vision::StereoRig& rig);
 
 /// Distorts pinhole pictures as a rig's lenses do. Rasterisers draw straight lines: what the lens sees is
 /// drawn by a pinhole camera of more pixels, and its light gathered for each pixel of the distorted picture
-/// around the place that its centre sees. Truth is that of the pinhole's pixel nearest to that place, a third
-/// of a pixel off each way at most.
+/// around the place that its centre sees. Truth is that of the pinhole's pixel nearest to that place, half a
+/// pixel off each way at most unless the lens more than doubles what it shows.
 class Lens {
  public:
   /// @throws std::invalid_argument when the lens folds its picture, or sees more than a pinhole can draw

@@ -15,7 +15,7 @@ struct UndistortedRows {
   int first_row = 0;  ///< in the whole picture, in which places are counted
 };
 
-/// How many places ahead what they name is asked for.
+/// How many places ahead pixels are prefetched.
 inline constexpr int kPlacesAhead = 64;
 
 /// Steps from one pixel to the next that places are rounded to.

@@ -1,7 +1,6 @@
 #include "renderer/camera/sensor_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -110,7 +109,7 @@ class Chip {
     int few = 0;
     for (const float expected : row) few += expected < kFewElectrons ? 1 : 0;
     for (std::size_t i = 0; few > 0 && i < row.size(); ++i) {
-      if (row[i] >= kFewElectrons) continue;
+      if (!(row[i] < kFewElectrons)) continue;
       normal_[i] = poisson_by_inversion(row[i], bits_[i]);
       --few;
     }
@@ -158,7 +157,7 @@ class Encoder {
       const float clamped = std::clamp(levels[i], 0.0F, kWhite);  // NaN cannot be: all that goes in is finite
       places[i] = static_cast<int>(clamped * steps + 0.5F);
     }
-    const std::uint8_t* const codes = codes_.data();  // a store of a byte might change what is not local
+    const std::uint8_t* const codes = codes_.data();  // local: a byte that is stored may alias members
     const int* const at = places.data();
     for (std::size_t i = 0, size = levels.size(); i < size; ++i) stored[i] = codes[at[i]];
   }

@@ -66,9 +66,10 @@ std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Ve
   return direction;
 }
 
-std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const Intrinsics& camera) {
+std::optional<std::vector<Eigen::Vector2d>> border_directions(const Distortion& lens,
+                                                              const Intrinsics& camera) {
   constexpr int kCells = 64;
-  Eigen::AlignedBox2d seen;
+  std::vector<Eigen::Vector2d> seen;
   for (int i = 0; i <= kCells; ++i) {
     const double x = camera.width_px * i / double{kCells} - 0.5;
     const double y = camera.height_px * i / double{kCells} - 0.5;
@@ -77,9 +78,17 @@ std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const
           Eigen::Vector2d(camera.width_px - 0.5, y)}) {
       const auto direction = undistort(lens, pixel_ray(camera, pixel).head<2>());
       if (!direction || !(direction->cwiseAbs().maxCoeff() <= kWidestTangent)) return std::nullopt;
-      seen.extend(*direction);
+      seen.push_back(*direction);
     }
   }
+  return seen;
+}
+
+std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const Intrinsics& camera) {
+  const auto border = border_directions(lens, camera);
+  if (!border) return std::nullopt;
+  Eigen::AlignedBox2d seen;
+  for (const Eigen::Vector2d& direction : *border) seen.extend(direction);
   return seen;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -32,8 +33,13 @@ std::optional<Eigen::Vector2d> undistort(const Distortion& lens, const Eigen::Ve
 /// How far to the side, or up and down, of its axis a camera may look: the tangent of 80 degrees.
 inline constexpr double kWidestTangent = 5.67;
 
+/// Directions that points along the picture's border see.
+/// @return empty where some point has no direction of its own, or lies more than 80 degrees off the axis
+std::optional<std::vector<Eigen::Vector2d>> border_directions(const Distortion& lens,
+                                                              const Intrinsics& camera);
+
 /// What a camera sees: bounds of the directions along its picture's border.
-/// @return empty where some pixel has no direction of its own, or lies more than 80 degrees off the axis
+/// @return empty where border_directions() is
 std::optional<Eigen::AlignedBox2d> directions_seen(const Distortion& lens, const Intrinsics& camera);
 
 }  // namespace stereobench::vision

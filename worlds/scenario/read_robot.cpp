@@ -160,8 +160,8 @@ void check_lens(const YamlValue& value, const vision::StereoRig& rig) {
   const YamlMap map(value, rig_keys());
   map.at(distorted == vision::Distortion{} ? "pixel_aspect" : "distortion")
       .refuse(fmt::format("expected fewer pixels, or a lens that looks less far aside: drawn straight, with "
-                          "{} pixels for one, its picture has {} x {}, and {} each way is the most",
-                          vision::kPinholeDensity, pinhole.width_px, pinhole.height_px,
+                          "{:.3g} pixels for one, its picture has {} x {}, and {} each way is the most",
+                          pinhole.focal_px / rig.intrinsics.focal_px, pinhole.width_px, pinhole.height_px,
                           vision::kLargestPinhole_px));
 }
 

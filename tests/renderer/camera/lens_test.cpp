@@ -74,7 +74,7 @@ void PrintTo(const NamedLens& named, std::ostream* out) {
 
 class LensTest : public testing::TestWithParam<NamedLens> {};
 
-// Mutation: half a pixel in places_seen.
+// Mutation: half a pixel in places_of_row.
 TEST_P(LensTest, ShowsBallsWhereDistortedRaysArrive) {
   const vision::StereoRig rig = rig_with(GetParam().lens);
   const double full = vision::kPalette[0].r;
@@ -125,19 +125,26 @@ Blurs blurs_behind(const vision::Distortion& lens) {
   return {sum[0] / balls[0], sum[1] / balls[1]};
 }
 
+class LensBlur : public testing::TestWithParam<NamedLens> {};
+
 // A box of a pixel without a lens; behind one, what a pinhole of finite density cannot do without. Mutations:
-// the least spread at all places; a pixel's own variance forgotten.
-TEST(Lens, BlursAlikeAllOverThePicture) {
-  constexpr double kOfAPixel = 1.0 / 12.0, kDensity = vision::kPinholeDensity;
-  constexpr double kBehindALens = (kLeastSpread + kOfAPixel) / (kDensity * kDensity);
-  const Blurs without = blurs_behind({}), behind = blurs_behind(kBarrel);
+// the least spread at all places; a pixel's own variance forgotten; the least density for all lenses.
+TEST_P(LensBlur, IsTheSameAllOverThePicture) {
+  constexpr double kOfAPixel = 1.0 / 12.0, kDensity = vision::kLeastPinholeDensity;
+  const bool is_straight = GetParam().lens == vision::Distortion{};
+  const double expected = is_straight ? kOfAPixel : (kLeastSpread + kOfAPixel) / (kDensity * kDensity);
+  const Blurs blurs = blurs_behind(GetParam().lens);
   for (int axis = 0; axis < 2; ++axis) {
-    EXPECT_NEAR(without.inner[axis], kOfAPixel, 0.006) << axis;
-    EXPECT_NEAR(without.outer[axis], kOfAPixel, 0.006) << axis;
-    EXPECT_NEAR(behind.inner[axis], kBehindALens, 0.006) << axis;
-    EXPECT_NEAR(behind.outer[axis], kBehindALens, 0.006) << axis;
+    EXPECT_NEAR(blurs.inner[axis], expected, 0.006) << axis;
+    EXPECT_NEAR(blurs.outer[axis], expected, 0.006) << axis;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(All, LensBlur,
+                         testing::Values(NamedLens{"pinhole", {}}, NamedLens{"barrel", kBarrel},
+                                         NamedLens{"pincushion", {.k1 = 0.12, .p1 = -0.001}},
+                                         NamedLens{"low_pixels", {.pixel_aspect = 0.85}},
+                                         NamedLens{"high_pixels", {.pixel_aspect = 1.2}}));
 
 // Mutation: truth of the pixel to the left.
 TEST_P(LensTest, KeepsTruthAndLightTogether) {
