@@ -103,7 +103,10 @@ Blurs blurs_behind(const vision::Distortion& lens) {
   const Eigen::Vector3d middle_m = world.balls.front().centre_m;
   std::vector<Eigen::Vector3d> places;
   for (double x = -9.0; x <= 9.0; x += 1.23)
-    for (double y = -6.0; y <= 6.0; y += 1.11) places.emplace_back(x, y, 15.0);
+    for (double y = -6.0; y <= 6.0; y += 1.11) {
+      const double i = static_cast<double>(places.size());  // at all places between pixels
+      places.emplace_back(x + 0.2 * std::fmod(0.618 * i, 1.0), y + 0.2 * std::fmod(0.755 * i, 1.0), 15.0);
+    }
   world.balls.clear();
   for (const Eigen::Vector3d& at : places)
     world.balls.push_back({middle_m + turn * (at - Eigen::Vector3d(0.0, 0.0, 15.0)), kBallRadius_m, 0});
@@ -133,10 +136,11 @@ TEST_P(LensBlur, IsTheSameAllOverThePicture) {
   constexpr double kOfAPixel = 1.0 / 12.0, kDensity = vision::kLeastPinholeDensity;
   const bool is_straight = GetParam().lens == vision::Distortion{};
   const double expected = is_straight ? kOfAPixel : (kLeastSpread + kOfAPixel) / (kDensity * kDensity);
+  const double three_sds = is_straight ? 0.006 : 0.014;  // 0.037 for a ball, of some 65 balls each
   const Blurs blurs = blurs_behind(GetParam().lens);
   for (int axis = 0; axis < 2; ++axis) {
-    EXPECT_NEAR(blurs.inner[axis], expected, 0.006) << axis;
-    EXPECT_NEAR(blurs.outer[axis], expected, 0.006) << axis;
+    EXPECT_NEAR(blurs.inner[axis], expected, three_sds) << axis;
+    EXPECT_NEAR(blurs.outer[axis], expected, three_sds) << axis;
   }
 }
 
