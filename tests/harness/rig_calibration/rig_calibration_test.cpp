@@ -104,7 +104,7 @@ TEST_F(RenderedBoards, GiveBackTheRigThatTookThem) {
     const BoardCalibration found = calibrate_rig(files(), {.board = kBoard, .model = model});
     EXPECT_EQ(found.used.size(), kViews);
     EXPECT_LT(found.fit.rms_px, 0.06);
-    EXPECT_LT(found.row_rms_px, 0.05);
+    EXPECT_LT(found.row_rms_px, 0.055);
     for (const double deviation : test::deviations(found.fit, rig_, model))
       EXPECT_LT(std::abs(deviation), 4.0) << calibration_text(found, {.board = kBoard, .model = model});
     EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
@@ -142,7 +142,7 @@ TEST_F(StretchedBoards, AreMeasuredByPixelsThatAreNotSquare) {
   const BoardCalibration found = calibrate_rig(files, settings);
   EXPECT_NEAR(found.rig.rig.distortion.pixel_aspect, aspect, 4.0 * found.fit.cameras_sd[0][kAspect]);
   EXPECT_LT(found.fit.rms_px, 0.06);
-  EXPECT_LT(found.row_rms_px, 0.06);
+  EXPECT_LT(found.row_rms_px, 0.066);
   EXPECT_NEAR(found.square_mean_m, kBoard.square_m, 1e-5);
   EXPECT_THAT(warnings_of(found, settings), testing::IsEmpty());
   BoardSettings square = settings;
