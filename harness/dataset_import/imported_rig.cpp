@@ -59,7 +59,7 @@ double in_short_degrees(double angle_rad) {
   constexpr double kRounding_rad = 1e-14;
   const double degrees = angle_rad * slam::kDegreesPerRad;
   const double shorter = in_few_decimals(degrees, kRounding_rad * slam::kDegreesPerRad);
-  return shorter == degrees ? angle_rad : shorter * slam::kRadPerDegree;
+  return shorter == degrees ? angle_rad + 0.0 : shorter * slam::kRadPerDegree;  // -0 becomes 0
 }
 
 /// Takes height and pitch from a body that is a robot.
