@@ -4,12 +4,7 @@
 
 #include "harness/json/json_line.h"
 #include "slam/math/angles.h"
-#include "slam/math/elementary.h"
-#include "vision/camera/rig.h"
-#include "vision/observe.h"
 #include "vision/palette.h"
-#include "vision/stereo/range_bearing.h"
-#include "vision/stereo/sphere.h"
 #include "vision/tuning/outline_fit.h"
 
 namespace stereobench::harness {
@@ -43,69 +38,13 @@ Eigen::Matrix2d read_covariance(const JsonValue& value) {
   return covariance;
 }
 
-/// Where a ball at the height of the cameras is, in the left camera's frame.
-Eigen::Vector3d at_camera_height(const vision::StereoRig& rig, const slam::RangeBearing& seen) {
-  const auto [s, c] = slam::sine_cosine(seen.bearing_rad);
-  return vision::robot_from_camera(rig).inverse() *
-         Eigen::Vector3d(seen.range_m * c, seen.range_m * s, rig.height_m);
-}
-
-/// The outlines that a ball must have where it is.
-struct ExpectedOutlines {
-  std::optional<vision::OutlineEllipse> left, right;  // none where a camera cannot see it
-};
-
-ExpectedOutlines expected_outlines(const BallGeometry& geometry, const BallObservation& ball) {
-  const vision::Intrinsics& camera = geometry.rig.intrinsics;
-  const Eigen::Vector3d in_right =
-      vision::camera_point(geometry.rig, ball.ball_in_camera, vision::Side::kRight);
-  return {vision::sphere_outline(camera, ball.ball_in_camera, geometry.radius_m),
-          vision::sphere_outline(camera, in_right, geometry.radius_m)};
-}
-
-/// The pixels and radii that a ball must have where only its place is known; false where a camera cannot see
-/// it.
-bool imagine_pixels(const BallGeometry& geometry, BallObservation& ball) {
-  const vision::Intrinsics& camera = geometry.rig.intrinsics;
-  const auto [left, right] = expected_outlines(geometry, ball);
-  if (!left || !right) return false;
-  ball.left_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, left->centre_px));
-  ball.right_px = vision::image_point(geometry.rig, vision::pixel_ray(camera, right->centre_px));
-  ball.left_radius_px = left->radius_px();
-  ball.right_radius_px = right->radius_px();
-  return true;
-}
-
-/// The centres as a rig without faults would have them.
-struct RectifiedCentres {
-  std::optional<Eigen::Vector2d> left, right;
-};
-
-RectifiedCentres rectified_centres(const BallGeometry& geometry, const BallObservation& ball) {
-  return {vision::rectified_point(geometry.rig, ball.left_px, vision::Side::kLeft),
-          vision::rectified_point(geometry.rig, ball.right_px, vision::Side::kRight)};
-}
-
-/// Range, bearing and covariance that the centres' pixels stand for.
-slam::RangeBearing seen_through(const BallGeometry& geometry, const BallObservation& ball, double sd_px) {
-  const Eigen::Matrix2d of_centre = sd_px * sd_px * Eigen::Matrix2d::Identity();
-  const auto [left, right] = rectified_centres(geometry, ball);
-  const vision::OutlineCentres centres = {left.value_or(ball.left_px), right.value_or(ball.right_px),
-                                          of_centre, of_centre};
-  return vision::range_bearing(ball.ball_in_camera,
-                               vision::ball_covariance(geometry.rig, centres, geometry.radius_m),
-                               vision::robot_from_camera(geometry.rig));
-}
-
 /// Fills in what the pixels of both centres say.
 void place_by_pixels(const JsonValue& value, const BallGeometry& geometry, BallObservation& ball) {
   ball.left_px = read_pixel(value.at("left_px"));
   ball.right_px = read_pixel(value.at("right_px"));
-  const auto [rectified_left, rectified_right] = rectified_centres(geometry, ball);
-  if (!rectified_left || !rectified_right)
-    value.at("left_px").refuse("pixels that the rig's lenses can reach");
-  const auto place =
-      vision::triangulate_ball(geometry.rig, *rectified_left, *rectified_right, geometry.radius_m);
+  const RectifiedCentres centres = rectified_centres(geometry, ball);
+  if (!centres.left || !centres.right) value.at("left_px").refuse("pixels that the rig's lenses can reach");
+  const auto place = place_of(geometry, centres);
   if (!place || place->z() > kMost_m)
     value.at("left_px").refuse("a column to the right of right_px's: a ball that is ahead");
   ball.ball_in_camera = *place;

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/detector/ball_geometry.h"
 #include "vision/outline/outline_fit.h"
 #include "vision/types.h"
 
@@ -26,12 +27,6 @@ namespace stereobench::harness {
 
 /// What a ball's error is taken to be that states none: of each coordinate of its centre, in each camera.
 inline constexpr double kUnstatedSd_px = 0.5;
-
-/// What a reader has to know of a ball to place it.
-struct BallGeometry {
-  vision::StereoRig rig;  ///< as it is believed to be
-  double radius_m = 0.05;
-};
 
 /// Reads a frame's line. Pixels without a range are triangulated as our own detector's are, and the other way
 /// round a range without pixels is given those of a ball at the height of the cameras.
