@@ -62,6 +62,10 @@ void read_detector(const YamlValue& value, Experiment& experiment) {
   experiment.detector.command = value.text();
 }
 
+void read_detector_noise(const YamlValue& value, Experiment& experiment) {
+  experiment.detector_noise = read_detector_faults(value, experiment.scenario);
+}
+
 std::vector<Field<Experiment>> run_fields() {
   return {
       choice("filters", {filter_names().begin(), filter_names().end()},
@@ -96,6 +100,11 @@ std::vector<Field<Experiment>> detector_fields() {
       number("detector_start_s", {0.0, 1e6},
              "How much longer it may take for its first answer, in seconds, since it has to start.")
           .fills(&Experiment::detector, &DetectorProgram::start_s),
+      group("detector_noise", detector_faults_keys(),
+            "What is made worse of the detector's answers, whoever it is.")
+          .otherwise_says("nothing")
+          .fills(&Experiment::detector_noise)
+          .reading(read_detector_noise),
   };
 }
 

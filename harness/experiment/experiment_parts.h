@@ -18,9 +18,14 @@ struct MeasurementNoise {
 MeasurementNoise read_measurement_noise(const worlds::YamlValue& value,
                                         const std::optional<vision::StereoRig>& rig);
 
+/// `detector_noise:` what is made worse of a detector's answers.
+/// @param scenario whose sensor and identity are read already
+DetectorFaults read_detector_faults(const worlds::YamlValue& value, const worlds::Scenario& scenario);
+
 /// The keys of each group, and the members that they fill.
 const worlds::KeyGroup& measurement_noise_keys();
 const worlds::Fields<slam::SensorSector>& believed_oracle_keys();
 const worlds::Fields<Gate>& gate_keys();
+const worlds::Fields<DetectorFaults>& detector_faults_keys();
 
 }  // namespace stereobench::harness

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "harness/experiment/detector_faults.h"
 #include "slam/filter_config.h"
 #include "slam/filter_registry.h"
 #include "slam/types.h"
@@ -45,6 +46,7 @@ struct FilterBeliefs {
 struct Experiment {
   worlds::Scenario scenario;
   DetectorProgram detector;
+  std::optional<DetectorFaults> detector_noise;  ///< none: nothing is counted either
   FilterBeliefs believed;
   slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();

@@ -55,6 +55,8 @@ std::string type_of(const Key& key) {
                                 : fmt::format("{} to {}", lengths.least, lengths.most);
   std::string list = fmt::format("list of {} {}", count, name);
   if (lengths.inner != 0) list = fmt::format("list of {} lists of {} {}", count, lengths.inner, name);
+  if (lengths.inner == worlds::kAsManyAsEntries)
+    list = fmt::format("square matrix of {} rows of {}", count, name);
   return lengths.single ? fmt::format("{}, or {}", name, list) : list;
 }
 

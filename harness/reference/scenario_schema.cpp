@@ -47,7 +47,10 @@ Json value_schema(const Key& key) {
   const Json single = single_schema(key);
   const worlds::Lengths& lengths = key.lengths;
   if (lengths.most == 0) return single;
-  const Json entry = lengths.inner == 0 ? single : list_schema(single, lengths.inner, lengths.inner);
+  const Json entry = lengths.inner == worlds::kAsManyAsEntries
+                         ? list_schema(single, lengths.least, lengths.most)
+                     : lengths.inner == 0 ? single
+                                          : list_schema(single, lengths.inner, lengths.inner);
   const Json list = list_schema(entry, lengths.least, lengths.most);
   return lengths.single ? Json{{"anyOf", Json::array({single, list})}} : list;
 }

@@ -31,6 +31,9 @@ class YamlValue;
 template <class Struct>
 struct Field;
 
+/// Of Lengths::inner: as many as there are entries.
+inline constexpr std::size_t kAsManyAsEntries = static_cast<std::size_t>(-1);
+
 /// How many values a key takes: one, a list of them, or either.
 struct Lengths {
   bool single = true;     ///< one value without a list
@@ -86,6 +89,8 @@ struct Key {
   Key list(std::size_t least, std::size_t most, std::size_t inner = 0) const {
     return with(&Key::lengths, {false, least, most, inner});
   }
+  /// A square matrix: a list of rows.
+  Key square(std::size_t most) const { return list(1, most, kAsManyAsEntries); }
   /// The enumerator that the first name stands for.
   Key starting_at(int enumerator) const { return with(&Key::first, enumerator); }
 

@@ -89,13 +89,13 @@ TEST(ExperimentKeys, AreThoseOfWorldsAndThoseOfARun) {
 
 // People know the page by this order. Mutation: the keys of a run behind those of worlds.
 TEST(ExperimentKeys, StandInTheOrderOfTheReferencePage) {
-  EXPECT_THAT(
-      names_of(experiment_keys()),
-      ElementsAre("name", "description", "filters", "particles", "draw_every", "seeds", "gates", "sensor",
-                  "identity", "association", "colour_spacing_m", "rig", "believed_rig", "camera", "shutter",
-                  "detector", "detector_timeout_s", "detector_start_s", "oracle", "believed_oracle",
-                  "odometry_noise", "believed_odometry_noise", "start_noise", "believed_start_noise",
-                  "believed_measurement_noise", "path", "placement_jitter_m", "randomise", "world"));
+  EXPECT_THAT(names_of(experiment_keys()),
+              ElementsAre("name", "description", "filters", "particles", "draw_every", "seeds", "gates",
+                          "sensor", "identity", "association", "colour_spacing_m", "rig", "believed_rig",
+                          "camera", "shutter", "detector", "detector_timeout_s", "detector_start_s",
+                          "detector_noise", "oracle", "believed_oracle", "odometry_noise",
+                          "believed_odometry_noise", "start_noise", "believed_start_noise",
+                          "believed_measurement_noise", "path", "placement_jitter_m", "randomise", "world"));
 }
 
 }  // namespace

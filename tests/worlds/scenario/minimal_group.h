@@ -39,6 +39,7 @@ inline std::string sample_value(const Key& key) {
   std::vector<std::string> entries;
   for (std::size_t i = 0; i < std::max<std::size_t>(key.lengths.least, 1); ++i) {
     const std::string entry = sample(key, static_cast<int>(3 * i * i));
+    if (key.lengths.inner == kAsManyAsEntries) return fmt::format("[[{}]]", entry);
     entries.push_back(
         key.lengths.inner == 0 ? entry : fmt::format("[{}, {}]", entry, sample(key, static_cast<int>(i))));
   }
