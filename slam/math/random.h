@@ -21,7 +21,8 @@ enum class Stream : std::uint32_t {
   kRandomise,
   kBallRadius,
   kStart,
-  kResample
+  kResample,
+  kDetectorFault
 };
 
 /// The standard normal quantile, Wichura's algorithm AS 241 (relative error about 1e-16).

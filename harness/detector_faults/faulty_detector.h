@@ -1,0 +1,53 @@
+/// The faults of a detector, put into what it found: after it, and before anybody uses its answer.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "harness/detector/ball_geometry.h"
+#include "harness/detector_faults/centre_noise.h"
+#include "harness/detector_faults/detection.h"
+#include "harness/detector_faults/fault_counts.h"
+#include "harness/experiment/detector_faults.h"
+#include "worlds/types.h"
+
+namespace stereobench::harness {
+
+/// Makes detections worse, frame by frame; lives as long as a drive. What it does to a detection depends on
+/// seed, frame and ball alone, and on no other frame. Without faults it changes nothing, to the last bit.
+class FaultyDetector {
+ public:
+  /// @param scenario as it is read: its rig as it is believed to be, its frames, its sensor
+  /// @param world of the seed
+  FaultyDetector(const DetectorFaults& faults, const worlds::Scenario& scenario, const worlds::World& world,
+                 std::uint64_t seed);
+
+  /// @param frame later than the one before
+  /// @param detections of the frame, as the detector gave them
+  /// @return what arrives at this frame: first what the detector found, in its order, then what is of nothing
+  std::vector<TracedDetection> arriving(std::size_t frame, std::vector<TracedDetection> detections);
+
+  /// So far; what has not arrived is counted as undelivered.
+  FaultCounts counts() const;
+
+ private:
+  std::vector<TracedDetection> worsened(std::size_t frame, std::vector<TracedDetection> detections);
+  bool is_still_seen(std::size_t frame, TracedDetection& detection);
+  bool move(std::size_t frame, TracedDetection& detection);
+  void add_false(std::size_t frame, std::vector<TracedDetection>& detections);
+  std::vector<TracedDetection> delayed(std::size_t frame, std::vector<TracedDetection> detections);
+
+  DetectorFaults faults_;
+  std::uint64_t seed_;
+  worlds::Identity identity_;
+  worlds::OracleSensor oracle_;
+  std::optional<BallGeometry> geometry_;  ///< none: the sensor is the oracle
+  std::vector<int> colours_;              ///< of the balls
+  CentreNoise noise_;
+  std::map<std::size_t, std::vector<TracedDetection>> on_their_way_;  ///< by frame of the look
+  FaultCounts counts_;
+};
+
+}  // namespace stereobench::harness
