@@ -9,6 +9,7 @@
 
 #include "harness/detector/detector_process.h"
 #include "harness/detector/detector_registry.h"
+#include "harness/detector_faults/faulty_detector.h"
 #include "harness/drive/shutter.h"
 #include "harness/drive/sightings.h"
 #include "harness/process/stopwatch.h"
@@ -66,6 +67,8 @@ class StereoOnlooker {
   StereoOnlooker(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed)
       : onlooker_(onlooker), world_(world), name_(kCallable) {
     const Experiment& experiment = *onlooker.experiment;
+    if (experiment.detector_noise)
+      faults_.emplace(*experiment.detector_noise, experiment.scenario, world, seed);
     const DetectorSetup setup = detector_setup(experiment.scenario);
     detector_ = onlooker.detector;
     if (detector_) return;
@@ -85,34 +88,49 @@ class StereoOnlooker {
     Stopwatch watch(result_.recording.timing);
     const worlds::Scenario& scenario = onlooker_.experiment->scenario;
     result_.recording.blur.add(taken.exposed.blur_step_px);
-    const auto observations = watch.time("observe", [&] {
+    const VisionTruth truth{world_, scenario.rig, step.pose, taken.exposed.frame};
+    auto observations = watch.time("observe", [&] {
       return detector_({index, step.stamp_ns, taken.pair, scenario.believed_rig});
     });
-    const FrameMatch match =
-        match_observations({world_, scenario.rig, step.pose, taken.exposed.frame}, observations);
+    std::optional<std::vector<int>> balls;
+    if (faults_) balls = make_worse(truth, index, observations);
+    const FrameMatch match = match_observations(truth, observations);
     score_ += score_match(match);
     const worlds::World& meant = scenario.world;
     score_.rig +=
         check_rig(scenario.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
     onlooker_.listeners.on_frame({index, step.stamp_ns, step.pose, taken.exposed.frame, taken.pair,
                                   observations, match, world_, scenario.rig, taken.late_s, &renderer});
-    return sightings_of(observations, balls_observed(match), world_.balls, scenario.identity);
+    return sightings_of(observations, balls ? *balls : balls_observed(match), world_.balls,
+                        scenario.identity);
   }
 
   void finish() {
     if (program_) program_->finish();
     result_.recording.detector = name_;
     result_.recording.vision = score_;
+    if (faults_) result_.recording.faults = faults_->counts();
   }
 
   OnlookerResult& result() { return result_; }
 
  private:
+  /// Puts the detector's faults into what it found.
+  /// @return the balls that the detections are of, wherever those lie now
+  std::vector<int> make_worse(const VisionTruth& truth, std::size_t index,
+                              std::vector<vision::BallObservation>& observations) {
+    const std::vector<TracedDetection> arriving =
+        faults_->arriving(index, traced(observations, match_observations(truth, observations)));
+    observations = observations_of(arriving);
+    return balls_of(arriving);
+  }
+
   const Onlooker& onlooker_;
   const worlds::World& world_;
   std::string name_;
   std::optional<DetectorProcess> program_;
   Detector detector_;
+  std::optional<FaultyDetector> faults_;
   VisionScore score_;
   OnlookerResult result_;
 };
@@ -165,14 +183,19 @@ OnlookerResult sense_drive(const Onlooker& onlooker, const worlds::World& world,
   OnlookerResult look;
   look.recording.log = log_without_sightings(scenario, world, seed);
   std::vector<LogStep>& steps = look.recording.log.steps;
+  std::optional<FaultyDetector> faults;
+  if (const auto& named = onlooker.experiment->detector_noise) faults.emplace(*named, scenario, world, seed);
   for (std::size_t index = 0; index < steps.size(); ++index) {
     slam::RandomStream noise(seed, slam::Stream::kOracle, index);
     slam::RandomStream chance(seed, slam::Stream::kClutter, index);
     const Sightings all =
         worlds::sense(world, scenario.path[index].pose, scenario.oracle, scenario.identity, noise);
-    put(worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance), steps[index]);
+    Sightings sensed = worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
+    if (faults) sensed = oracle_sightings(faults->arriving(index, traced(sensed)));
+    put(std::move(sensed), steps[index]);
     onlooker.listeners.on_progress(static_cast<double>(index + 1) / static_cast<double>(steps.size()));
   }
+  if (faults) look.recording.faults = faults->counts();
   return look;
 }
 

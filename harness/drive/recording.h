@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/detector/detector.h"
+#include "harness/detector_faults/fault_counts.h"
 #include "harness/drive/coarse_blur.h"
 #include "harness/experiment/types.h"
 #include "harness/types.h"
@@ -53,6 +54,7 @@ struct Recording {
   MeasurementLog log;
   std::string detector = "none";      ///< who looked: "stereobench", a program's command, "callable"
   std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  std::optional<FaultCounts> faults;  ///< of the detector; empty where the experiment names none
   CoarseBlur blur;
   Timing timing;
 };

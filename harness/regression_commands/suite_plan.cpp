@@ -31,6 +31,7 @@ const std::set<std::string> kNoInputs = {
 const std::set<std::string> kNotSeen = {"particles",
                                         "draw_every",
                                         "association",
+                                        "detector_noise",
                                         "odometry_noise",
                                         "start_noise",
                                         "believed_oracle",

@@ -84,6 +84,13 @@ constexpr SummaryKey kSingles[] = {
     {"detector",
      "Who found the balls: a linked detector's name (stereobench: ours), a program's command, callable, "
      "file, or none."},
+    {"detector_noise.moved", "Detections whose centre or range `detector_noise` moved."},
+    {"detector_noise.lost", "Detections that it lost: missed, or moved to where no ball can be."},
+    {"detector_noise.added", "Detections of nothing that it added."},
+    {"detector_noise.renamed", "Detections that it gave another name."},
+    {"detector_noise.delayed", "Detections that arrived frames after the look."},
+    {"detector_noise.undelivered",
+     "Detections whose frame of arrival was lost or lies behind the end of the drive."},
     {"vision.recall",
      "Part of the balls to be found that were found; at least 95 % of those is seen by both cameras."},
     {"vision.precision",

@@ -149,6 +149,7 @@ nlohmann::ordered_json run_json(const RunResult& result) {
   Json json = {{"schema", kSchema},           {"scenario", result.name},
                {"seeds", result.seeds},       {"renderer", renderer_json(result)},
                {"detector", result.detector}, {"vision", vision_json(result.vision)}};
+  if (result.faults) json["detector_noise"] = fault_counts_json(*result.faults);
   if (result.made_from) json["made_from"] = provenance_json(*result.made_from);
   if (result.recorded) json["log"] = log_json(*result.recorded, result.assumed, result.start_is_true);
   json["bound"] = bound_json(result.bounds, &BoundScores::filtering);

@@ -56,6 +56,7 @@ struct RunResult {
   std::string backend;                ///< what rendered, e.g. "osmesa", or kNoBackend
   std::string detector = "none";      ///< who looked at the pictures; see Recording
   std::optional<VisionScore> vision;  ///< of all seeds; empty for a sensor without pixels
+  std::optional<FaultCounts> faults;  ///< of all seeds; empty where the scenario names none
   std::optional<CoarseBlur> blur;     ///< of all pictures; empty where none were rendered
   std::vector<FilterResult> filters;
   bool identities_known = true;         ///< by every sighting

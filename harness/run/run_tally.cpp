@@ -26,6 +26,8 @@ void RunTally::add(const SeedResult& seed) {
   result_.seeds.push_back(seed.seed);
   if (seed.vision && !result_.vision) result_.vision.emplace();
   if (seed.vision) *result_.vision += *seed.vision;
+  if (seed.faults) result_.faults = result_.faults.value_or(FaultCounts{});
+  if (seed.faults) *result_.faults += *seed.faults;
   if (result_.blur) *result_.blur += seed.blur;
   result_.start_is_true = result_.start_is_true && seed.start_is_true;
   result_.identities_known = result_.identities_known && seed.identities_known;

@@ -140,6 +140,7 @@ SeedResult score_seed(const SeedDrive& drive, const SeedParts& parts) {
   SeedResult result{.seed = drive.seed,
                     .detector = recording.detector,
                     .vision = recording.vision,
+                    .faults = recording.faults,
                     .blur = recording.blur,
                     .timing = recording.timing,
                     .steps = static_cast<long>(recording.log.steps.size()),

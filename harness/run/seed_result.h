@@ -45,6 +45,7 @@ struct SeedResult {
   std::uint64_t seed = 0;
   std::string detector = "none";      ///< see Recording
   std::optional<VisionScore> vision;  ///< empty for a sensor without pixels
+  std::optional<FaultCounts> faults;  ///< see Recording
   CoarseBlur blur;
   Timing timing;
   long steps = 0;                ///< of the log

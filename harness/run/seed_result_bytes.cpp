@@ -14,6 +14,7 @@ STEREOBENCH_ALL_FIELDS(BatchStep, controls, sightings)
 
 namespace stereobench::harness {
 STEREOBENCH_ALL_FIELDS(LandmarkTruth, landmark_id, colour_class, position_m)
+STEREOBENCH_ALL_FIELDS(FaultCounts, moved, lost, added, renamed, delayed, undelivered)
 STEREOBENCH_ALL_FIELDS(CoarseBlur, pairs, most_step_px)
 STEREOBENCH_ALL_FIELDS(AssociationScore, correct, wrong, missed, imagined, duplicated, spurious)
 STEREOBENCH_ALL_FIELDS(TrajectoryScore, ate_rms_m, ate_max_m, ate_aligned_rms_m, ate_aligned_max_m,
@@ -86,7 +87,7 @@ inline void from_json(const nlohmann::json& json, KeptPair& pair) {
 
 STEREOBENCH_ALL_FIELDS(MapTrack, truth, seen_m, covariances)
 STEREOBENCH_ALL_FIELDS(SensorLog, start, steps)
-STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, blur, timing, steps, start_is_true,
+STEREOBENCH_ALL_FIELDS(SeedResult, seed, detector, vision, faults, blur, timing, steps, start_is_true,
                        identities_known, runs, batch, bound, bound_m2, csv, detections_gz, time_s, map, track,
                        snapshots, pairs, log)
 

@@ -35,7 +35,8 @@ std::vector<Json> varied_runs() {
           .exit_code,
       0);
   return {run_of({"run", scenario_path("ball_circle"), "--set", "path.laps=0.1", "--seeds", "0..1"}),
-          run_of({"run", scenario_path("open_field"), "--seeds", "0", "--set", "identity=colour_class"}),
+          run_of({"run", scenario_path("open_field"), "--seeds", "0", "--set", "identity=colour_class",
+                  "--set", "detector_noise={miss_probability: 0.1}"}),
           run_of({"run", scenario_path("open_field"), "--seeds", "0..1"}),
           run_of({"slam", data, "--seeds", "0..1"})};
 }
