@@ -21,9 +21,9 @@ using worlds::whole;
 using worlds::YamlMap;
 using worlds::YamlValue;
 
-constexpr Interval kShare = {0.0, 1.0};
+constexpr Interval kProbability = {0.0, 1.0};
 constexpr Interval kNoise_px = {0.0, 1000.0};
-constexpr Interval kScale = {1e-3, 1e3};
+constexpr Interval kFactor = {1e-3, 1e3};
 constexpr double kMostRange_m = 1e4;
 constexpr std::size_t kMostPoints = 50;
 
@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 2> kOfNames = {"identity_swap_probability
 
 const Fields<HeavyTail>& heavy_tail_keys() {
   static const Fields<HeavyTail> keys({
-      number("share", kShare, "Share of the detections whose error is larger.")
+      number("share", kProbability, "Share of the detections whose error is larger.")
           .needed()
           .fills(&HeavyTail::share),
       number("sd_scale", {1.0, 1e3}, "How many times larger its standard deviation is.")
@@ -63,15 +63,15 @@ std::vector<Field<DetectorFaults>> centre_fields() {
           .fills(&DetectorFaults::correlated_s),
       number("quantise_px", kNoise_px, "Centres are rounded to multiples of it, in pixels; 0: they are not.")
           .fills(&DetectorFaults::quantise_px),
-      number("range_scale", kScale, "Factor on all ranges.").fills(&DetectorFaults::range_scale),
+      number("range_scale", kFactor, "Factor on all ranges.").fills(&DetectorFaults::range_scale),
   };
 }
 
 std::vector<Field<DetectorFaults>> miss_fields() {
   return {
-      number("miss_probability", kShare, "Probability that a detection is lost.")
+      number("miss_probability", kProbability, "Probability that a detection is lost.")
           .fills(&DetectorFaults::miss_probability),
-      number("miss_by_visible", kShare,
+      number("miss_by_visible", kProbability,
              "Further probability to be lost, by how much of the ball is seen: [fraction, probability], "
              "interpolated.")
           .list(1, kMostPoints, 2)
@@ -93,11 +93,11 @@ std::vector<Field<DetectorFaults>> other_fields() {
           .fills(&DetectorFaults::false_per_frame),
       number("false_within_m", {0.5, kMostRange_m}, "How far away those are at most, in metres.")
           .fills(&DetectorFaults::false_within_m),
-      number("identity_swap_probability", kShare,
+      number("identity_swap_probability", kProbability,
              "Probability that two detections of a frame, paired at random, have each other's name.")
           .fills(&DetectorFaults::identity_swap_probability),
       number(
-          "confusion", kShare,
+          "confusion", kProbability,
           "Row: a colour of the palette; column: the probability that it is taken for that colour. Colours "
           "beyond are not confused.")
           .square(vision::kPalette.size())

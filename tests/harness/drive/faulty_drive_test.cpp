@@ -17,7 +17,7 @@ struct Seen {
   Recording recording;
 };
 
-Seen drive(const std::string& scenario, std::vector<std::string> overrides, const Detector& detector = {}) {
+Seen seen_on(const std::string& scenario, std::vector<std::string> overrides, const Detector& detector = {}) {
   const Experiment experiment = read_experiment(scenario_path(scenario), overrides);
   Seen seen;
   Listeners listeners;
@@ -44,16 +44,16 @@ std::string sightings_of_log(const MeasurementLog& log) {
 
 // Mutations: detections that are put together anew; a draw that others share.
 TEST(FaultyDrive, WithoutFaultsIsTheSame) {
-  const Seen without = drive("ball_circle", kShort);
-  const Seen with_none = drive("ball_circle", with(kShort, {"detector_noise={}"}));
+  const Seen without = seen_on("ball_circle", kShort);
+  const Seen with_none = seen_on("ball_circle", with(kShort, {"detector_noise={}"}));
   EXPECT_GT(without.lines.size(), 3U);
   EXPECT_EQ(with_none.lines, without.lines);
   EXPECT_EQ(sightings_of_log(with_none.recording.log), sightings_of_log(without.recording.log));
   EXPECT_EQ(with_none.recording.vision->range_errors_m, without.recording.vision->range_errors_m);
   EXPECT_EQ(without.recording.faults, std::nullopt);
   EXPECT_EQ(with_none.recording.faults, FaultCounts{});
-  const Seen oracle = drive("open_field", {"path.laps=0.1"});
-  const Seen oracle_with_none = drive("open_field", {"path.laps=0.1", "detector_noise={}"});
+  const Seen oracle = seen_on("open_field", {"path.laps=0.1"});
+  const Seen oracle_with_none = seen_on("open_field", {"path.laps=0.1", "detector_noise={}"});
   EXPECT_NE(sightings_of_log(oracle.recording.log), "");
   EXPECT_EQ(sightings_of_log(oracle_with_none.recording.log), sightings_of_log(oracle.recording.log));
 }
@@ -65,10 +65,10 @@ TEST(FaultyDrive, IsScoredAndLoggedAsTheDetectionsArrive) {
     const Experiment experiment = read_experiment(scenario_path("ball_circle"), kShort);
     return our_detector(detector_setup(experiment.scenario));
   }();
-  const auto with_bias = with(kShort, {"detector_noise={centre_bias_px: [[0, 40], [0, 40]]}"});
-  const Seen right = drive("ball_circle", kShort);
-  const Seen wrong = drive("ball_circle", with_bias, ours);
-  EXPECT_EQ(wrong.lines, drive("ball_circle", with_bias).lines);
+  const auto with_bias = with(kShort, {"detector_noise={centre_bias_px: [[0, 120], [0, 120]]}"});
+  const Seen right = seen_on("ball_circle", kShort);
+  const Seen wrong = seen_on("ball_circle", with_bias, ours);
+  EXPECT_EQ(wrong.lines, seen_on("ball_circle", with_bias).lines);
   EXPECT_GT(right.recording.vision->right, 0);
   EXPECT_EQ(wrong.recording.vision->right, 0);
   EXPECT_EQ(wrong.recording.vision->spurious, wrong.recording.vision->observations);
@@ -81,8 +81,8 @@ TEST(FaultyDrive, IsScoredAndLoggedAsTheDetectionsArrive) {
 // Mutation: the oracle's sightings without faults.
 TEST(FaultyDrive, OfTheOracleComesLate) {
   const std::vector<std::string> field = {"path.laps=0.1"};
-  const Seen prompt = drive("open_field", field);
-  const Seen late = drive("open_field", with(field, {"detector_noise.latency_frames=2"}));
+  const Seen prompt = seen_on("open_field", field);
+  const Seen late = seen_on("open_field", with(field, {"detector_noise.latency_frames=2"}));
   const std::vector<LogStep>& before = prompt.recording.log.steps;
   const std::vector<LogStep>& after = late.recording.log.steps;
   ASSERT_GT(after.size(), 4U);

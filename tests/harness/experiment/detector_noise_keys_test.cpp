@@ -18,8 +18,8 @@ using testing::StartsWith;
 using worlds::BadOverride;
 using worlds::ScenarioFolder;
 
-std::string complaint_about(const std::filesystem::path& file,
-                            const std::vector<std::string>& overrides = {}) {
+std::string complaint_about_noise(const std::filesystem::path& file,
+                                  const std::vector<std::string>& overrides = {}) {
   return complaint_of([&] { read_experiment(file, overrides); });
 }
 
@@ -60,7 +60,7 @@ class BadDetectorNoise : public testing::TestWithParam<BadOverride> {};
 
 // Mutations: each check dropped.
 TEST_P(BadDetectorNoise, IsRefusedInALine) {
-  worlds::expect_blamed(GetParam(), complaint_about);
+  worlds::expect_blamed(GetParam(), complaint_about_noise);
 }
 constexpr BadOverride kBad[] = {
     {"detector_noise.centre_sd_px=-1",
@@ -93,14 +93,14 @@ TEST(DetectorNoise, IsRefusedWhereThereIsNothingThatItCouldBeOf) {
   for (const std::string line : {"centre_sd_px=1", "centre_bias_px=[[0,0],[0,0]]", "quantise_px=1",
                                  "heavy_tail={share: 0, sd_scale: 1}", "correlated_s=1",
                                  "miss_by_visible=[[0,0]]", "false_within_m=5", "covariance=honest"})
-    EXPECT_THAT(complaint_about(file, {"sensor=oracle", "detector_noise." + line}),
+    EXPECT_THAT(complaint_about_noise(file, {"sensor=oracle", "detector_noise." + line}),
                 StartsWith("--set detector_noise." + line.substr(0, line.find('=')) +
                            ": the oracle has no pixels; oracle.range_sd_m,"));
   for (const std::string line : {"identity_swap_probability=0.1", "confusion=[[1]]"})
-    EXPECT_THAT(complaint_about(file, {"identity=none", "detector_noise." + line}),
+    EXPECT_THAT(complaint_about_noise(file, {"identity=none", "detector_noise." + line}),
                 StartsWith("--set detector_noise." + line.substr(0, line.find('=')) +
                            ": identity is none: detections have no name"));
-  EXPECT_THAT(complaint_about(file, {"sensor=oracle", "detector_noise.confusion=[[1]]"}),
+  EXPECT_THAT(complaint_about_noise(file, {"sensor=oracle", "detector_noise.confusion=[[1]]"}),
               StartsWith("--set detector_noise.confusion: expected identity: colour_class"));
   EXPECT_NO_THROW(
       read_experiment(file, {"sensor=oracle",
@@ -117,7 +117,7 @@ TEST(DetectorNoise, IsBlamedOnTheLineOfTheFile) {
       worlds::small_scenario_with(
           "particles: 20", "detector_noise:\n  confusion:\n    - [1, 0]\n    - [0.2, 0.7]\nparticles: 20"));
   EXPECT_THAT(
-      complaint_about(file),
+      complaint_about_noise(file),
       StartsWith(file.string() + ":7: detector_noise.confusion[1]: expected probabilities that sum to 1"));
 }
 
