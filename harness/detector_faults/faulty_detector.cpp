@@ -99,7 +99,7 @@ void FaultyDetector::add_false(std::size_t frame, std::vector<TracedDetection>& 
 
 std::vector<TracedDetection> FaultyDetector::delayed(std::size_t frame,
                                                      std::vector<TracedDetection> detections) {
-  const auto latency = static_cast<std::size_t>(faults_.latency_frames);
+  const std::size_t latency = latency_frames();
   if (latency == 0) return detections;
   on_their_way_[frame] = std::move(detections);
   std::vector<TracedDetection> arrived;

@@ -29,6 +29,9 @@ class FaultyDetector {
   /// @return what arrives at this frame: first what the detector found, in its order, then what is of nothing
   std::vector<TracedDetection> arriving(std::size_t frame, std::vector<TracedDetection> detections);
 
+  /// How many frames after the look its detections arrive.
+  std::size_t latency_frames() const { return static_cast<std::size_t>(faults_.latency_frames); }
+
   /// So far; what has not arrived is counted as undelivered.
   FaultCounts counts() const;
 

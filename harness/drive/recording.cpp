@@ -81,19 +81,25 @@ class StereoOnlooker {
     detector_ = std::ref(*program_);
   }
 
-  bool wants(std::size_t index) const { return onlooker_.listeners.is_wanted(index); }
+  /// Also what a late detector needs for its answer at a step that is wanted.
+  bool wants(std::size_t index) const {
+    const std::size_t arrival = index + (faults_ ? faults_->latency_frames() : 0);
+    const auto& is_wanted = onlooker_.listeners.is_wanted;
+    return is_wanted(index) || (arrival < onlooker_.experiment->scenario.path.size() && is_wanted(arrival));
+  }
 
   Sightings see(const worlds::PathStep& step, std::size_t index, const TakenPair& taken,
                 renderer::Renderer& renderer) {
     Stopwatch watch(result_.recording.timing);
     const worlds::Scenario& scenario = onlooker_.experiment->scenario;
-    result_.recording.blur.add(taken.exposed.blur_step_px);
     const VisionTruth truth{world_, scenario.rig, step.pose, taken.exposed.frame};
     auto observations = watch.time("observe", [&] {
       return detector_({index, step.stamp_ns, taken.pair, scenario.believed_rig});
     });
     std::optional<std::vector<int>> balls;
     if (faults_) balls = make_worse(truth, index, observations);
+    if (!onlooker_.listeners.is_wanted(index)) return {};
+    result_.recording.blur.add(taken.exposed.blur_step_px);
     const FrameMatch match = match_observations(truth, observations);
     score_ += score_match(match);
     const worlds::World& meant = scenario.world;

@@ -41,8 +41,9 @@ struct FrameEvent {
 
 /// Who wants to be told while a drive goes on, and of which steps.
 struct Listeners {
-  /// Whether the cameras open at a step (sensors with pixels only). At others nothing is rendered or seen;
-  /// what is seen at this one does not depend on it, unless a detector has a memory.
+  /// Whether the cameras open at a step (sensors with pixels only). At others nothing is rendered or seen,
+  /// but for what arrives late at this one; what is seen here does not depend on it, unless a detector has a
+  /// memory.
   std::function<bool(std::size_t)> is_wanted = [](std::size_t) { return true; };
   std::function<void(const FrameEvent&)> on_frame = [](const FrameEvent&) {};
   std::function<void(double)> on_progress = [](double) {};  ///< fraction done, in [0, 1]

@@ -78,6 +78,25 @@ TEST(FaultyDrive, IsScoredAndLoggedAsTheDetectionsArrive) {
   EXPECT_GT(wrong.recording.faults->moved, 0);
 }
 
+// A step that is looked at alone has what it has in the whole drive, and nobody is told of those that are
+// looked at for that. Mutations: only steps that are wanted are taken; listeners told of all that is taken.
+TEST(FaultyDrive, ShowsLateDetectionsOfASingleStep) {
+  const auto overrides = with(kShort, {"detector_noise={latency_frames: 2, centre_sd_px: 0.5}"});
+  const Seen whole = seen_on("ball_circle", overrides);
+  const Experiment experiment = read_experiment(scenario_path("ball_circle"), overrides);
+  std::vector<std::string> lines;
+  Listeners listeners;
+  listeners.is_wanted = [](std::size_t step) { return step == 3; };
+  listeners.on_frame = [&](const FrameEvent& event) {
+    lines.push_back(detections_line(event.step, event.observations));
+  };
+  const Recording single = record(experiment, 3, listeners);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0], whole.lines.at(3));
+  EXPECT_NE(lines[0], detections_line(3, {}));
+  EXPECT_EQ(single.faults->delayed, static_cast<long>(single.vision->observations + single.vision->flagged));
+}
+
 // Mutation: the oracle's sightings without faults.
 TEST(FaultyDrive, OfTheOracleComesLate) {
   const std::vector<std::string> field = {"path.laps=0.1"};
