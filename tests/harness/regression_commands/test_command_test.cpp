@@ -251,17 +251,22 @@ TEST(TestCommand, RunsSeedsUntilTheyDecide) {
                              HasSubstr("look at 20 seeds, alpha 0.005: 1 inconclusive")));
 }
 
-// A seed of both cases: one drive, and results as without the other. Mutation: a key of pictures with the
-// filters in it (the test of shared pictures is red, not this one).
+// A seed of all cases: one drive, and results as without the others. Mutation: a key of pictures with the
+// filters in it (the test of shared pictures is red, not this one); a late detector's looks told to all.
 TEST(TestCommand, CasesGiveTheSameAsIfTheyWereAlone) {
   const std::string cases =
       "  - {name: one, scenario: room.yaml}\n"
-      "  - {name: two, scenario: room.yaml, filters: [smoother], set: [odometry_noise.v_constant_mps=0.1]}\n";
+      "  - {name: two, scenario: room.yaml, filters: [smoother], set: [odometry_noise.v_constant_mps=0.1]}\n"
+      "  - {name: late, scenario: room.yaml, set: ['detector_noise={latency_frames: 1, centre_sd_px: "
+      "0.3}']}\n";
   TinySuite suite(cases);
   suite.test();
-  const std::string together = bytes_of(suite.path("out/two/run.json"));
-  suite.test({"--only", "two", "--jobs", "1"});
-  EXPECT_EQ(bytes_of(suite.path("out/two/run.json")), together);
+  for (const std::string name : {"two", "late"}) {
+    const std::string results = suite.path("out/" + name + "/run.json");
+    const std::string together = bytes_of(results);
+    suite.test({"--only", name, "--jobs", "1"});
+    EXPECT_EQ(bytes_of(results), together) << name;
+  }
 }
 
 }  // namespace
