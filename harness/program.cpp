@@ -90,6 +90,7 @@ int run_command_line(int argc, char** argv) {
   add_learn_palette_command(program, action);
   add_metrics_command(program, action);
   add_schema_command(program, action);
+  add_faults_command(program, action);
   add_doctor_command(program, action);
   for (CLI::App* const command : program.get_subcommands({})) refuse_empty_values(*command);
   if (argc > 1) check_command(program, argv[1]);

@@ -118,6 +118,16 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
                  "--set", overrides,
                  "change a line of the scenario, e.g. --set camera.noise_sd_levels=4; may be repeated"))
       ->type_name("KEY=VALUE");
+  repeatable(
+      command.add_option_function<std::vector<std::string>>(
+          "--faults",
+          [&overrides](const std::vector<std::string>& faults) {  // behind --set, which fills the list anew
+            for (const std::string& fault : faults) overrides.push_back("faults." + fault);
+          },
+          "a named fault of detector, camera or rig by its severity from 0 to 5, e.g. --faults "
+          "camera.blur=3, which is --set faults.camera.blur=3; `stereobench faults` lists them; may be "
+          "repeated"))
+      ->type_name("NAME=SEVERITY");
 }
 
 void add_backend_option(CLI::App& command, renderer::Backend& backend) {

@@ -47,7 +47,8 @@ CLI::Validator real_between(double least, double greatest);
 /// Adds --gate, a limit on the result; may be repeated.
 void add_gate_option(CLI::App& command, std::vector<Gate>& gates);
 
-/// Adds --set KEY=VALUE, a change of the scenario.
+/// Adds --set KEY=VALUE, a change of the scenario, and --faults NAME=SEVERITY, which is --set
+/// faults.NAME=SEVERITY.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 /// Adds --backend, what renders.

@@ -46,6 +46,7 @@ void add_calibrate_rig_command(CLI::App& program, Action& action);
 void add_learn_palette_command(CLI::App& program, Action& action);
 void add_metrics_command(CLI::App& program, Action& action);
 void add_schema_command(CLI::App& program, Action& action);
+void add_faults_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 
 }  // namespace stereobench::harness

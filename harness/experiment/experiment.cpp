@@ -7,7 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "harness/experiment/experiment_parts.h"
+#include "harness/experiment/fault_presets.h"
 #include "harness/experiment/filter_config.h"
+#include "harness/experiment/scenario_file.h"
 #include "harness/experiment/seeds.h"
 #include "worlds/scenario/scenario.h"
 #include "worlds/scenario/scenario_parts.h"
@@ -105,6 +107,8 @@ std::vector<Field<Experiment>> detector_fields() {
           .otherwise_says("nothing")
           .fills(&Experiment::detector_noise)
           .reading(read_detector_noise),
+      group("faults", fault_keys(), "Named faults by their severities, 0 to 5; they stand for other keys.")
+          .otherwise_says("none"),
   };
 }
 
@@ -175,7 +179,7 @@ const worlds::KeyGroup& experiment_keys() {
 
 Experiment read_experiment(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                            const worlds::OccluderReader& occluders) {
-  const worlds::YamlDocument document = worlds::load_yaml(file, overrides, experiment_keys());
+  const worlds::YamlDocument document = load_scenario(file, overrides);
   const YamlValue top(document, "", document.root, document.root.Mark());
   check_keys(top, experiment_keys());
   Experiment experiment;

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "harness/experiment/experiment.h"
+#include "harness/experiment/scenario_file.h"
 #include "harness/io/sha256.h"
 #include "worlds/scenario/write_scenario.h"
 #include "worlds/yaml/parse_yaml.h"
@@ -27,7 +28,7 @@ void gather_files(const YAML::Node& node, std::set<std::string>& files) {
 }  // namespace
 
 std::string with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return text_of(worlds::load_yaml(file, overrides, experiment_keys()).root);
+  return text_of(load_scenario(file, overrides).root);
 }
 
 std::string without_keys(const std::string& scenario, const std::set<std::string>& keys) {
@@ -39,7 +40,7 @@ std::string without_keys(const std::string& scenario, const std::set<std::string
 std::set<std::string> files_named_in(const std::filesystem::path& file,
                                      const std::vector<std::string>& overrides) {
   std::set<std::string> files;
-  gather_files(worlds::load_yaml(file, overrides, experiment_keys()).root, files);
+  gather_files(load_scenario(file, overrides).root, files);
   return files;
 }
 
@@ -54,7 +55,7 @@ std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         std::optional<std::uint64_t> seed, const worlds::OccluderReader& occluders) {
   const Experiment experiment = read_experiment(file, overrides, occluders);
-  worlds::YamlDocument document = worlds::load_yaml(file, overrides, experiment_keys());
+  worlds::YamlDocument document = load_scenario(file, overrides);
   worlds::name_file_from_anywhere(document, document.root["believed_measurement_noise"]);
   worlds::write_world(experiment.scenario, seed, document);
   if (seed) document.root["seeds"] = *seed;

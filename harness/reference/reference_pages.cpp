@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "harness/experiment/experiment.h"
+#include "harness/experiment/fault_presets.h"
 #include "harness/run/metric_keys.h"
 #include "worlds/yaml/key_group.h"
 
@@ -108,6 +109,27 @@ std::string table_of(const std::string& path) {
   return end == std::string::npos ? "" : path.substr(0, end);
 }
 
+/// A row for each key that a fault sets; the first one says what is wrong.
+std::string rows_of(const FaultPreset& preset) {
+  std::string rows;
+  std::string name = fmt::format("`{}`", preset.name), says(preset.says);
+  for (const FaultSetting& setting : preset.settings) {
+    rows += fmt::format("| {} | {} | `{}` | {} |\n", name, says, quantity_of(setting),
+                        fmt::join(setting.levels, " | "));
+    name.clear();
+    says.clear();
+  }
+  return rows;
+}
+
+/// Where the levels of a group's faults are from.
+std::string reasons_of(const std::string& group) {
+  std::string lines;
+  for (const FaultPreset& preset : fault_presets())
+    if (preset.name.starts_with(group + ".")) lines += fmt::format("- `{}`: {}\n", preset.name, preset.why);
+  return lines;
+}
+
 }  // namespace
 
 std::string scenario_reference() {
@@ -134,6 +156,22 @@ std::string metrics_reference() {
   for (const auto& [name, rows] : tables)
     page += fmt::format("\n## {}\n\n| key | unit | meaning |\n|---|---|---|\n{}",
                         name.empty() ? "Top of the file" : fmt::format("`{}`", name), rows);
+  return page;
+}
+
+std::string faults_reference() {
+  std::string page =
+      "# Named faults\n\n"
+      "Made by `stereobench faults --markdown`; do not edit. [noise_studies](noise_studies.md#named-faults)\n"
+      "explains them. A fault sets the keys in its rows to what stands below its severity.\n";
+  for (const Key& group : fault_keys().keys) {
+    const std::string name(group.name);
+    page += fmt::format("\n## `{}`\n\n{}\n\n", name, group.says);
+    page += "| fault | what is wrong | key | 1 | 2 | 3 | 4 | 5 |\n|---|---|---|---|---|---|---|---|\n";
+    for (const FaultPreset& preset : fault_presets())
+      if (preset.name.starts_with(name + ".")) page += rows_of(preset);
+    page += fmt::format("\nWhy these levels:\n\n{}", reasons_of(name));
+  }
   return page;
 }
 

@@ -11,4 +11,7 @@ std::string scenario_reference();
 /// docs/guide/metrics_reference.md: the keys of run.json, a table a group.
 std::string metrics_reference();
 
+/// docs/guide/faults_reference.md: the named faults and what their severities are, a table a group.
+std::string faults_reference();
+
 }  // namespace stereobench::harness

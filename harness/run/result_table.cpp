@@ -26,6 +26,13 @@ std::string vision_line(const VisionScore& vision) {
   return line + "\n";
 }
 
+/// What `detector_noise` did to the detections of all seeds.
+std::string faults_line(const FaultCounts& counts) {
+  return fmt::format(
+      "detector_noise: {} moved, {} lost, {} added, {} renamed, {} delayed, {} undelivered\n\n", counts.moved,
+      counts.lost, counts.added, counts.renamed, counts.delayed, counts.undelivered);
+}
+
 std::vector<std::string> row_of(const RunResult& result, const FilterResult& filter,
                                 const std::string& particles, double efficiency) {
   const FilterSummary& s = filter.summary;
@@ -133,6 +140,7 @@ std::string noise_section(const NoiseCheck& check) {
 std::string result_table(const RunResult& result) {
   std::string text = fmt::format("{}\n", kIntervalNote);
   if (result.vision) text += vision_line(*result.vision);
+  if (result.faults) text += faults_line(*result.faults);
   text += error_table(result) + claim_warnings(result) + "\n" + consistency_table(result) +
           counters_table(result.filters);
   if (result.noise) text += noise_section(*result.noise);

@@ -7,9 +7,9 @@
 
 namespace stereobench::harness {
 
-/// Vision in a line, each filter beside the filtering bound and the batch beside the smoothing bound, how far
-/// filters know their own errors, what they repaired or refused, and, where identities are not known, how
-/// they told landmarks apart.
+/// Vision in a line, what the detector's faults did in another, each filter beside the filtering bound and
+/// the batch beside the smoothing bound, how far filters know their own errors, what they repaired or
+/// refused, and, where identities are not known, how they told landmarks apart.
 std::string result_table(const RunResult& result);
 
 }  // namespace stereobench::harness

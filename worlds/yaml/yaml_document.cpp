@@ -136,16 +136,16 @@ class Override {
   std::string path_;
 };
 
+}  // namespace
+
 bool lies_within(const std::string& key, const std::string& group) {
   return key.starts_with(group) &&
          (key.size() == group.size() || key[group.size()] == '.' || key[group.size()] == '[');
 }
 
-}  // namespace
-
 YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const KeyGroup& keys) {
-  YamlDocument document{file, {}, parse_one_document(file)};
+  YamlDocument document{.file = file, .root = parse_one_document(file)};
   if (!document.root.IsMap()) {
     throw std::runtime_error(fmt::format("{}:1: expected a map of keys at the top", file.string()));
   }
@@ -158,6 +158,8 @@ YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std:
 }
 
 std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark) {
+  for (const auto& [put, place] : document.put_by)
+    if (lies_within(key, put)) return fmt::format("{}: {}", place, key);
   if (mark.is_null()) return "--set " + key;  // in a group that was made on the way to an override
   for (const std::string& overridden : document.overridden) {
     if (lies_within(key, overridden)) return "--set " + key;

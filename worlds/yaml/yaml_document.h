@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct YamlDocument {
   std::filesystem::path file;
   std::vector<std::string> overridden;  ///< key paths that were put in place of what the file says
   YAML::Node root;
+  /// Key paths that something shorter stands for, and the place of that: it is to blame for their values.
+  std::map<std::string, std::string> put_by;
 };
 
 /// Loads a file of exactly one YAML document and puts "key.path=value" overrides in place; "key[1]=value" is
@@ -27,7 +30,12 @@ struct YamlDocument {
 YamlDocument load_yaml(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const KeyGroup& keys);
 
-/// Where a complaint about a value points to: "file:line: key", or "--set key" when an override put it there.
+/// Whether a key path is that of a value or group, or of something in it: "rig.distortion[0]" lies within
+/// "rig".
+bool lies_within(const std::string& key, const std::string& group);
+
+/// Where a complaint about a value points to: "file:line: key", "--set key" when an override put it there, or
+/// the place of what stands for it, and then the key.
 std::string blame(const YamlDocument& document, const std::string& key, const YAML::Mark& mark);
 
 }  // namespace stereobench::worlds

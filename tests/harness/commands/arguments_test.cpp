@@ -27,6 +27,18 @@ TEST(RepeatableOption, TakesOneValueAtATime) {
   EXPECT_THAT(program.help(), HasSubstr("--only GLOB  "));
 }
 
+// Mutations: faults that --set forgets; the word without its group.
+TEST(FaultsOption, IsALineOfTheScenario) {
+  for (const char* line : {"--faults camera.blur=3 --set particles=7 --faults rig.turn=1",
+                           "--set particles=7 --faults camera.blur=3 --faults rig.turn=1"}) {
+    CLI::App program;
+    std::vector<std::string> overrides;
+    add_set_option(program, overrides);
+    program.parse(line);
+    EXPECT_THAT(overrides, ElementsAre("particles=7", "faults.camera.blur=3", "faults.rig.turn=1")) << line;
+  }
+}
+
 // Mutation: dead reckoning not put first.
 TEST(ParseFilters, PutsDeadReckoningFirstAndKeepsTheOrderOfTheOthers) {
   EXPECT_THAT(parse_filters("ufastslam,fastslam2"), ElementsAre(kBaselineFilter, "ufastslam", "fastslam2"));

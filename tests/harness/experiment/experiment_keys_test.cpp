@@ -93,7 +93,7 @@ TEST(ExperimentKeys, StandInTheOrderOfTheReferencePage) {
               ElementsAre("name", "description", "filters", "particles", "draw_every", "seeds", "gates",
                           "sensor", "identity", "association", "colour_spacing_m", "rig", "believed_rig",
                           "camera", "shutter", "detector", "detector_timeout_s", "detector_start_s",
-                          "detector_noise", "oracle", "believed_oracle", "odometry_noise",
+                          "detector_noise", "faults", "oracle", "believed_oracle", "odometry_noise",
                           "believed_odometry_noise", "start_noise", "believed_start_noise",
                           "believed_measurement_noise", "path", "placement_jitter_m", "randomise", "world"));
 }

@@ -28,5 +28,10 @@ TEST(ReferencePages, OfMetricsIsWhatTheProgramPrints) {
   EXPECT_EQ(tracked("metrics_reference.md"), metrics_reference()) << "stereobench metrics --markdown";
 }
 
+// Mutation: a level changed, and the page not made anew.
+TEST(ReferencePages, OfFaultsIsWhatTheProgramPrints) {
+  EXPECT_EQ(tracked("faults_reference.md"), faults_reference()) << "stereobench faults --markdown";
+}
+
 }  // namespace
 }  // namespace stereobench::harness

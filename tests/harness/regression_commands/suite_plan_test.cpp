@@ -13,11 +13,13 @@ TEST(SuitePlan, LetsWorseDetectorsSeeTheSamePictures) {
   const TinySuite suite(
       "  - {name: plain, scenario: room.yaml}\n"
       "  - {name: worse, scenario: room.yaml, set: ['detector_noise={centre_sd_px: 0.3}']}\n"
+      "  - {name: named, scenario: room.yaml, set: [faults.detector.centre_noise=3]}\n"
       "  - {name: other, scenario: room.yaml, set: [camera.noise_sd_levels=3]}\n");
   const SuitePlan plan = plan_suite({.suite = suite.path("tiny.yaml")});
-  ASSERT_EQ(plan.cases.size(), 3U);
+  ASSERT_EQ(plan.cases.size(), 4U);
   EXPECT_EQ(plan.cases[1].pictures, plan.cases[0].pictures);
-  EXPECT_NE(plan.cases[2].pictures, plan.cases[0].pictures);
+  EXPECT_EQ(plan.cases[2].pictures, plan.cases[0].pictures);
+  EXPECT_NE(plan.cases[3].pictures, plan.cases[0].pictures);
 }
 
 }  // namespace

@@ -71,6 +71,19 @@ TEST(RunResult, JsonSaysHowCoarseTheBlurOfAllSeedsIs) {
   for (const auto& value : without) EXPECT_TRUE(value.is_null());
 }
 
+// Mutations: two counts that change places; a line where nobody named faults; the first seed alone.
+TEST(RunResult, SaysWhatTheFaultsOfTheDetectorDid) {
+  std::vector<SeedDrive> drives = {drive_of(3, 4, 0.4), drive_of(8, 6, 0.8)};
+  EXPECT_EQ(result_table(assemble("name", "none", drives)).find("detector_noise"), std::string::npos);
+  drives[0].recording.faults = FaultCounts{1, 2, 3, 4, 5, 6};
+  drives[1].recording.faults = FaultCounts{10, 20, 30, 40, 50, 60};
+  const std::string table = result_table(assemble("name", "none", drives));
+  EXPECT_NE(
+      table.find("\ndetector_noise: 11 moved, 22 lost, 33 added, 44 renamed, 55 delayed, 66 undelivered\n"),
+      std::string::npos)
+      << table;
+}
+
 // Errors of 0.8 and 0.2 m, of which 0.2 m is claimed: the first is four times as large. Mutations: the
 // variance's ratio in place of the deviation's; a warning for all.
 TEST(RunResult, WarnsOfFiltersThatClaimFarTooLittleOrTooMuch) {
