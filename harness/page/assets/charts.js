@@ -113,7 +113,7 @@ function configuration(chart) {
           color: paint('ink'), usePointStyle: true, boxHeight: 8,
           filter: (item, data) => !data.datasets[item.datasetIndex].hiddenInLegend}},
         tooltip: {callbacks: {
-          title: ([item]) => item && `${chart.x}: ${chart.x_names[item.parsed.x] ?? shown(item.parsed.x)}`,
+          title: ([item]) => item && `${chart.x}: ${chart.x_names[Math.round(item.parsed.x)] ?? shown(item.parsed.x)}`,
           label: (item) => `${item.dataset.label}: ${shown(item.parsed.y)}`}},
       },
     },
