@@ -12,6 +12,8 @@ namespace stereobench::harness {
 namespace {
 
 constexpr double kLargest = 1e12;  // numbers beyond it are no measurement; they would swallow all others
+constexpr double kBreak = 0.07;    // where the range begins on an axis with a 0, as a fraction of its length
+constexpr double kZero = 0.03;     // where its 0 is
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kGrid = {0.88, 0.88, 0.88, 1.0};
 constexpr Colour kFrame = {0.35, 0.35, 0.35, 1.0};
@@ -31,10 +33,12 @@ bool can_be_drawn(double number, Scale scale) {
 
 /// @return the number's place along the axis: 0 at its beginning, 1 at its end
 double fraction_along(const Axis& axis, double number) {
+  if (axis.has_zero && number == 0.0) return kZero;
   if (!can_be_drawn(number, axis.scale)) return kNotANumber;
   const double low = straightened(axis.range.low, axis.scale);
   const double high = straightened(axis.range.high, axis.scale);
-  return (straightened(number, axis.scale) - low) / (high - low);
+  const double begin = axis.has_zero ? kBreak : 0.0;
+  return begin + (1.0 - begin) * (straightened(number, axis.scale) - low) / (high - low);
 }
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below the length.
@@ -92,6 +96,7 @@ std::vector<LabelledTick> labelled_ticks(const Axis& axis, int count) {
     result.push_back({static_cast<double>(i), axis.categories[i]});
   }
   if (!axis.categories.empty()) return result;
+  if (axis.has_zero) result.push_back({0.0, "0"});
   const std::vector<double> values = ticks(axis.range, axis.scale, count);
   const double step = values.size() > 1 ? values[1] - values[0] : axis.range.high - axis.range.low;
   for (const double value : values) {
@@ -105,6 +110,12 @@ void check(const AxisRange& range, Scale scale) {
   if (!ordered || (scale == Scale::kLog && !(range.low > 0.0))) {
     throw std::invalid_argument("an axis needs low < high, both finite, and > 0 when logarithmic");
   }
+}
+
+void check(const Axis& axis) {
+  check(axis.range, axis.scale);
+  if (axis.has_zero && axis.scale != Scale::kLog)
+    throw std::invalid_argument("a place for 0 before the range is one of a logarithmic axis");
 }
 
 }  // namespace
@@ -150,8 +161,8 @@ Scale scale_for(std::span<const double> sizes, double factor) {
 
 Axes::Axes(const Axis& horizontal, const Axis& vertical, const Box& plot)
     : horizontal_(horizontal), vertical_(vertical), plot_(plot) {
-  check(horizontal.range, horizontal.scale);
-  check(vertical.range, vertical.scale);
+  check(horizontal);
+  check(vertical);
   if (!(plot.width_px > 0.0 && plot.height_px > 0.0)) {
     throw std::invalid_argument("a plot needs a width and a height");
   }
@@ -187,6 +198,21 @@ void Axes::draw(Canvas& canvas) const {
                                        {plot_.left_px, bottom},
                                        {plot_.left_px, plot_.top_px}}};
   canvas.draw_line(frame, {kFrame, 1.0});
+  if (horizontal_.has_zero) draw_break(canvas);
+}
+
+/// Two slanted strokes through the lower edge, which is interrupted between them.
+void Axes::draw_break(Canvas& canvas) const {
+  constexpr double kHalf_px = 5.0;
+  const double middle = plot_.left_px + 0.5 * (kZero + kBreak) * plot_.width_px;
+  for (const double y : {plot_.top_px, plot_.top_px + plot_.height_px}) {
+    const std::array<Point, 2> gap = {{{middle - 3.0, y}, {middle + 3.0, y}}};
+    canvas.draw_line(gap, {{1.0, 1.0, 1.0, 1.0}, 3.0});
+    for (const double x : {middle - 3.0, middle + 3.0}) {
+      const std::array<Point, 2> stroke = {{{x - 2.0, y + kHalf_px}, {x + 2.0, y - kHalf_px}}};
+      canvas.draw_line(stroke, {kFrame, 1.0});
+    }
+  }
 }
 
 void Axes::draw_horizontal(Canvas& canvas) const {

@@ -22,6 +22,7 @@ struct Axis {
   AxisRange range = {};  ///< > 0 when logarithmic
   Scale scale = Scale::kLinear;
   std::vector<std::string> categories = {};  ///< when not empty: names of the values 0, 1, 2...
+  bool has_zero = false;  ///< a logarithmic axis: 0 has a place before the range, and a break is drawn
 };
 
 /// @return the smallest range that holds every finite number (every number > 0 on a log scale), widened on
@@ -46,7 +47,8 @@ class Axes {
   /// The same, with one range widened so that a metre is as long across as it is up.
   static Axes with_equal_scale(const Axis& horizontal, const Axis& vertical, const Box& plot);
 
-  /// @return where the numbers lie; not finite where a number is not, or is not > 0 on a log scale
+  /// @return where the numbers lie; not finite where a number is not, or is not > 0 on a log scale (but for
+  /// the 0 of an axis that has one)
   Point to_pixel(double x, double y) const;
   /// Draws grid, frame, ticks and labels.
   void draw(Canvas& canvas) const;
@@ -55,6 +57,7 @@ class Axes {
  private:
   void draw_horizontal(Canvas& canvas) const;
   void draw_vertical(Canvas& canvas) const;
+  void draw_break(Canvas& canvas) const;
 
   Axis horizontal_;
   Axis vertical_;

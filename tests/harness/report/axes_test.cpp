@@ -192,5 +192,21 @@ TEST(ReportAxes, FrameAndGridAreDrawnWhereTheMappingSays) {
   EXPECT_EQ(image.at<cv::Vec3b>(120, 298)[0], 255);
 }
 
+// Mutations: 0 at the beginning of the range; the range not moved to the right of it.
+TEST(ReportAxes, ZeroStandsBeforeALogarithmicRange) {
+  const Box plot = {100.0, 0.0, 1000.0, 100.0};
+  const Axis with_zero = {.label = "", .range = {0.1, 10.0}, .scale = Scale::kLog, .has_zero = true};
+  const Axes axes(with_zero, Axis{.label = "", .range = {0.0, 1.0}}, plot);
+  EXPECT_GT(axes.to_pixel(0.0, 0.0).x_px, 110.0);
+  EXPECT_LT(axes.to_pixel(0.0, 0.0).x_px + 30.0, axes.to_pixel(0.1, 0.0).x_px);
+  EXPECT_NEAR(axes.to_pixel(10.0, 0.0).x_px, 1100.0, 1e-9);
+  EXPECT_NEAR(axes.to_pixel(1.0, 0.0).x_px, 0.5 * (axes.to_pixel(0.1, 0.0).x_px + 1100.0), 1e-9);
+  EXPECT_FALSE(std::isfinite(axes.to_pixel(-1.0, 0.0).x_px));
+  const Axis without = {.label = "", .range = {0.1, 10.0}, .scale = Scale::kLog};
+  EXPECT_FALSE(std::isfinite(Axes(without, Axis{}, plot).to_pixel(0.0, 0.0).x_px));
+  const Axis linear = {.label = "", .range = {0.1, 10.0}, .has_zero = true};
+  EXPECT_THROW(Axes(linear, Axis{}, plot), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace stereobench::harness
