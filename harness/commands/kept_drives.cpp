@@ -1,11 +1,14 @@
 #include "harness/commands/kept_drives.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/experiment/stage_lines.h"
 #include "harness/experiment/write_experiment.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/sha256.h"
@@ -39,6 +42,48 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
   return overrides;
 }
 
+/// What drives are made from but for their seeds: each stage of the chain, see stage_lines.h.
+struct Basis {
+  std::string drive;
+  std::string sight;     ///< what the detector answers
+  std::string pictures;  ///< what it is shown
+};
+
+Basis basis_of_drives(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
+                      const Experiment& experiment, const std::string& pixels) {
+  Experiment any_seed = experiment;
+  any_seed.seeds = {0};
+  std::vector<std::string> overrides = more_overrides;
+  overrides.push_back("gates=[]");
+  Provenance provenance = provenance_of(arguments, overrides, any_seed, pixels);
+  const std::string lines = provenance.scenario;
+  const std::string backend = renderer::name_of(arguments.backend);
+  const auto basis_with = [&](const std::string& scenario, const std::string& detector) {
+    provenance.scenario = scenario;
+    return basis_of(provenance, backend, detector);
+  };
+  const std::string& detector = experiment.detector.command;
+  return {basis_with(lines, detector), basis_with(lines_of_sight(lines), detector),
+          basis_with(lines_of_pictures(lines), {})};
+}
+
+std::string key_of(const std::string& basis, const DriveTask& task) {
+  const SeedParts& parts = task.parts;
+  const StreamSeeds seeds = task.seeds();
+  return sha256_of(
+      fmt::format("{} seeds {} {} {} {} steps {} map {} snapshots {} log {} detections {} pairs {}", basis,
+                  seeds.world, seeds.odometry, seeds.sensor, seeds.filter, parts.steps, parts.map,
+                  parts.snapshots, parts.log, parts.detections, parts.pairs));
+}
+
+std::string key_of_look(const std::string& basis, const DriveTask& task) {
+  return sha256_of(fmt::format("{} world {} sensor {}", basis, task.seeds().world, task.seeds().sensor));
+}
+
+bool needs_pictures(const SeedParts& parts) {
+  return parts.detections || parts.snapshots > 0 || parts.pairs > 0;
+}
+
 }  // namespace
 
 std::string pixels_of(const worlds::Scenario& scenario, renderer::Backend backend) {
@@ -68,27 +113,49 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const Experiment& experiment, const std::string& pixels,
-                                   const SeedParts& parts) {
-  Experiment any_seed = experiment;
-  any_seed.seeds = {0};
-  std::vector<std::string> overrides = more_overrides;
-  overrides.push_back("gates=[]");
-  const std::string basis = basis_of(provenance_of(arguments, overrides, any_seed, pixels),
-                                     renderer::name_of(arguments.backend), experiment.detector.command);
+                                   const SeedParts& parts, const std::vector<StreamSeeds>& seeds) {
+  const Basis basis = basis_of_drives(arguments, more_overrides, experiment, pixels);
   std::vector<DriveTask> tasks;
-  for (const std::uint64_t seed : experiment.seeds) {
-    const bool is_first = seed == experiment.seeds.front();
+  for (const StreamSeeds& streams : seeds) {
+    const bool is_first = tasks.empty();
     SeedParts wanted = parts;
     wanted.map = parts.map && is_first;
     wanted.snapshots = is_first ? parts.snapshots : 0;
     wanted.pairs = is_first ? parts.pairs : std::min(parts.pairs, kPairsOfLaterSeeds);
     wanted.log = parts.log && tasks.size() < kCheckedLogs;
-    tasks.push_back({&experiment, seed, wanted, arguments.backend});
-    tasks.back().key = sha256_of(
-        fmt::format("{} seed {} steps {} map {} snapshots {} log {} detections {} pairs {}", basis, seed,
-                    wanted.steps, wanted.map, wanted.snapshots, wanted.log, wanted.detections, wanted.pairs));
+    DriveTask& task =
+        tasks.emplace_back(DriveTask{&experiment, streams.world, wanted, arguments.backend, {}, {}, streams});
+    task.key = key_of(basis.drive, task);
+    if (experiment.scenario.sensor != worlds::SensorKind::kStereo || needs_pictures(parts)) continue;
+    task.sight = key_of_look(basis.sight, task);
+    task.pictures = key_of_look(basis.pictures, task);
   }
   return tasks;
+}
+
+std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
+                                   const std::vector<std::string>& more_overrides,
+                                   const Experiment& experiment, const std::string& pixels,
+                                   const SeedParts& parts) {
+  const std::vector<StreamSeeds> seeds(experiment.seeds.begin(), experiment.seeds.end());
+  return drive_tasks(arguments, more_overrides, experiment, pixels, parts, seeds);
+}
+
+void look_once(std::vector<DriveTask>& tasks) {
+  std::map<std::string, int> sharers;
+  for (const DriveTask& task : tasks) ++sharers[task.sight];
+  for (DriveTask& task : tasks)
+    if (sharers[task.sight] < 2) task.sight = task.pictures = {};
+}
+
+bool share_sight(const ScenarioArguments& base, const std::vector<std::string>& some,
+                 const std::vector<std::string>& others) {
+  const auto sight_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> overrides = base.overrides;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return lines_of_sight(with_overrides(base.scenario, overrides));
+  };
+  return sight_with(some) == sight_with(others);
 }
 
 KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kFile) {
@@ -115,6 +182,7 @@ void KeptDrives::hand_on(const std::vector<DriveTask>& tasks, const OnSeed& on_s
 }
 
 void KeptDrives::say_what_is_kept(const std::vector<DriveTask>& tasks, const std::string& what) const {
+  if (std::exchange(has_said_, true)) return;
   const auto kept =
       std::ranges::count_if(tasks, [&](const DriveTask& task) { return store_.holds(task.key); });
   const bool is_program = std::ranges::any_of(

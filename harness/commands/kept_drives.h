@@ -23,13 +23,29 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
                          const Experiment& experiment, const std::string& pixels);
 
 /// One task a seed of an experiment, with its key. The outcome of a drive depends neither on the other seeds
-/// nor on gates, and so does the key.
+/// nor on gates, and so does the key. Those that need no pictures beside the detector's answers say which
+/// look they share (DriveTask::sight).
 /// @param parts wanted of each seed; the map and the snapshots of the first alone, logs of kCheckedLogs, and
 /// of later seeds four stereo pairs at most
 std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const Experiment& experiment, const std::string& pixels,
                                    const SeedParts& parts);
+
+/// The same for seeds that differ from part to part, in place of the experiment's.
+std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
+                                   const std::vector<std::string>& more_overrides,
+                                   const Experiment& experiment, const std::string& pixels,
+                                   const SeedParts& parts, const std::vector<StreamSeeds>& seeds);
+
+/// Lets tasks that are shown the same pictures by the same detector look once. Those that are alone keep no
+/// answers: nobody would read them.
+/// @param tasks of drive_tasks, of one or of several experiments
+void look_once(std::vector<DriveTask>& tasks);
+
+/// Whether a scenario with some overrides, and with others, is the same to its detector.
+bool share_sight(const ScenarioArguments& base, const std::vector<std::string>& some,
+                 const std::vector<std::string>& others);
 
 /// The store of an output folder. What a killed program left half-written there is removed.
 /// @throws std::runtime_error when another process is writing there
@@ -54,6 +70,7 @@ class KeptDrives {
   void say_what_is_kept(const std::vector<DriveTask>& tasks, const std::string& what) const;
 
   AnswerStore store_;
+  mutable bool has_said_ = false;  ///< what is kept: later calls find what earlier ones made
 };
 
 }  // namespace stereobench::harness

@@ -42,13 +42,8 @@ FaultyDetector::FaultyDetector(const DetectorFaults& faults, const worlds::Scena
       colours_(colours_of(world)),
       noise_(faults, seed, stamps_of(scenario.path)) {}
 
-std::vector<TracedDetection> FaultyDetector::arriving(std::size_t frame,
-                                                      std::vector<TracedDetection> detections) {
-  return delayed(frame, worsened(frame, std::move(detections)));
-}
-
-std::vector<TracedDetection> FaultyDetector::worsened(std::size_t frame,
-                                                      std::vector<TracedDetection> detections) {
+std::vector<TracedDetection> FaultyDetector::worsen(std::size_t frame,
+                                                    std::vector<TracedDetection> detections) {
   const std::vector<bool> renamed = give_wrong_names(faults_, seed_, frame, detections);
   std::vector<TracedDetection> left;
   for (std::size_t i = 0; i < detections.size(); ++i) {
@@ -97,8 +92,8 @@ void FaultyDetector::add_false(std::size_t frame, std::vector<TracedDetection>& 
   }
 }
 
-std::vector<TracedDetection> FaultyDetector::delayed(std::size_t frame,
-                                                     std::vector<TracedDetection> detections) {
+std::vector<TracedDetection> FaultyDetector::delay(std::size_t frame,
+                                                   std::vector<TracedDetection> detections) {
   const std::size_t latency = latency_frames();
   if (latency == 0) return detections;
   on_their_way_[frame] = std::move(detections);

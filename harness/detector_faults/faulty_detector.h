@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "harness/detector/ball_geometry.h"
@@ -27,7 +28,15 @@ class FaultyDetector {
   /// @param frame later than the one before
   /// @param detections of the frame, as the detector gave them
   /// @return what arrives at this frame: first what the detector found, in its order, then what is of nothing
-  std::vector<TracedDetection> arriving(std::size_t frame, std::vector<TracedDetection> detections);
+  std::vector<TracedDetection> arriving(std::size_t frame, std::vector<TracedDetection> detections) {
+    return delay(frame, worsen(frame, std::move(detections)));
+  }
+
+  /// The first part of arriving: all faults but latency.
+  std::vector<TracedDetection> worsen(std::size_t frame, std::vector<TracedDetection> detections);
+
+  /// The second part: what arrives at this frame.
+  std::vector<TracedDetection> delay(std::size_t frame, std::vector<TracedDetection> detections);
 
   /// How many frames after the look its detections arrive.
   std::size_t latency_frames() const { return static_cast<std::size_t>(faults_.latency_frames); }
@@ -36,11 +45,9 @@ class FaultyDetector {
   FaultCounts counts() const;
 
  private:
-  std::vector<TracedDetection> worsened(std::size_t frame, std::vector<TracedDetection> detections);
   bool is_still_seen(std::size_t frame, TracedDetection& detection);
   bool move(std::size_t frame, TracedDetection& detection);
   void add_false(std::size_t frame, std::vector<TracedDetection>& detections);
-  std::vector<TracedDetection> delayed(std::size_t frame, std::vector<TracedDetection> detections);
 
   DetectorFaults faults_;
   std::uint64_t seed_;

@@ -10,13 +10,14 @@
 #include "harness/detector/detector_process.h"
 #include "harness/detector/detector_registry.h"
 #include "harness/detector_faults/faulty_detector.h"
+#include "harness/drive/detection_stage.h"
+#include "harness/drive/drive_log.h"
+#include "harness/drive/perfect_detections.h"
 #include "harness/drive/shutter.h"
-#include "harness/drive/sightings.h"
 #include "harness/process/stopwatch.h"
 #include "renderer/camera/expose.h"
 #include "renderer/renderer.h"
 #include "slam/math/random.h"
-#include "slam/models/motion.h"
 #include "worlds/oracle.h"
 #include "worlds/scenario/scenario.h"
 
@@ -64,11 +65,12 @@ class StereoCamera {
 /// Shows an onlooker's detector what was taken, and scores what that finds; lives as long as the drive.
 class StereoOnlooker {
  public:
-  StereoOnlooker(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed)
-      : onlooker_(onlooker), world_(world), name_(kCallable) {
+  StereoOnlooker(const Onlooker& onlooker, const worlds::World& world, const StreamSeeds& seeds)
+      : onlooker_(onlooker),
+        world_(world),
+        name_(kCallable),
+        stage_(*onlooker.experiment, world, seeds.sensor) {
     const Experiment& experiment = *onlooker.experiment;
-    if (experiment.detector_noise)
-      faults_.emplace(*experiment.detector_noise, experiment.scenario, world, seed);
     const DetectorSetup setup = detector_setup(experiment.scenario);
     detector_ = onlooker.detector;
     if (detector_) return;
@@ -77,13 +79,13 @@ class StereoOnlooker {
       detector_ = linked->make(setup);
       return;
     }
-    program_.emplace(experiment.detector, setup, fmt::format("seed {}", seed));
+    program_.emplace(experiment.detector, setup, fmt::format("seed {}", seeds.world));
     detector_ = std::ref(*program_);
   }
 
   /// Also what a late detector needs for its answer at a step that is wanted.
   bool wants(std::size_t index) const {
-    const std::size_t arrival = index + (faults_ ? faults_->latency_frames() : 0);
+    const std::size_t arrival = index + stage_.latency_frames();
     const auto& is_wanted = onlooker_.listeners.is_wanted;
     return is_wanted(index) || (arrival < onlooker_.experiment->scenario.path.size() && is_wanted(arrival));
   }
@@ -92,83 +94,38 @@ class StereoOnlooker {
                 renderer::Renderer& renderer) {
     Stopwatch watch(result_.recording.timing);
     const worlds::Scenario& scenario = onlooker_.experiment->scenario;
-    const VisionTruth truth{world_, scenario.rig, step.pose, taken.exposed.frame};
     auto observations = watch.time("observe", [&] {
       return detector_({index, step.stamp_ns, taken.pair, scenario.believed_rig});
     });
-    std::optional<std::vector<int>> balls;
-    if (faults_) balls = make_worse(truth, index, observations);
+    const VisionTruth truth{world_, scenario.rig, step.pose, taken.exposed.frame};
+    const ArrivedDetections arrived = stage_.arriving(index, ball_outlines(truth), std::move(observations));
     if (!onlooker_.listeners.is_wanted(index)) return {};
     result_.recording.blur.add(taken.exposed.blur_step_px);
-    const FrameMatch match = match_observations(truth, observations);
-    score_ += score_match(match);
-    const worlds::World& meant = scenario.world;
-    score_.rig +=
-        check_rig(scenario.believed_rig, {meant.ball_radius_m(), meant.ball_radius_sd_m}, observations);
+    Sightings sightings = stage_.take(arrived);
     onlooker_.listeners.on_frame({index, step.stamp_ns, step.pose, taken.exposed.frame, taken.pair,
-                                  observations, match, world_, scenario.rig, taken.late_s, &renderer});
-    return sightings_of(observations, balls ? *balls : balls_observed(match), world_.balls,
-                        scenario.identity);
+                                  arrived.observations, arrived.match, world_, scenario.rig, taken.late_s,
+                                  &renderer});
+    return sightings;
   }
 
   void finish() {
     if (program_) program_->finish();
     result_.recording.detector = name_;
-    result_.recording.vision = score_;
-    if (faults_) result_.recording.faults = faults_->counts();
+    result_.recording.vision = stage_.score();
+    result_.recording.faults = stage_.fault_counts();
   }
 
   OnlookerResult& result() { return result_; }
 
  private:
-  /// Puts the detector's faults into what it found.
-  /// @return the balls that the detections are of, wherever those lie now
-  std::vector<int> make_worse(const VisionTruth& truth, std::size_t index,
-                              std::vector<vision::BallObservation>& observations) {
-    const std::vector<TracedDetection> arriving =
-        faults_->arriving(index, traced(observations, match_observations(truth, observations)));
-    observations = observations_of(arriving);
-    return balls_of(arriving);
-  }
-
   const Onlooker& onlooker_;
   const worlds::World& world_;
   std::string name_;
   std::optional<DetectorProcess> program_;
   Detector detector_;
-  std::optional<FaultyDetector> faults_;
-  VisionScore score_;
+  DetectionStage stage_;
   OnlookerResult result_;
 };
-
-std::vector<LandmarkTruth> landmarks_of(const worlds::World& world) {
-  std::vector<LandmarkTruth> landmarks;
-  for (std::size_t i = 0; i < world.balls.size(); ++i)
-    landmarks.push_back({static_cast<int>(i), world.balls[i].colour, world.balls[i].centre_m.head<2>()});
-  return landmarks;
-}
-
-std::vector<slam::Control> measured_odometry(const std::vector<slam::Control>& controls,
-                                             const slam::OdometryNoise& noise, slam::RandomStream& stream) {
-  std::vector<slam::Control> measured;
-  for (const slam::Control& control : controls) measured.push_back(slam::perturb(control, noise, stream));
-  return measured;
-}
-
-/// A log with all that is not sensed.
-MeasurementLog log_without_sightings(const worlds::Scenario& scenario, const worlds::World& world,
-                                     std::uint64_t seed) {
-  MeasurementLog log;
-  log.landmarks = landmarks_of(world);
-  if (!scenario.path.empty()) log.start = scenario.path.front().pose;
-  slam::RandomStream odometry_stream(seed, slam::Stream::kOdometry);
-  for (const worlds::PathStep& step : scenario.path)
-    log.steps.push_back(
-        {.stamp_ns = step.stamp_ns,
-         .odometry = measured_odometry(step.controls, scenario.odometry_noise, odometry_stream),
-         .truth = step.pose});
-  return log;
-}
 
 /// The light that the cameras and the onlookers need.
 renderer::LightDepth light_of(const std::vector<Onlooker>& onlookers) {
@@ -184,20 +141,28 @@ void put(Sightings seen, LogStep& step) {
 }
 
 /// What is sensed without pictures.
-OnlookerResult sense_drive(const Onlooker& onlooker, const worlds::World& world, std::uint64_t seed) {
+OnlookerResult sense_drive(const Onlooker& onlooker, const worlds::World& world, const StreamSeeds& seeds) {
   const worlds::Scenario& scenario = onlooker.experiment->scenario;
+  const std::uint64_t seed = seeds.sensor;
   OnlookerResult look;
-  look.recording.log = log_without_sightings(scenario, world, seed);
+  look.recording.log = log_without_sightings(scenario, world, seeds.odometry);
   std::vector<LogStep>& steps = look.recording.log.steps;
   std::optional<FaultyDetector> faults;
-  if (const auto& named = onlooker.experiment->detector_noise) faults.emplace(*named, scenario, world, seed);
+  const PerfectDetections& perfect = onlooker.experiment->perfect_detections;
+  if (const auto& named = onlooker.experiment->detector_noise)
+    faults.emplace(without_perfect(perfect, *named), scenario, world, seed);
   for (std::size_t index = 0; index < steps.size(); ++index) {
     slam::RandomStream noise(seed, slam::Stream::kOracle, index);
     slam::RandomStream chance(seed, slam::Stream::kClutter, index);
-    const Sightings all =
-        worlds::sense(world, scenario.path[index].pose, scenario.oracle, scenario.identity, noise);
-    Sightings sensed = worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance);
-    if (faults) sensed = oracle_sightings(faults->arriving(index, traced(sensed)));
+    const slam::Pose& pose = scenario.path[index].pose;
+    const Sightings all = worlds::sense(world, pose, scenario.oracle, scenario.identity, noise);
+    std::vector<TracedDetection> detections = traced(
+        perfect.places ? all : worlds::with_faults(all, world, scenario.oracle, scenario.identity, chance));
+    if (faults) detections = faults->worsen(index, std::move(detections));
+    if (perfect.places) put_at_true_places(world, pose, detections);
+    if (faults) detections = faults->delay(index, std::move(detections));
+    Sightings sensed = oracle_sightings(detections);
+    if (perfect.names) tell_names(sensed);
     put(std::move(sensed), steps[index]);
     onlooker.listeners.on_progress(static_cast<double>(index + 1) / static_cast<double>(steps.size()));
   }
@@ -218,14 +183,14 @@ void attempt(StereoOnlooker& onlooker, const std::function<void()>& action) {
 /// The pictures of a drive, each taken once and shown to each onlooker that wants it.
 class SharedDrive {
  public:
-  SharedDrive(const std::vector<Onlooker>& onlookers, const worlds::World& world, std::uint64_t seed,
+  SharedDrive(const std::vector<Onlooker>& onlookers, const worlds::World& world, const StreamSeeds& seeds,
               renderer::Backend backend, const renderer::FormReader& read)
       : scenario_(onlookers.front().experiment->scenario),
-        camera_(scenario_, world, seed, backend, light_of(onlookers), read) {
+        camera_(scenario_, world, seeds.sensor, backend, light_of(onlookers), read) {
     for (const Onlooker& onlooker : onlookers) {
-      onlookers_.push_back(std::make_unique<StereoOnlooker>(onlooker, world, seed));
+      onlookers_.push_back(std::make_unique<StereoOnlooker>(onlooker, world, seeds));
       onlookers_.back()->result().recording.log =
-          log_without_sightings(onlooker.experiment->scenario, world, seed);
+          log_without_sightings(onlooker.experiment->scenario, world, seeds.odometry);
     }
   }
 
@@ -271,16 +236,16 @@ class SharedDrive {
 
 }  // namespace
 
-std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, const StreamSeeds& seeds,
                                             renderer::Backend backend, const renderer::FormReader& read) {
   const worlds::Scenario& scenario = onlookers.front().experiment->scenario;
-  const worlds::World world = worlds::world_for_seed(scenario, seed);
+  const worlds::World world = worlds::world_for_seed(scenario, seeds.world);
   std::vector<OnlookerResult> looks;
   if (scenario.sensor == worlds::SensorKind::kOracle) {
-    for (const Onlooker& onlooker : onlookers) looks.push_back(sense_drive(onlooker, world, seed));
+    for (const Onlooker& onlooker : onlookers) looks.push_back(sense_drive(onlooker, world, seeds));
     return looks;
   }
-  SharedDrive drive(onlookers, world, seed, backend, read);
+  SharedDrive drive(onlookers, world, seeds, backend, read);
   for (std::size_t index = 0; index < scenario.path.size() && !drive.is_over(); ++index) {
     drive.show(index);
     onlookers.front().listeners.on_progress(static_cast<double>(index + 1) /
@@ -289,10 +254,10 @@ std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlooke
   return drive.finish();
 }
 
-Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
+Recording record(const Experiment& experiment, const StreamSeeds& seeds, const Listeners& listeners,
                  renderer::Backend backend, const Detector& detector, const renderer::FormReader& read) {
   OnlookerResult look =
-      std::move(record_together({{&experiment, listeners, detector}}, seed, backend, read).front());
+      std::move(record_together({{&experiment, listeners, detector}}, seeds, backend, read).front());
   if (look.fault) std::rethrow_exception(look.fault);
   return std::move(look.recording);
 }

@@ -12,6 +12,7 @@
 #include "harness/detector/detector.h"
 #include "harness/detector_faults/fault_counts.h"
 #include "harness/drive/coarse_blur.h"
+#include "harness/drive/stream_seeds.h"
 #include "harness/experiment/types.h"
 #include "harness/types.h"
 #include "harness/vision_scoring/vision_score.h"
@@ -77,12 +78,12 @@ struct OnlookerResult {
 /// each.
 /// @param onlookers at least one; their scenarios have the same world, path, cameras, exposure and shutter.
 /// What each sees does not depend on the others. Progress is told to the first
-/// @param seed of the world, the odometry and the sensor; the filters draw from streams of their own
+/// @param seeds of the world, the odometry and the sensor
 /// @param backend what renders, for a sensor with pixels
 /// @param read meshes
 /// @return one result an onlooker: the log with truth, and how vision scored
 /// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
-std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, std::uint64_t seed,
+std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, const StreamSeeds& seeds,
                                             renderer::Backend backend = renderer::Backend::kOsmesa,
                                             const renderer::FormReader& read = renderer::read_form);
 
@@ -92,7 +93,7 @@ std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlooke
 /// @param detector who looks at the pairs; empty: the program that the experiment names, or the vision stage
 /// @return the log with truth, and how vision scored
 /// @throws std::runtime_error as record_together; DetectorFault when the program does not do what it should
-Recording record(const Experiment& experiment, std::uint64_t seed, const Listeners& listeners,
+Recording record(const Experiment& experiment, const StreamSeeds& seeds, const Listeners& listeners,
                  renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {},
                  const renderer::FormReader& read = renderer::read_form);
 

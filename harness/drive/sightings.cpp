@@ -33,4 +33,9 @@ Sightings sightings_of(std::span<const vision::BallObservation> observations,
   return seen;
 }
 
+void tell_names(Sightings& sightings) {
+  for (std::size_t i = 0; i < sightings.balls.size(); ++i)
+    if (sightings.balls[i] != slam::kUnknown) sightings.measurements[i].landmark_id = sightings.balls[i];
+}
+
 }  // namespace stereobench::harness

@@ -26,4 +26,7 @@ Sightings sightings_of(std::span<const vision::BallObservation> observations,
                        std::span<const int> balls_observed, std::span<const worlds::Ball> balls,
                        worlds::Identity identity);
 
+/// Tells the landmark of each sighting that is of one. Those of nothing stay as they are.
+void tell_names(Sightings& sightings);
+
 }  // namespace stereobench::harness

@@ -68,6 +68,16 @@ void read_detector_noise(const YamlValue& value, Experiment& experiment) {
   experiment.detector_noise = read_detector_faults(value, experiment.scenario);
 }
 
+const Fields<PerfectDetections>& perfect_detections_keys() {
+  static const Fields<PerfectDetections> keys({
+      flag("places", "Whether each ball that is seen is found, where it is.")
+          .fills(&PerfectDetections::places),
+      flag("names", "Whether each detection has its ball's name; filters are told it.")
+          .fills(&PerfectDetections::names),
+  });
+  return keys;
+}
+
 std::vector<Field<Experiment>> run_fields() {
   return {
       choice("filters", {filter_names().begin(), filter_names().end()},
@@ -107,6 +117,9 @@ std::vector<Field<Experiment>> detector_fields() {
           .otherwise_says("nothing")
           .fills(&Experiment::detector_noise)
           .reading(read_detector_noise),
+      group("perfect_detections", perfect_detections_keys(),
+            "What detections have of the truth, whatever the detector found.")
+          .fills(&Experiment::perfect_detections),
       group("faults", fault_keys(), "Named faults by their severities, 0 to 5; they stand for other keys.")
           .otherwise_says("none"),
   };

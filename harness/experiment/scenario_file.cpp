@@ -123,4 +123,20 @@ YamlDocument load_scenario(const std::filesystem::path& file, const std::vector<
   return document;
 }
 
+std::vector<std::string> without_fault_names(const std::filesystem::path& file,
+                                             const std::vector<std::string>& overrides) {
+  const YamlDocument document = load_scenario(file, overrides);
+  if (document.put_by.empty()) return overrides;
+  std::vector<std::string> plain = {"faults={}"};
+  for (const std::string& line : overrides)
+    if (!line.starts_with("faults.") && !line.starts_with("faults=")) plain.push_back(line);
+  for (const auto& [path, place] : document.put_by) {
+    const auto [group, key] = group_and_key(path);
+    YAML::Node value = YAML::Clone(document.root[group][key]);
+    if (!value.IsScalar()) value.SetStyle(YAML::EmitterStyle::Flow);
+    plain.push_back(path + "=" + YAML::Dump(value));
+  }
+  return plain;
+}
+
 }  // namespace stereobench::harness

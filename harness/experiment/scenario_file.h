@@ -19,4 +19,9 @@ namespace stereobench::harness {
 worlds::YamlDocument load_scenario(const std::filesystem::path& file,
                                    const std::vector<std::string>& overrides);
 
+/// Overrides that give the same scenario without naming a fault: each stands as the keys that it stands for.
+/// @throws std::runtime_error as load_scenario
+std::vector<std::string> without_fault_names(const std::filesystem::path& file,
+                                             const std::vector<std::string>& overrides);
+
 }  // namespace stereobench::harness

@@ -31,6 +31,15 @@ struct DetectorProgram {
   double start_s = 90.0;    ///< so much longer the first answer may take: libraries and models load
 };
 
+/// What detections have of the truth, whatever the detector found: an oracle in its place.
+struct PerfectDetections {
+  bool places = false;  ///< centres, and which balls are found
+  bool names = false;   ///< which ball each is; filters are told
+
+  bool any() const { return places || names; }
+  bool operator==(const PerfectDetections&) const = default;
+};
+
 /// What filters are told of odometry and sensor, where that is not what is so.
 struct FilterBeliefs {
   std::optional<slam::OdometryNoise> odometry_noise;  ///< none: what the odometry really has
@@ -47,6 +56,7 @@ struct Experiment {
   worlds::Scenario scenario;
   DetectorProgram detector;
   std::optional<DetectorFaults> detector_noise;  ///< none: nothing is counted either
+  PerfectDetections perfect_detections;
   FilterBeliefs believed;
   slam::Association association = slam::Association::kJoint;
   std::vector<std::string> filters = slam::usual_filter_names();

@@ -1,5 +1,7 @@
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +9,7 @@
 #include "harness/commands/commands.h"
 #include "harness/experiment/fault_presets.h"
 #include "harness/reference/reference_pages.h"
+#include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
 namespace {
@@ -15,6 +18,20 @@ std::string lines_of(const FaultPreset& preset) {
   std::string text = fmt::format("{}: {}\n", preset.name, preset.says);
   for (const FaultSetting& setting : preset.settings)
     text += fmt::format("    {}: {}\n", quantity_of(setting), fmt::join(setting.levels, "  "));
+  return text;
+}
+
+/// @throws std::runtime_error where no fault has `part` in its name
+std::string lines_of_faults(const std::string& part) {
+  std::string text;
+  std::vector<std::string_view> names = {"detector", "camera", "rig"};
+  for (const FaultPreset& preset : fault_presets()) {
+    names.push_back(preset.name);
+    if (preset.name.find(part) != std::string_view::npos) text += lines_of(preset);
+  }
+  if (text.empty())
+    throw std::runtime_error(
+        fmt::format("no fault has '{}' in its name, {}", part, worlds::advice(part, names)));
   return text;
 }
 
@@ -38,8 +55,7 @@ void add_faults_command(CLI::App& program, Action& action) {
         fmt::print("{}", faults_reference());
         return kPassed;
       }
-      for (const FaultPreset& preset : fault_presets())
-        if (preset.name.find(*part) != std::string_view::npos) fmt::print("{}", lines_of(preset));
+      fmt::print("{}", lines_of_faults(*part));
       return kPassed;
     };
   });

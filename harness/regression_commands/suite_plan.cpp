@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/kept_drives.h"
+#include "harness/experiment/stage_lines.h"
 #include "harness/experiment/write_experiment.h"
 #include "harness/golden/golden_limits.h"
 #include "harness/io/sha256.h"
@@ -26,18 +27,6 @@ namespace fs = std::filesystem;
 /// Keys of a scenario that say what is compared, and not what it is compared on.
 const std::set<std::string> kNoInputs = {
     "name", "description", "seeds", "gates", "filters", "detector", "detector_timeout_s", "detector_start_s"};
-
-/// Further keys that pictures do not depend on.
-const std::set<std::string> kNotSeen = {"particles",
-                                        "draw_every",
-                                        "association",
-                                        "detector_noise",
-                                        "odometry_noise",
-                                        "start_noise",
-                                        "believed_oracle",
-                                        "believed_odometry_noise",
-                                        "believed_start_noise",
-                                        "believed_measurement_noise"};
 
 ScenarioArguments arguments_of(const SuiteCase& what) {
   ScenarioArguments arguments{.scenario = what.scenario,
@@ -69,13 +58,17 @@ bool has_pictures(const Experiment& experiment) {
   return experiment.scenario.sensor == worlds::SensorKind::kStereo;
 }
 
-/// The scenario's lines but for some keys, and the hashes of its files.
-std::string text_of(const ScenarioArguments& arguments, const Experiment& experiment,
-                    const std::set<std::string>& without) {
+/// Some of the scenario's lines, and the hashes of its files.
+template <class Lines>
+std::string text_of(const ScenarioArguments& arguments, const Experiment& experiment, const Lines& lines_of) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.push_back(fmt::format("particles={}", experiment.particles));
-  const std::string lines = without_keys(with_overrides(arguments.scenario, overrides), without);
-  return lines + nlohmann::json(hashes_of_named_files(arguments.scenario, overrides)).dump();
+  return lines_of(with_overrides(arguments.scenario, overrides)) +
+         nlohmann::json(hashes_of_named_files(arguments.scenario, overrides)).dump();
+}
+
+std::string lines_of_inputs(const std::string& scenario) {
+  return without_keys(scenario, kNoInputs);
 }
 
 /// Names of numbers as compare_results has them: without ".mean".
@@ -123,10 +116,8 @@ PlannedCase plan_case(const SuiteCase& what, const SuiteArguments& suite) {
   planned.gates = gates_of(planned.experiment);
   check_metrics(planned.gates, result_without_values(planned.experiment));
   check_frames(planned);
-  std::set<std::string> not_seen = kNoInputs;
-  not_seen.insert(kNotSeen.begin(), kNotSeen.end());
-  planned.inputs.sha256 = sha256_of(text_of(planned.arguments, planned.experiment, kNoInputs));
-  planned.pictures = text_of(planned.arguments, planned.experiment, not_seen);
+  planned.inputs.sha256 = sha256_of(text_of(planned.arguments, planned.experiment, lines_of_inputs));
+  planned.pictures = text_of(planned.arguments, planned.experiment, lines_of_pictures);
   return planned;
 }
 

@@ -40,14 +40,17 @@ std::string measured_level(double level, const Subject& subject) {
 
 /// Whose the error is that is not the sensor's.
 std::string whose(const Subject& subject) {
-  if (subject.is_bound) return "is that of odometry and geometry";
+  if (subject.is_bound) return "is that of odometry, geometry and other noise";
   const ResponseValue& ratio = subject.law().floor_over_bound;
   const bool is_known = subject.fit.bound && subject.fit.bound->law && subject.fit.bound->law->holds;
   if (!is_known || std::isnan(ratio.interval.low)) return "is not the sensor's";
   const std::string times = with_unit(ratio, "", 3) + " times the bound";
   if (ratio.interval.low > std::numbers::sqrt2) return "is mostly the filter's own: " + times;
-  if (ratio.interval.high < std::numbers::sqrt2) return "is that of odometry and geometry: " + times;
-  return "is that of odometry, geometry and the filter, and these seeds do not say whose most is: " + times;
+  if (ratio.interval.high < std::numbers::sqrt2)
+    return "is that of odometry, geometry and other noise: " + times;
+  return "is that of odometry, geometry, other noise and the filter, and these seeds do not say whose most "
+         "is: " +
+         times;
 }
 
 std::string sentence_without_law(const Subject& subject) {

@@ -27,9 +27,9 @@ std::vector<std::string> response_row(const ResponseFit& fit, const CurveFit& cu
 /// One sentence for the bound and one for each filter: below which level the error is not the sensor's, and
 /// whose it is there.
 ///
-/// The floor is that of odometry and geometry where the bound has most of its square too, and the filter's
-/// where most of its square is above the bound's: the ratio is on one side of sqrt(2), with its interval.
-/// This is the rule of the knee, where the sensor has half of the square.
+/// The floor is that of odometry, geometry and other noise where the bound has most of its square too, and
+/// the filter's where most of its square is above the bound's: the ratio is on one side of sqrt(2), with its
+/// interval. This is the rule of the knee, where the sensor has half of the square.
 /// @return nothing for curves without a law
 std::vector<std::string> response_sentences(const ResponseFit& fit);
 

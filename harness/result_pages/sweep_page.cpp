@@ -10,6 +10,7 @@
 
 #include "harness/io/text_table.h"
 #include "harness/page/command_words.h"
+#include "harness/response/response_page.h"
 #include "harness/result_pages/filter_blocks.h"
 
 namespace stereobench::harness {
@@ -148,6 +149,8 @@ Page sweep_page(const SweepResult& sweep, std::span<const std::string> words, co
     page.blocks.push_back({.title = "Errors of detections against " + sweep.variations.front().name(),
                            .note = note,
                            .content = PageCharts{std::move(charts)}});
+  if (sweep.response)
+    for (Block& block : response_blocks(*sweep.response)) page.blocks.push_back(std::move(block));
   if (words.empty()) return page;
   std::vector<std::string> line(words.begin(), words.end());
   line.insert(line.end(), {"--seeds", seeds_word(seeds)});

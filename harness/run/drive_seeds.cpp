@@ -1,4 +1,7 @@
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "harness/io/answer_store.h"
 #include "harness/json/cbor.h"
@@ -14,6 +17,24 @@ std::string answer_of(const DriveTask& task, const std::function<void(double)>& 
   return to_bytes(score_seed(drive_seed(task, report), task.parts));
 }
 
+/// How many of some tasks have the same sight.
+std::map<std::string, std::size_t> sharers_of(const std::vector<DriveTask>& tasks) {
+  std::map<std::string, std::size_t> sharers;
+  for (const DriveTask& task : tasks)
+    if (!task.sight.empty()) ++sharers[task.sight];
+  return sharers;
+}
+
+/// A task's answer, where its detector has answered already. @param sharers among which the time that this
+/// took is divided
+std::string answer_by_sight(const DriveTask& task, const AnswerStore& store, std::size_t sharers) {
+  const SeenDrive seen = seen_drive_from_bytes(store.read(task.sight));
+  SeedDrive drive = drive_seen(task, seen);
+  for (const auto& [stage, seconds] : seen.timing)
+    drive.recording.timing[stage] += seconds / static_cast<double>(sharers);
+  return to_bytes(score_seed(drive, task.parts));
+}
+
 using Group = std::vector<DriveTask>;
 
 /// An entry a task: its result's bytes, or why there is none.
@@ -26,6 +47,49 @@ std::string answers_of(const Group& group, const std::function<void(double)>& re
          {"result",
           drives[i].fault.empty() ? to_bytes(score_seed(drives[i].drive, group[i].parts)) : std::string()}});
   return bytes_of(answers);
+}
+
+/// For each sight that a store lacks a task that has it, in groups that are shown the same pictures.
+std::vector<Group> unseen_of(const std::vector<const DriveTask*>& tasks, const AnswerStore& store) {
+  std::set<std::string> sights;
+  std::map<std::string, std::size_t> places;
+  std::vector<Group> groups;
+  for (const DriveTask* task : tasks) {
+    if (task->sight.empty() || store.holds(task->sight) || !sights.insert(task->sight).second) continue;
+    const auto [place, is_new] = places.try_emplace(task->pictures, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[place->second].push_back(*task);
+  }
+  return groups;
+}
+
+/// What the detectors of a group saw: an entry a task.
+std::string sights_of(const Group& group, const std::function<void(double)>& report) {
+  std::vector<const Experiment*> experiments;
+  for (const DriveTask& task : group) experiments.push_back(task.experiment);
+  nlohmann::json sights = nlohmann::json::array();
+  for (const SeenDrive& seen :
+       see_together(experiments, group.front().seeds(), group.front().backend, report))
+    sights.push_back(to_bytes(seen));
+  return bytes_of(sights);
+}
+
+/// Lets detectors look that have not yet, and keeps their answers.
+void look(AnswerStore& store, const std::vector<const DriveTask*>& tasks, int jobs, const std::string& what) {
+  const std::vector<Group> groups = unseen_of(tasks, store);
+  if (groups.empty()) return;
+  Progress progress(what + ": pictures", static_cast<double>(groups.size()));
+  run_in_processes(
+      groups.size(), jobs,
+      [&](std::size_t index, const std::function<void(double)>& report) {
+        return sights_of(groups[index], report);
+      },
+      [&](std::size_t index, const std::string& bytes) {
+        const nlohmann::json sights = json_of(bytes);
+        for (std::size_t i = 0; i < groups[index].size(); ++i)
+          store.append(groups[index][i].sight, sights[i].get<std::string>());
+      },
+      [&](double done) { progress.show(done); });
 }
 
 /// The tasks that a store has no result of. Groups without any are left out.
@@ -111,9 +175,13 @@ void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int job
     if (!store.holds(task.key)) missing.push_back(&task);
   hand_on();
   if (missing.empty()) return;
+  look(store, missing, jobs, what);
   Progress progress(what, static_cast<double>(missing.size()));
-  const auto drive_task = [&](std::size_t index, const std::function<void(double)>& report) {
-    return answer_of(*missing[index], report);
+  const auto drive_task = [&, sharers = sharers_of(tasks)](std::size_t index,
+                                                           const std::function<void(double)>& report) {
+    const DriveTask& task = *missing[index];
+    return task.sight.empty() ? answer_of(task, report)
+                              : answer_by_sight(task, store, sharers.at(task.sight));
   };
   const auto keep = [&](std::size_t index, const std::string& answer) {
     store.append(missing[index]->key, answer);

@@ -61,12 +61,10 @@ Json provenance_json(const Provenance& provenance) {
 }
 
 std::string basis_of(const Provenance& provenance, const std::string& backend, const std::string& detector) {
-  const Json basis = {{"program", sha256_of_file("/proc/self/exe")},
-                      {"scenario", provenance.scenario},
-                      {"files", provenance.files},
-                      {"pixels", provenance.pixels},
-                      {"backend", backend},
-                      {"detector_files", files_of_command(detector)}};
+  static const std::string program = sha256_of_file("/proc/self/exe");
+  const Json basis = {{"program", program},        {"scenario", provenance.scenario},
+                      {"files", provenance.files}, {"pixels", provenance.pixels},
+                      {"backend", backend},        {"detector_files", files_of_command(detector)}};
   return basis.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

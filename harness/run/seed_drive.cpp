@@ -59,8 +59,9 @@ void run_filters(const DriveTask& task, SeedDrive& drive) {
   drive.references.bound = watch.time("reference.bound", [&] {
     return replay_bound(log, scenario.path, scenario.odometry_noise, start_covariance(scenario.start_noise));
   });
-  log.start = told_start(log.start, scenario.start_noise, task.seed);
-  drive.runs = replay_filters(log, task.experiment->filters, config, task.seed, drive.recording.timing);
+  log.start = told_start(log.start, scenario.start_noise, task.seeds().odometry);
+  drive.runs =
+      replay_filters(log, task.experiment->filters, config, task.seeds().filter, drive.recording.timing);
   drive.references.batch = watch.time("reference.batch", [&] { return replay_batch(log, config); });
 }
 
@@ -87,10 +88,16 @@ SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& o
   SeedDrive drive{.seed = task.seed};
   WorstPairs worst(task.parts.pairs);
   const Onlooker onlooker = onlooker_of(task, drive, worst, on_progress);
-  OnlookerResult look = std::move(record_together({onlooker}, task.seed, task.backend).front());
+  OnlookerResult look = std::move(record_together({onlooker}, task.seeds(), task.backend).front());
   if (look.fault) std::rethrow_exception(look.fault);
   drive.recording = std::move(look.recording);
   drive.pairs = worst.pairs();
+  run_filters(task, drive);
+  return drive;
+}
+
+SeedDrive drive_seen(const DriveTask& task, const SeenDrive& seen) {
+  SeedDrive drive{.seed = task.seed, .recording = recording_of(*task.experiment, task.seeds(), seen)};
   run_filters(task, drive);
   return drive;
 }
@@ -105,7 +112,8 @@ std::vector<SharedSeedDrive> drive_together(const std::vector<DriveTask>& tasks,
     drives[i].drive.seed = tasks[i].seed;
     onlookers.push_back(onlooker_of(tasks[i], drives[i].drive, worst[i], on_progress));
   }
-  std::vector<OnlookerResult> looks = record_together(onlookers, tasks.front().seed, tasks.front().backend);
+  std::vector<OnlookerResult> looks =
+      record_together(onlookers, tasks.front().seeds(), tasks.front().backend);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (looks[i].fault) {
       drives[i].fault = message_of(looks[i].fault);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/drive/recording.h"
+#include "harness/drive/seen_drive.h"
 #include "harness/experiment/types.h"
 #include "harness/frames/kept_pair.h"
 #include "harness/types.h"
@@ -48,8 +50,15 @@ struct DriveTask {
   std::uint64_t seed = 0;
   SeedParts parts = {};
   renderer::Backend backend = renderer::Backend::kOsmesa;
-  Detector detector = {};  ///< who looks; empty: as the experiment says
-  std::string key = {};    ///< SHA-256 of all that the drive is made from; needed to keep it
+  Detector detector = {};                   ///< who looks; empty: as the experiment says
+  std::string key = {};                     ///< SHA-256 of all that the drive is made from; needed to keep it
+  std::optional<StreamSeeds> streams = {};  ///< where parts have seeds of their own; none: all have `seed`
+  /// SHA-256 of all that the detector's answers are made from: drives that share it look once. Empty: each
+  /// looks for itself.
+  std::string sight = {};
+  std::string pictures = {};  ///< the same of the pairs that it is shown; empty where `sight` is
+
+  StreamSeeds seeds() const { return streams.value_or(StreamSeeds(seed)); }
 };
 
 /// Runs each filter over a log.
@@ -60,6 +69,10 @@ std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vect
 
 /// Drives a seed: the world is rendered once and replayed for each filter and reference.
 SeedDrive drive_seed(const DriveTask& task, const std::function<void(double)>& on_progress);
+
+/// The same where the detector's answers are there already: nothing is rendered. @param seen of the task's
+/// pictures and detector; its timing is left out
+SeedDrive drive_seen(const DriveTask& task, const SeenDrive& seen);
 
 /// What became of a task that was driven together with others.
 struct SharedSeedDrive {

@@ -80,6 +80,7 @@ void drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::strin
 /// The same with a store: tasks whose results it holds are not driven again. A result is in the store as soon
 /// as its seed has ended, and in memory while it is handed on: a program that is killed loses those seeds
 /// alone that it was at.
+/// Tasks with the same sight look once: what their detectors answered is kept in the store as well.
 /// @param tasks each with its key
 void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
                 const OnSeed& on_seed);

@@ -32,6 +32,11 @@ struct FrameMatch {
 FrameMatch match_observations(const VisionTruth& truth,
                               std::span<const vision::BallObservation> observations);
 
+/// The same where the balls' outlines are known already. @param outlines of ball_outlines
+FrameMatch match_observations(const worlds::World& world, const vision::StereoRig& rig,
+                              std::vector<BallInPair> outlines,
+                              std::span<const vision::BallObservation> observations);
+
 /// Whose each observation is, whatever colour it claims.
 /// @return indices into World::balls; kUnknown where there is none
 std::vector<int> balls_observed(const FrameMatch& match);

@@ -7,7 +7,7 @@ constexpr Interval kGain = {1e-3, 1e3};
 
 void check_camera(const YamlMap& map, CameraSensor& sensor) {
   if (const auto read_noise = map.find("read_noise_electrons");
-      read_noise && sensor.full_well_electrons == 0.0)
+      read_noise && sensor.read_noise_electrons > 0.0 && sensor.full_well_electrons == 0.0)
     read_noise->refuse("electrons are counted with full_well_electrons");
   if (const auto gamma = map.find("gamma"); gamma && sensor.encoding != Encoding::kGamma)
     gamma->refuse("a gamma needs `encoding: gamma`");

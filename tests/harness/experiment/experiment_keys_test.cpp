@@ -93,8 +93,8 @@ TEST(ExperimentKeys, StandInTheOrderOfTheReferencePage) {
               ElementsAre("name", "description", "filters", "particles", "draw_every", "seeds", "gates",
                           "sensor", "identity", "association", "colour_spacing_m", "rig", "believed_rig",
                           "camera", "shutter", "detector", "detector_timeout_s", "detector_start_s",
-                          "detector_noise", "faults", "oracle", "believed_oracle", "odometry_noise",
-                          "believed_odometry_noise", "start_noise", "believed_start_noise",
+                          "detector_noise", "perfect_detections", "faults", "oracle", "believed_oracle",
+                          "odometry_noise", "believed_odometry_noise", "start_noise", "believed_start_noise",
                           "believed_measurement_noise", "path", "placement_jitter_m", "randomise", "world"));
 }
 

@@ -44,10 +44,11 @@ std::string sentence(const ResponseFit& fit) {
 TEST(ResponseWords, NameOdometryAndGeometry) {
   EXPECT_THAT(
       response_sentences(fit_of_curve(good_curve("smoother"))),
-      testing::ElementsAre("bound: below 0.31 px (0.25 to 0.40) of detector_noise.centre_sd_px the error "
-                           "is that of odometry and geometry",
-                           "smoother: below 0.31 px (0.25 to 0.40) of detector_noise.centre_sd_px the "
-                           "error is that of odometry and geometry: 1.05 (1.02 to 1.08) times the bound"));
+      testing::ElementsAre(
+          "bound: below 0.31 px (0.25 to 0.40) of detector_noise.centre_sd_px the error "
+          "is that of odometry, geometry and other noise",
+          "smoother: below 0.31 px (0.25 to 0.40) of detector_noise.centre_sd_px the "
+          "error is that of odometry, geometry and other noise: 1.05 (1.02 to 1.08) times the bound"));
 }
 
 // Of the square of 1.42 times the bound more than half is the filter's. Mutations: sqrt(2) for 1, for 2; the

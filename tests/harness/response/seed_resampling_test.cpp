@@ -11,7 +11,7 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // 2,000 draws of 10 seeds: a seed is drawn once on average, with a variance of 0.9; the mean of its 2,000
 // numbers is known to 0.021, and four times that is allowed. Mutation: the last seed never drawn.
@@ -39,11 +39,11 @@ TEST(PercentileInterval, LeavesOutWhatStudentLeavesOut) {
 
 TEST(PercentileInterval, MayBeEndlessAndLeavesOutWhatIsNoNumber) {
   std::vector<double> drawn(1000, 1.0);
-  for (std::size_t i = 0; i < 100; ++i) drawn[7 * i] = kEndless;
+  for (std::size_t i = 0; i < 100; ++i) drawn[7 * i] = kUnbounded;
   drawn[1] = std::nan("");
   const Interval interval = percentile_interval(drawn, 10, 0.95);
   EXPECT_EQ(interval.low, 1.0);
-  EXPECT_EQ(interval.high, kEndless);
+  EXPECT_EQ(interval.high, kUnbounded);
   EXPECT_TRUE(std::isnan(percentile_interval({std::nan("")}, 10, 0.95).low));
 }
 
@@ -63,7 +63,7 @@ TEST(DrawnError, IsThatOfAMean) {
     mean_square += drawn_error(means, 10) * drawn_error(means, 10) / kSamples;
   }
   EXPECT_NEAR(mean_square, 0.1, 0.1 * 4.0 * std::sqrt(2.0 / 9.0 / kSamples) / 2.0);
-  EXPECT_TRUE(std::isnan(drawn_error({1.0, kEndless}, 10)));
+  EXPECT_TRUE(std::isnan(drawn_error({1.0, kUnbounded}, 10)));
 }
 
 }  // namespace
