@@ -83,6 +83,9 @@ int run_command_line(int argc, char** argv) {
   add_replay_command(program, action);
   add_history_command(program, action);
   add_sweep_command(program, action);
+  add_budget_command(program, action);
+  add_attribute_command(program, action);
+  add_sensitivity_command(program, action);
   add_world_command(program, action);
   add_detect_command(program, action);
   add_calibrate_command(program, action);
