@@ -13,13 +13,18 @@
 namespace stereobench::harness {
 namespace {
 
+/// To 12 digits: 0.1224 - 0.12 is 0.0024.
+double rounded(double level) {
+  return numbers_of({{"level"}, {fmt::format("{:.12g}", level)}}).front();
+}
+
 /// The levels of a sweep; empty where its values are no numbers.
 std::vector<double> levels_of(const SweepResult& sweep) {
   try {
     std::vector<double> levels = numbers_of(sweep.variations.front());
     if (sweep.paired_to) {
       const double origin = numbers_of({{"--paired-to"}, {*sweep.paired_to}}).front();
-      for (double& level : levels) level -= origin;
+      for (double& level : levels) level = rounded(level - origin);
     }
     return levels;
   } catch (const std::runtime_error&) {
@@ -43,7 +48,7 @@ std::optional<Response> response_of(const SweepResult& sweep) {
   const bool ascends = std::ranges::adjacent_find(levels, std::greater_equal<>()) == levels.end();
   if (levels.size() < kFewestLevels || levels.front() < 0.0 || !ascends) return {};
   const std::string& key = sweep.variations.front().keys.front();
-  Response response{.parameter = sweep.paired_to ? fmt::format("from {}: {}", *sweep.paired_to, key) : key,
+  Response response{.parameter = sweep.paired_to ? fmt::format("{} - {}", key, *sweep.paired_to) : key,
                     .levels = levels,
                     .filters = {},
                     .bound = {.name = "bound", .values = {}}};

@@ -36,9 +36,9 @@ TEST(SweepResponse, CountsFromTheReference) {
   sweep.paired_to = "0.12";
   const auto response = response_of(sweep);
   ASSERT_TRUE(response);
-  EXPECT_EQ(response->parameter, "from 0.12: key");
+  EXPECT_EQ(response->parameter, "key - 0.12");
   EXPECT_EQ(response->levels.front(), 0.0);
-  EXPECT_NEAR(response->levels.back(), 0.01, 1e-12);
+  EXPECT_EQ(response->levels.back(), 0.01);
 }
 
 // Mutations: each condition.
