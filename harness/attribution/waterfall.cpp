@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/report/axes.h"
+#include "harness/report/curves.h"
 #include "harness/report/legend.h"
 
 namespace stereobench::harness {
@@ -50,13 +51,8 @@ void draw_step(Canvas& canvas, const Axes& axes, double place, const Step& step)
                                     at(-kHalf, step.to)};
   canvas.fill(bar, step.colour);
   if (!std::isfinite(step.half_width)) return;
-  const std::array<Point, 2> interval = {at(0.0, step.to - step.half_width),
-                                         at(0.0, step.to + step.half_width)};
-  canvas.draw_line(interval, {kBlack, 1.4});
-  for (const Point& end : interval) {
-    const std::array<Point, 2> cap = {{{end.x_px - 5.0, end.y_px}, {end.x_px + 5.0, end.y_px}}};
-    canvas.draw_line(cap, {kBlack, 1.4});
-  }
+  draw_interval(canvas, at(0.0, step.to - step.half_width), at(0.0, step.to + step.half_width),
+                {kBlack, 1.4});
 }
 
 /// The level that a step ends at, over to the next bar.

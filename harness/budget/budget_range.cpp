@@ -1,13 +1,14 @@
 #include "harness/budget/budget_range.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "harness/io/number_table.h"
 
 namespace stereobench::harness {
 namespace {
@@ -16,13 +17,6 @@ constexpr double kLeastShareOfRange = 1e-4;  ///< levels need not be nearer to e
 constexpr double kLeastTolerance = 1e-3;
 constexpr double kMostTolerance = 0.5;
 constexpr double kSameDigits = 1e-9;  ///< ends are one number where they differ by less of their size
-
-std::optional<double> number_in(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_whole_text = error == std::errc() && end == text.data() + text.size();
-  return is_whole_text && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 void check_range(const BudgetRange& range) {
   const double size = std::max(std::abs(range.low), std::abs(range.high));
@@ -88,7 +82,7 @@ std::vector<double> levels_of_range(const BudgetRange& range, double tolerance) 
 }
 
 double with_nine_digits(double value) {
-  return number_in(fmt::format("{:.9g}", value)).value();
+  return finite_number_in(fmt::format("{:.9g}", value)).value();
 }
 
 }  // namespace
@@ -99,8 +93,8 @@ BudgetRange parse_budget_range(const std::string& text) {
   if (equals == 0 || dots == std::string::npos)
     throw std::runtime_error("--vary: expected KEY=LOW..HIGH, got " + text);
   const std::string_view ends = text;
-  const auto low = number_in(ends.substr(equals + 1, dots - equals - 1));
-  const auto high = number_in(ends.substr(dots + 2));
+  const auto low = finite_number_in(ends.substr(equals + 1, dots - equals - 1));
+  const auto high = finite_number_in(ends.substr(dots + 2));
   if (!low || !high)
     throw std::runtime_error("--vary: expected numbers at both ends of KEY=LOW..HIGH, got " + text);
   const BudgetRange range{.key = text.substr(0, equals), .low = *low, .high = *high};

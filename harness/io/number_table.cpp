@@ -114,13 +114,6 @@ void append_row(NumberTable& table, long line, std::vector<std::string> cells) {
   table.rows.push_back({line, std::move(cells)});
 }
 
-std::optional<double> parse_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
 /// A whole number that fits its type.
 template <class Integer>
 std::optional<Integer> parse_whole(std::string_view text) {
@@ -144,7 +137,7 @@ std::optional<std::int64_t> parse_stamp(std::string_view text) {
   const bool exact = is_digits(whole) && whole.size() <= 10 && fraction.size() <= 9 &&
                      (fraction.empty() || is_digits(fraction));
   if (!exact) {
-    const std::optional<double> seconds = parse_number(text);
+    const std::optional<double> seconds = finite_number_in(text);
     if (!seconds || std::abs(*seconds) >= 9e9) return {};
     return std::llround(*seconds * 1e9);
   }
@@ -159,6 +152,13 @@ std::optional<std::int64_t> parse_stamp(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<double> finite_number_in(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_all = error == std::errc() && end == text.data() + text.size();
+  return is_all && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
 
 std::optional<fs::path> find_plain_or_gz(const fs::path& path) {
   if (fs::exists(path)) return path;
@@ -228,7 +228,7 @@ std::string first_row(const fs::path& file) {
 }
 
 double number_in(const NumberTable& table, const TableRow& row, std::size_t column) {
-  const std::optional<double> value = parse_number(row.cells[column]);
+  const std::optional<double> value = finite_number_in(row.cells[column]);
   if (!value) refuse(table, row, column, "expected a finite number");
   return *value;
 }

@@ -11,6 +11,10 @@
 
 namespace stereobench::harness {
 
+/// The number that a whole text is, whatever the locale.
+/// @return none for other texts, and for what is not finite
+std::optional<double> finite_number_in(std::string_view text);
+
 /// One line of a table.
 struct TableRow {
   long line = 0;  ///< in the file, from 1

@@ -1,6 +1,7 @@
 #include "harness/report/curves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stereobench::harness {
@@ -23,6 +24,16 @@ void draw_band(Canvas& canvas, const Axes& axes, const std::vector<double>& x, c
   for (std::size_t i = 0; i < x.size(); ++i) add(i, high);
   for (std::size_t i = x.size(); i-- > 0;) add(i, low);
   canvas.fill(corners, colour);
+}
+
+void draw_interval(Canvas& canvas, const Point& low, const Point& high, const Stroke& stroke) {
+  constexpr double kCap_px = 4.0;
+  const std::array<Point, 2> bar = {low, high};
+  canvas.draw_line(bar, stroke);
+  for (const Point& end : bar) {
+    const std::array<Point, 2> cap = {{{end.x_px - kCap_px, end.y_px}, {end.x_px + kCap_px, end.y_px}}};
+    canvas.draw_line(cap, stroke);
+  }
 }
 
 }  // namespace stereobench::harness

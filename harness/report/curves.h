@@ -17,4 +17,7 @@ void draw_curve(Canvas& canvas, const Axes& axes, const std::vector<double>& x, 
 void draw_band(Canvas& canvas, const Axes& axes, const std::vector<double>& x, const std::vector<double>& low,
                const std::vector<double>& high, Colour colour);
 
+/// Draws an upright bar with caps from the low to the high end of an interval.
+void draw_interval(Canvas& canvas, const Point& low, const Point& high, const Stroke& stroke);
+
 }  // namespace stereobench::harness

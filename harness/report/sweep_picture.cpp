@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -10,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "harness/io/number_table.h"
 #include "harness/report/axes.h"
+#include "harness/report/curves.h"
 #include "harness/report/legend.h"
 
 namespace stereobench::harness {
@@ -25,13 +26,6 @@ constexpr double kAtePanelHeight_px = 300.0;
 constexpr double kPanelGap_px = 58.0;
 constexpr Stroke kDetectionStroke = {{0.0, 0.620, 0.451, 1.0}, 1.8};
 
-std::optional<double> parse_number(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
 /// The varied parameter's axis, and where on it each value lies.
 struct Parameter {
   Axis axis;
@@ -42,7 +36,7 @@ Parameter parameter_of(const SweepPicture& picture) {
   Parameter parameter;
   parameter.axis.label = picture.parameter;
   for (const std::string& value : picture.values) {
-    if (const std::optional<double> number = parse_number(value)) parameter.places.push_back(*number);
+    if (const std::optional<double> number = finite_number_in(value)) parameter.places.push_back(*number);
   }
   if (parameter.places.size() < picture.values.size()) {  // words among them: one after the other, by name
     parameter.axis.categories = picture.values;
@@ -76,17 +70,6 @@ Axis value_axis(const std::string& label, const std::vector<SweepCurve>& curves,
   const bool none_below_zero = range_of(all, Scale::kLinear, 0.0).low >= 0.0;
   if (axis.scale == Scale::kLinear && none_below_zero) axis.range.low = 0.0;
   return axis;
-}
-
-/// A vertical bar with caps from the low to the high end.
-void draw_interval(Canvas& canvas, const Point& low, const Point& high, const Stroke& stroke) {
-  constexpr double kCap_px = 4.0;
-  const std::array<Point, 2> bar = {low, high};
-  canvas.draw_line(bar, stroke);
-  for (const Point& end : bar) {
-    const std::array<Point, 2> cap = {{{end.x_px - kCap_px, end.y_px}, {end.x_px + kCap_px, end.y_px}}};
-    canvas.draw_line(cap, stroke);
-  }
 }
 
 /// One panel of the picture: curves over the varied parameter.

@@ -1,7 +1,6 @@
 #include "harness/sensitivity/factors.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -10,17 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "harness/io/number_table.h"
 #include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 namespace {
-
-std::optional<double> number_in(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_whole_text = error == std::errc() && end == text.data() + text.size();
-  return is_whole_text && std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
 
 std::optional<Spacing> spacing_in(std::string_view word) {
   if (word.empty()) return Spacing::kEven;
@@ -55,8 +48,8 @@ KeyRange parse_key_range(const std::string& text) {
   const std::optional<Spacing> spacing = spacing_in(values.substr(colon));
   std::optional<double> low, high;
   if (dots != std::string_view::npos && dots < colon) {
-    low = number_in(values.substr(0, dots));
-    high = number_in(values.substr(dots + 2, colon - dots - 2));
+    low = finite_number_in(values.substr(0, dots));
+    high = finite_number_in(values.substr(dots + 2, colon - dots - 2));
   }
   if (!low || !high || !spacing)
     throw std::runtime_error(fmt::format(

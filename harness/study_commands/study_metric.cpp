@@ -21,17 +21,11 @@ std::string filter_of(const std::string& metric) {
   return std::ranges::count(known, name) > 0 ? name : std::string();
 }
 
-/// A number of a result, or the mean of one, by its keys.
-const nlohmann::ordered_json* found_in(const nlohmann::ordered_json& result, const std::string& metric) {
-  const nlohmann::ordered_json* found = &result;
-  for (std::size_t begin = 0; begin <= metric.size();) {
-    const std::size_t end = std::min(metric.find('.', begin), metric.size());
-    const auto child = found->find(metric.substr(begin, end - begin));
-    if (!found->is_object() || child == found->end()) return nullptr;
-    found = &*child;
-    begin = end + 1;
-  }
-  return found;
+/// Whether a metric of a result is a mean over the seeds.
+bool has_mean(const nlohmann::ordered_json& result, const std::string& metric) {
+  std::string path = "/" + metric + std::string(kMean);
+  std::ranges::replace(path, '.', '/');
+  return result.contains(nlohmann::ordered_json::json_pointer(path));
 }
 
 }  // namespace
@@ -45,9 +39,7 @@ std::string choose_metric(const std::string& metric, ScenarioArguments& base) {
   if (name.starts_with("vision.") && experiment.scenario.sensor == worlds::SensorKind::kOracle)
     throw std::runtime_error("--metric: " + name + " is of detections in pictures, and the oracle has none");
   const auto result = result_without_values(experiment);
-  const nlohmann::ordered_json* const found = found_in(result, name);
-  const bool has_mean = found != nullptr && found->is_object() && found->contains("mean");
-  const Gate gate = {.metric = has_mean ? name + std::string(kMean) : name};
+  const Gate gate = {.metric = has_mean(result, name) ? name + std::string(kMean) : name};
   try {
     check_metrics({&gate, 1}, result);
   } catch (const std::runtime_error& error) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "harness/io/number_table.h"
 
 namespace stereobench::harness {
 namespace {
@@ -59,13 +59,11 @@ std::size_t sharpest_bend(const SweepResult& sweep, const std::vector<double>& x
 std::vector<double> numbers_of(const Variation& variation) {
   std::vector<double> numbers;
   for (const std::string& value : variation.values) {
-    std::istringstream stream(value);
-    stream.imbue(std::locale::classic());
-    double number = 0.0;
-    if (!(stream >> number) || !stream.eof())
+    const auto number = finite_number_in(value);
+    if (!number)
       throw std::runtime_error(
           fmt::format("--vary {}: expected numbers (got '{}')", variation.name(), value));
-    numbers.push_back(number);
+    numbers.push_back(*number);
   }
   return numbers;
 }
