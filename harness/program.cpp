@@ -56,23 +56,15 @@ std::string option_advice(const CLI::App& program) {
   return advice;
 }
 
-int run_command_line(int argc, char** argv) {
-  CLI::App program(
-      "Renders worlds of coloured balls, sees them in stereo, maps them, and scores every stage.");
-  program.name("stereobench");
-  program.set_version_flag("--version", STEREOBENCH_VERSION);
-  program.require_subcommand(1);
-  program.footer(
-      "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
-      "crashed, 5 a suite's baseline is missing or of other inputs, or shards contradict each other;\n"
-      "--strict: 3 inconclusive, 6 a metric got better.\n"
-      "Start with: stereobench run assets/scenarios/ball_circle.yaml");
-  Action action;
+int run_words(const std::vector<std::string>& words);
+
+void add_commands(CLI::App& program, Action& action) {
   add_run_command(program, action);
   add_render_command(program, action);
   add_export_command(program, action);
   add_dataset_command(program, action);
-  add_merge_command(program, action);
+  add_merge_command(program, action, run_words);
+  add_cluster_command(program, action, run_words);
   add_verify_command(program, action);
   add_preview_command(program, action);
   add_import_command(program, action);
@@ -95,6 +87,21 @@ int run_command_line(int argc, char** argv) {
   add_schema_command(program, action);
   add_faults_command(program, action);
   add_doctor_command(program, action);
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program(
+      "Renders worlds of coloured balls, sees them in stereo, maps them, and scores every stage.");
+  program.name("stereobench");
+  program.set_version_flag("--version", STEREOBENCH_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
+      "crashed, 5 a suite's baseline is missing or of other inputs, or shards contradict each other;\n"
+      "--strict: 3 inconclusive, 6 a metric got better; `cluster status`: 3 shards are missing.\n"
+      "Start with: stereobench run assets/scenarios/ball_circle.yaml");
+  Action action;
+  add_commands(program, action);
   for (CLI::App* const command : program.get_subcommands({})) refuse_empty_values(*command);
   if (argc > 1) check_command(program, argv[1]);
   try {
@@ -105,6 +112,12 @@ int run_command_line(int argc, char** argv) {
     throw std::runtime_error(fmt::format("{}{}; see --help", error.what(), option_advice(program)));
   }
   return action();
+}
+
+int run_words(const std::vector<std::string>& words) {
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  return run_command_line(static_cast<int>(pointers.size()), pointers.data());
 }
 
 }  // namespace

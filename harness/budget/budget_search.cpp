@@ -32,7 +32,8 @@ class BudgetSearch {
   BudgetSearch(const BudgetQuestion& question, const MetricAtLevel& run)
       : question_(question),
         run_(run),
-        order_(order_of_seeds(std::ssize(question.seeds), question.wanted)),
+        order_(question.too_many ? *question.too_many
+                                 : order_of_seeds(std::ssize(question.seeds), question.wanted)),
         seeds_(question.seeds.size()) {
     if (question.levels.size() < 2) throw std::invalid_argument("a budget needs two levels or more");
   }

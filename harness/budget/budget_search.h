@@ -17,6 +17,7 @@ struct BudgetQuestion {
   std::vector<std::uint64_t> seeds;  ///< of the worlds, each once
   Gate limit;                        ///< of the metric, for each seed by itself
   WorldShare wanted;
+  std::optional<long> too_many = {};  ///< seeds that fail, in place of what the share and the confidence say
 };
 
 /// Runs some seeds at a level. It may do so in any order or at once.

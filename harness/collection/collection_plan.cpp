@@ -1,18 +1,9 @@
 #include "harness/collection/collection_plan.h"
 
-#include <charconv>
-#include <optional>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include "harness/experiment/experiment.h"
-#include "worlds/yaml/excerpt.h"
 
 namespace stereobench::harness {
 namespace {
-
-constexpr std::size_t kMostShards = 1'000'000;
 
 /// What is rendered of a variation.
 RenderRequest request_of(const Collection& collection, const DriveGroup& drives,
@@ -50,13 +41,6 @@ void add_drives(const DriveGroup& drives, const DriveVariation& variation, const
   }
 }
 
-std::optional<std::size_t> whole_number(std::string_view text) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 }  // namespace
 
 CollectionPlan plan_collection(const Collection& collection, renderer::Backend backend,
@@ -74,16 +58,6 @@ CollectionPlan plan_collection(const Collection& collection, renderer::Backend b
       add_drives(drives, variation, request, out, plan);
     }
   return plan;
-}
-
-Shard parse_shard(std::string_view text) {
-  const std::size_t slash = text.find('/');
-  const auto number = whole_number(text.substr(0, slash));
-  const auto count = slash == std::string_view::npos ? std::nullopt : whole_number(text.substr(slash + 1));
-  if (!number || !count || *number < 1 || *number > *count || *count > kMostShards)
-    throw std::runtime_error(fmt::format(
-        "--shard: expected one of several parts, as 1/3, 2/3 or 3/3 (got '{}')", worlds::excerpt(text)));
-  return {*number, *count};
 }
 
 }  // namespace stereobench::harness

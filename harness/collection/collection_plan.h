@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "harness/collection/collection.h"
@@ -27,17 +26,5 @@ struct CollectionPlan {
 /// @throws std::runtime_error, one line
 CollectionPlan plan_collection(const Collection& collection, renderer::Backend backend,
                                const std::filesystem::path& out);
-
-/// A part of the drives: every `count`-th one.
-struct Shard {
-  std::size_t number = 1;  ///< from 1
-  std::size_t count = 1;
-
-  bool has(std::size_t drive) const { return drive % count == number - 1; }
-};
-
-/// Reads "2/3": the second of three.
-/// @throws std::runtime_error, one line that begins with "--shard: ", for anything else
-Shard parse_shard(std::string_view text);
 
 }  // namespace stereobench::harness

@@ -3,18 +3,12 @@
 
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <vector>
 
 #include "harness/collection/collection_folder.h"
+#include "harness/shards/shard_conflict.h"
 
 namespace stereobench::harness {
-
-/// Two shards have a file with different bytes: one of them was not rendered as the other one.
-class ShardConflict : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Joins shards, and finishes the collection. Files are linked, or copied where the file systems differ,
 /// after their hashes were checked. What is in the output folder already stays; interrupted, it goes on where

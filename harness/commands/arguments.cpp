@@ -140,13 +140,19 @@ void add_backend_option(CLI::App& command, renderer::Backend& backend) {
       ->default_str(renderer::name_of(backend));
 }
 
-std::vector<std::string> words_of(const CLI::App& command) {
-  constexpr std::array<std::string_view, 6> kLeftOut = {"--seeds",   "--jobs",  "--out",
-                                                        "--dry-run", "--quiet", "--html"};
+namespace {
+
+/// Options that have no part in what comes out.
+constexpr std::array<std::string_view, 8> kNoInputs = {
+    "--jobs", "--out", "--dry-run", "--quiet", "--html", "--shard", "--shard-costs", "--shard-overlap"};
+
+std::vector<std::string> words_of_inputs(const CLI::App& command, std::string_view left_out) {
   std::vector<std::string> words = {"stereobench", command.get_name()};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() == 0 || std::ranges::find(kLeftOut, name) != kLeftOut.end()) continue;
+    const bool is_hidden = option->get_group().empty();
+    if (option->count() == 0 || is_hidden || name == left_out || std::ranges::count(kNoInputs, name) > 0)
+      continue;
     const std::vector<std::string> values = option->results();
     const char delimiter = option->get_delimiter();
     if (option->get_positional() || option->get_expected_max() == 0) {
@@ -163,8 +169,41 @@ std::vector<std::string> words_of(const CLI::App& command) {
   return words;
 }
 
+}  // namespace
+
+std::vector<std::string> words_of(const CLI::App& command) {
+  return words_of_inputs(command, "--seeds");
+}
+
+std::vector<std::string> whole_words_of(const CLI::App& command) {
+  return words_of_inputs(command, {});
+}
+
+void add_shard_options(CLI::App& command, ShardArguments& arguments) {
+  command
+      .add_option_function<std::string>(
+          "--shard", [&arguments](const std::string& text) { arguments.shard = parse_shard(text); },
+          "do a part of the work alone: 2/40 is the second of 40, auto/40 that of the task in Slurm's array "
+          "or of the pod in Kubernetes' Indexed Job; 0/40 does one drive of each kind, and measures them; "
+          "`merge` joins the parts")
+      ->type_name("I/N");
+  command.add_option(
+      "--shard-costs", arguments.costs,
+      "costs.json of shard 0, or of earlier work: shards are cut by these times, not by count; "
+      "the same file for all shards");
+  command
+      .add_option("--shard-overlap", arguments.overlap,
+                  "do so many drives of the next shard as well, so that `merge` can compare two machines")
+      ->check(CLI::Range(0, 1000).description(""))
+      ->type_name("N");
+  command.add_option("--plan", arguments.plan, "")->group("");  // of `merge`: not for people
+}
+
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name) {
-  return arguments.out.empty() ? std::filesystem::path("out") / name : arguments.out;
+  if (!arguments.out.empty()) return arguments.out;
+  const auto& shard = arguments.shards.shard;
+  return std::filesystem::path("out") /
+         (shard ? fmt::format("{}_shard_{}_of_{}", name, shard->number, shard->count) : name);
 }
 
 }  // namespace stereobench::harness

@@ -3,15 +3,29 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "harness/experiment/types.h"
+#include "harness/shards/shard.h"
 #include "renderer/types.h"
 
 namespace stereobench::harness {
+
+/// What the command line says of shards.
+struct ShardArguments {
+  std::optional<Shard> shard;   ///< the part of the work that is done; none: all of it
+  std::filesystem::path costs;  ///< a costs.json; empty: all drives cost the same
+  std::size_t overlap = 0;      ///< further units of work, of the next shard, that are done too
+  std::string plan;             ///< of `merge`: ShardRecord::plan of the shards; empty: not known
+  std::vector<std::string>
+      words;  ///< of the command line for all of the work, as whole_words_of() gives them
+
+  bool is_used() const { return shard.has_value() || !plan.empty(); }
+};
 
 /// Options that every command which runs filters takes; empty means "as the scenario says".
 struct RunArguments {
@@ -23,6 +37,7 @@ struct RunArguments {
   bool dry_run = false;            ///< check everything, say what would be done, and stop
   std::vector<Gate> gates;         ///< beside those of the scenario
   std::vector<std::string> words;  ///< of the command line, as words_of() gives them; empty: not known
+  ShardArguments shards;
 };
 
 /// The filter that is always run, as the yardstick of the others.
@@ -59,12 +74,18 @@ void add_backend_option(CLI::App& command, renderer::Backend& backend);
 /// @param command parsed
 std::vector<std::string> words_of(const CLI::App& command);
 
+/// The same with the seeds: what `merge` calls when all shards are done.
+std::vector<std::string> whole_words_of(const CLI::App& command);
+
+/// Adds --shard, --shard-costs and --shard-overlap.
+void add_shard_options(CLI::App& command, ShardArguments& arguments);
+
 /// Lets an option be given several times, each time with one value: what follows is not taken for a second
 /// one.
 /// @return the option
 CLI::Option* repeatable(CLI::Option* option);
 
-/// Where results go: --out, or out/<name>.
+/// Where results go: --out, or out/<name>; of a shard out/<name>_shard_2_of_3.
 std::filesystem::path output_folder(const RunArguments& arguments, const std::string& name);
 
 }  // namespace stereobench::harness

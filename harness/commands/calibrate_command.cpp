@@ -5,12 +5,17 @@
 #include <fmt/format.h>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/shard_run.h"
 #include "harness/commands/talk.h"
 #include "harness/detector_noise/calibration_result.h"
 #include "harness/detector_noise/calibration_scenes.h"
+#include "harness/detector_noise/serialise.h"
 #include "harness/experiment/seeds.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/sha256.h"
+#include "harness/process/interruption.h"
 #include "harness/regression/gates.h"
 #include "harness/result_pages/calibration_page.h"
 #include "harness/result_pages/run_page.h"
@@ -36,6 +41,50 @@ Experiment read_stereo_experiment(const CalibrateArguments& arguments) {
   return experiment;
 }
 
+/// SHA-256 of all that the takes of the scenes are made from: that of a drive with the same seed, and how
+/// calibration scenes differ from it.
+std::vector<std::string> keys_of_takes(const CalibrateArguments& arguments, const CalibrationLook& look,
+                                       const std::string& pixels) {
+  std::vector<std::string> keys;
+  const std::vector<StreamSeeds> seeds(look.seeds.begin(), look.seeds.end());
+  const worlds::CalibrationSceneSettings& settings = look.settings;
+  for (const DriveTask& drive : drive_tasks(arguments.scenario, {}, look.experiment, pixels, {}, seeds))
+    keys.push_back(sha256_of(fmt::format("{} calibration {} {} {}", drive.key, settings.depths.nearest_m,
+                                         settings.depths.farthest_m, settings.plain)));
+  return keys;
+}
+
+/// With --shard, or for `merge`: what do_shard does with scenes of which each is a unit.
+std::optional<int> do_calibration_shard(const std::filesystem::path& out, const RunArguments& run,
+                                        const CalibrationLook& look, const std::vector<std::string>& keys,
+                                        const std::string& pixels) {
+  ShardedWork work = {.what = "calibrate " + look.experiment.scenario.name,
+                      .plan = {},
+                      .pixels = pixels,
+                      .store = kDrivesFile,
+                      .kinds = {},
+                      .work = {}};
+  Sha256 plan;
+  for (const std::string& key : keys) {
+    plan.add(key);
+    work.kinds.push_back({std::string()});
+  }
+  work.plan = plan.hex();
+  work.work = [&](const std::vector<std::size_t>& units) {
+    AnswerStore store(out / kDrivesFile);
+    CalibrationLook own = look;
+    own.seeds.clear();
+    std::vector<std::string> own_keys;
+    for (const std::size_t unit : units) {
+      own.seeds.push_back(look.seeds[unit]);
+      own_keys.push_back(keys[unit]);
+    }
+    take_into(store, own, own_keys, run.jobs);
+    return DriveCosts{};
+  };
+  return do_shard(out, run, work);
+}
+
 int run_calibration(const CalibrateArguments& arguments) {
   const Experiment experiment = read_stereo_experiment(arguments);
   const worlds::Scenario& scenario = experiment.scenario;
@@ -50,11 +99,19 @@ int run_calibration(const CalibrateArguments& arguments) {
                (out / "").string());
     return kPassed;
   }
-  prepare_output_folder(out);
   const worlds::CalibrationDepths depths = worlds::measurable_depths(
       scenario.rig, scenario.world.ball_radius_m(), vision::ObserverSettings{}.min_radius_px);
-  const auto takes = take_calibration_scenes(experiment, {depths, arguments.plain}, seeds,
-                                             arguments.scenario.backend, arguments.scenario.run.jobs);
+  const CalibrationLook look = {experiment, {depths, arguments.plain}, arguments.scenario.backend, seeds};
+  const std::string pixels = pixels_of(scenario, arguments.scenario.backend);
+  const std::vector<std::string> keys = keys_of_takes(arguments, look, pixels);
+  const RunArguments& run = arguments.scenario.run;
+  if (const auto end = do_calibration_shard(out, run, look, keys, pixels)) return *end;
+  prepare_output_folder(out);
+  AnswerStore kept(out / kDrivesFile);
+  say_that_work_is_kept();
+  take_into(kept, look, keys, run.jobs);
+  std::vector<CalibrationTake> takes;
+  for (const std::string& key : keys) takes.push_back(calibration_take_from_bytes(kept.read(key)));
   CalibrationResult result = calibrate(takes, seeds, depths.nearest_m, depths.farthest_m);
   result.scenario = scenario.name;
   result.detector = experiment.detector.command.empty() ? "stereobench" : experiment.detector.command;
@@ -63,6 +120,7 @@ int run_calibration(const CalibrateArguments& arguments) {
   write_file_atomically(out / kReport,
                         page_html(calibration_page(result, gates, arguments.scenario.run.words)));
   write_file_atomically(out / "calibration.json", calibration_json(result).dump(2) + "\n");
+  kept.remove();
   const auto broken = broken_gates(calibration_json(result), gates);
   fmt::print(
       "{}: {} balls seen in the half held out, recall {:.4f}, {} misidentified, {} spurious, {} flagged\n\n"
@@ -84,6 +142,7 @@ void add_calibrate_command(CLI::App& program, Action& action) {
   scenario.run.seeds = parse_seeds(kUsualSeeds);
   add_camera_options(*command, scenario);
   add_seed_options(*command, scenario.run);
+  add_shard_options(*command, scenario.run.shards);
   add_gate_option(*command, scenario.run.gates);
   command
       ->add_option("--law", arguments->law,
@@ -97,10 +156,11 @@ void add_calibrate_command(CLI::App& program, Action& action) {
       "scenes of every other seed and held against the rest, by depth: errors beside the Cramer-Rao bound,\n"
       "and NIS/2, which is 1 where covariances are consistent. Writes noise.yaml, for a scenario's\n"
       "  believed_measurement_noise: {kind: file, file: noise.yaml}\n"
-      "and calibration.json, whose numbers --gate can limit.\n\n"
+      "and calibration.json, whose numbers --gate can limit. Interrupted, it goes on where it was.\n\n"
       "Example: stereobench calibrate assets/scenarios/ball_circle.yaml --set camera.noise_sd_levels=4");
   command->callback([arguments, command, &action] {
     arguments->scenario.run.words = words_of(*command);
+    arguments->scenario.run.shards.words = whole_words_of(*command);
     action = [arguments] { return run_calibration(*arguments); };
   });
 }

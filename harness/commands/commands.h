@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -16,19 +18,24 @@ enum ExitCode : int {
   kInconclusive = 3,  ///< with --strict: more seeds are needed
   kRunCrashed = 4,    ///< a worker process died, or a detector failed
   kNoBaseline = 5,    ///< a suite's baseline is missing, or was made of other inputs or pixels
-  kConflict = 5,      ///< `merge`: two shards have a file with different bytes
+  kConflict = 5,      ///< `merge`: shards contradict each other
   kImproved = 6,      ///< with --strict: a metric is better than before
 };
 
 /// What a parsed command line does when it is called; gives the exit code.
 using Action = std::function<int()>;
 
+/// Does what the program does when it is called with these words, the first of which is its own name.
+/// @return the exit code
+using Call = std::function<int(const std::vector<std::string>& words)>;
+
 /// Each adds a subcommand that, when it is chosen, puts what is to be done into `action`.
 void add_run_command(CLI::App& program, Action& action);
 void add_render_command(CLI::App& program, Action& action);
 void add_export_command(CLI::App& program, Action& action);
 void add_dataset_command(CLI::App& program, Action& action);
-void add_merge_command(CLI::App& program, Action& action);
+void add_merge_command(CLI::App& program, Action& action, const Call& call);
+void add_cluster_command(CLI::App& program, Action& action, const Call& call);
 void add_verify_command(CLI::App& program, Action& action);
 void add_preview_command(CLI::App& program, Action& action);
 void add_import_command(CLI::App& program, Action& action);

@@ -21,8 +21,6 @@
 namespace stereobench::harness {
 namespace {
 
-constexpr const char* kFile = "unfinished.drives";
-
 /// So that what is kept of a thousand seeds stays small.
 constexpr std::size_t kPairsOfLaterSeeds = 4;
 
@@ -45,12 +43,12 @@ std::vector<std::string> all_overrides(const ScenarioArguments& arguments,
 /// What drives are made from but for their seeds: each stage of the chain, see stage_lines.h.
 struct Basis {
   std::string drive;
-  std::string sight;     ///< what the detector answers
-  std::string pictures;  ///< what it is shown
+  std::string sight;     ///< what the detector answers; empty where looks are not shared
+  std::string pictures;  ///< what it is shown; empty where `sight` is
 };
 
 Basis basis_of_drives(const ScenarioArguments& arguments, const std::vector<std::string>& more_overrides,
-                      const Experiment& experiment, const std::string& pixels) {
+                      const Experiment& experiment, const std::string& pixels, bool shares_looks) {
   Experiment any_seed = experiment;
   any_seed.seeds = {0};
   std::vector<std::string> overrides = more_overrides;
@@ -63,8 +61,9 @@ Basis basis_of_drives(const ScenarioArguments& arguments, const std::vector<std:
     return basis_of(provenance, backend, detector);
   };
   const std::string& detector = experiment.detector.command;
-  return {basis_with(lines, detector), basis_with(lines_of_sight(lines), detector),
-          basis_with(lines_of_pictures(lines), {})};
+  const std::string drive = basis_with(lines, detector);
+  if (!shares_looks) return {drive, {}, {}};
+  return {drive, basis_with(lines_of_sight(lines), detector), basis_with(lines_of_pictures(lines), {})};
 }
 
 std::string key_of(const std::string& basis, const DriveTask& task) {
@@ -99,13 +98,14 @@ Provenance provenance_of(const ScenarioArguments& arguments, const std::vector<s
                          const Experiment& experiment, const std::string& pixels) {
   const std::filesystem::path& file = arguments.scenario;
   const auto overrides = all_overrides(arguments, more_overrides, experiment);
-  Provenance provenance{.scenario = with_overrides(file, overrides), .set = arguments.overrides};
+  ScenarioLines lines = lines_and_files(file, overrides);
+  Provenance provenance{.scenario = std::move(lines.text), .set = arguments.overrides};
+  provenance.files = std::move(lines.files_sha256);
   provenance.invocation = Invocation{.scenario = std::filesystem::absolute(file),
                                      .overrides = overrides,
                                      .folder = std::filesystem::current_path(),
                                      .backend = arguments.backend};
   provenance.set.insert(provenance.set.end(), more_overrides.begin(), more_overrides.end());
-  provenance.files = hashes_of_named_files(file, overrides);
   if (experiment.scenario.sensor == worlds::SensorKind::kStereo) provenance.pixels = pixels;
   return provenance;
 }
@@ -114,7 +114,10 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
                                    const std::vector<std::string>& more_overrides,
                                    const Experiment& experiment, const std::string& pixels,
                                    const SeedParts& parts, const std::vector<StreamSeeds>& seeds) {
-  const Basis basis = basis_of_drives(arguments, more_overrides, experiment, pixels);
+  const bool shares_looks =
+      experiment.scenario.sensor == worlds::SensorKind::kStereo && !needs_pictures(parts);
+  const Basis basis = basis_of_drives(arguments, more_overrides, experiment, pixels, shares_looks);
+  const std::string kind = sha256_of(basis.drive);
   std::vector<DriveTask> tasks;
   for (const StreamSeeds& streams : seeds) {
     const bool is_first = tasks.empty();
@@ -123,10 +126,11 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
     wanted.snapshots = is_first ? parts.snapshots : 0;
     wanted.pairs = is_first ? parts.pairs : std::min(parts.pairs, kPairsOfLaterSeeds);
     wanted.log = parts.log && tasks.size() < kCheckedLogs;
-    DriveTask& task =
-        tasks.emplace_back(DriveTask{&experiment, streams.world, wanted, arguments.backend, {}, {}, streams});
+    DriveTask& task = tasks.emplace_back(
+        DriveTask{&experiment, streams.world, wanted, arguments.backend, {}, {}, {}, streams});
     task.key = key_of(basis.drive, task);
-    if (experiment.scenario.sensor != worlds::SensorKind::kStereo || needs_pictures(parts)) continue;
+    task.kind = kind;
+    if (!shares_looks) continue;
     task.sight = key_of_look(basis.sight, task);
     task.pictures = key_of_look(basis.pictures, task);
   }
@@ -158,7 +162,7 @@ bool share_sight(const ScenarioArguments& base, const std::vector<std::string>& 
   return sight_with(some) == sight_with(others);
 }
 
-KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kFile) {
+KeptDrives::KeptDrives(const std::filesystem::path& out) : store_(out / kDrivesFile) {
   remove_leftovers_in(out);
 }
 
@@ -188,12 +192,12 @@ void KeptDrives::say_what_is_kept(const std::vector<DriveTask>& tasks, const std
   const bool is_program = std::ranges::any_of(
       tasks, [](const DriveTask& task) { return !task.experiment->detector.command.empty(); });
   if (kept > 0)
-    note(fmt::format(
-        "{}: {} of {} drives are taken over from a run that was interrupted{}", what, kept, tasks.size(),
-        is_program ? "; if the detector reads other files than its command names, such as weights, "
-                     "and they have changed since, remove " +
-                         std::string(kFile) + " from the output folder and start again"
-                   : ""));
+    note(fmt::format("{}: {} of {} drives were done before, and are taken over{}", what, kept, tasks.size(),
+                     is_program
+                         ? "; if the detector reads other files than its command names, such as weights, "
+                           "and they have changed since, remove " +
+                               std::string(kDrivesFile) + " from the output folder and start again"
+                         : ""));
   say_that_work_is_kept();
 }
 

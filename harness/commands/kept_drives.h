@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "harness/commands/scenario_arguments.h"
-#include "harness/io/answer_store.h"
 #include "harness/run/provenance.h"
 #include "harness/run/seed_result.h"
+#include "harness/store/answer_store.h"
 
 namespace stereobench::harness {
 

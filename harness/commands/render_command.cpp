@@ -5,6 +5,8 @@
 #include "harness/commands/dataset_talk.h"
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/shard_run.h"
+#include "harness/io/sha256.h"
 #include "harness/process/interruption.h"
 
 namespace stereobench::harness {
@@ -28,6 +30,47 @@ RenderRequest request_of(const RenderArguments& arguments) {
           .change = *arguments.change};
 }
 
+std::string in_words(const std::vector<RenderTask>& tasks) {
+  return "render " + tasks.front().experiment->scenario.name;
+}
+
+/// Renders drives of one scenario, and says what became of them.
+void render_and_say(const std::vector<RenderTask>& tasks, int jobs) {
+  if (tasks.empty()) return;
+  const worlds::Scenario& scenario = tasks.front().experiment->scenario;
+  const std::vector<RenderedSeed> rendered = render_seeds(tasks, jobs, in_words(tasks));
+  CoarseBlur blur;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    for (std::size_t k = 0; k < tasks[i].datasets.size(); ++k) {
+      const WantedDataset& wanted = tasks[i].datasets[k];
+      say_what_was_written(scenario.name, *wanted.format, wanted.folder, rendered[i].datasets[k]);
+    }
+    blur += rendered[i].blur;
+  }
+  warn_of_blur(scenario.shutter, blur);
+}
+
+/// With --shard, or for `merge`: what do_shard does with drives of which each is a unit.
+std::optional<int> do_render_shard(const std::filesystem::path& out, const RunArguments& run,
+                                   const std::vector<RenderTask>& tasks, const std::string& pixels) {
+  ShardedWork work = {
+      .what = in_words(tasks), .plan = {}, .pixels = pixels, .store = {}, .kinds = {}, .work = {}};
+  Sha256 plan;
+  plan.add(pixels);
+  for (const RenderTask& task : tasks) {
+    for (const WantedDataset& wanted : task.datasets) plan.add(wanted.identity.dump());
+    work.kinds.push_back({std::string()});
+  }
+  work.plan = plan.hex();
+  work.work = [&](const std::vector<std::size_t>& units) {
+    std::vector<RenderTask> chosen;
+    for (const std::size_t unit : units) chosen.push_back(tasks[unit]);
+    render_and_say(chosen, run.jobs);
+    return DriveCosts{};
+  };
+  return do_shard(out, run, work);
+}
+
 int render(const RenderArguments& arguments) {
   const Experiment experiment = read_experiment(arguments.scenario);
   const worlds::Scenario& scenario = experiment.scenario;
@@ -49,16 +92,9 @@ int render(const RenderArguments& arguments) {
     return kPassed;
   }
   say_that_work_is_kept();
-  const std::vector<RenderedSeed> rendered = render_seeds(tasks, run.jobs, "render " + scenario.name);
-  CoarseBlur blur;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    for (std::size_t k = 0; k < tasks[i].datasets.size(); ++k) {
-      const WantedDataset& wanted = tasks[i].datasets[k];
-      say_what_was_written(scenario.name, *wanted.format, wanted.folder, rendered[i].datasets[k]);
-    }
-    blur += rendered[i].blur;
-  }
-  warn_of_blur(scenario.shutter, blur);
+  const std::string pixels = run.shards.is_used() ? pixels_of(scenario, arguments.scenario.backend) : "";
+  if (const auto end = do_render_shard(out, run, tasks, pixels)) return *end;
+  render_and_say(tasks, run.jobs);
   return kPassed;
 }
 
@@ -80,6 +116,7 @@ void add_render_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<RenderArguments>();
   add_camera_options(*command, arguments->scenario);
   add_seed_options(*command, arguments->scenario.run);
+  add_shard_options(*command, arguments->scenario.run.shards);
   command
       ->add_option_function<std::string>(
           "--frames", [arguments](const std::string& text) { arguments->frames = parse_frames(text); },
@@ -112,7 +149,10 @@ void add_render_command(CLI::App& program, Action& action) {
       "folder of its own there (seed_0/). Interrupted, it goes on where it was; what is complete is\n"
       "left as it is.\n\n"
       "Example: stereobench render assets/scenarios/ball_circle.yaml --set path.laps=1 --out out/dataset");
-  command->callback([arguments, &action] { action = [arguments] { return render(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->scenario.run.shards.words = whole_words_of(*command);
+    action = [arguments] { return render(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

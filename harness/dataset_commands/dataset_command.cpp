@@ -12,6 +12,7 @@
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
 #include "harness/process/interruption.h"
+#include "harness/shards/shard.h"
 
 namespace stereobench::harness {
 namespace {
@@ -107,7 +108,13 @@ void add_dataset_command(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 1024));
   command
       ->add_option_function<std::string>(
-          "--shard", [arguments](const std::string& text) { arguments->shard = parse_shard(text); },
+          "--shard",
+          [arguments](const std::string& text) {
+            arguments->shard = parse_shard(text);
+            if (arguments->shard.number == 0)
+              throw std::runtime_error(
+                  "--shard: expected 1 or more; drives of a collection are cut by count");
+          },
           "render a part of the drives alone: 2/3 is the second of three; `merge` joins the parts")
       ->type_name("I/N");
   add_backend_option(*command, arguments->backend);

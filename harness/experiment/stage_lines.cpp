@@ -37,7 +37,9 @@ std::string lines_of_sight(const std::string& scenario) {
 }
 
 std::string lines_of_pictures(const std::string& scenario) {
-  return without_keys(lines_of_sight(scenario), kOfDetector);
+  std::set<std::string> keys = kBehindDetector;
+  keys.insert(kOfDetector.begin(), kOfDetector.end());
+  return without_keys(scenario, keys);
 }
 
 }  // namespace stereobench::harness

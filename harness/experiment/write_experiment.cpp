@@ -31,6 +31,15 @@ std::string with_overrides(const std::filesystem::path& file, const std::vector<
   return text_of(load_scenario(file, overrides).root);
 }
 
+ScenarioLines lines_and_files(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const YAML::Node root = load_scenario(file, overrides).root;
+  std::set<std::string> names;
+  gather_files(root, names);
+  ScenarioLines lines = {text_of(root), {}};
+  for (const std::string& name : names) lines.files_sha256[name] = sha256_of_file(file.parent_path() / name);
+  return lines;
+}
+
 std::string without_keys(const std::string& scenario, const std::set<std::string>& keys) {
   YAML::Node root = worlds::parse_yaml(scenario).front();
   for (const std::string& key : keys) root.remove(key);
@@ -46,10 +55,7 @@ std::set<std::string> files_named_in(const std::filesystem::path& file,
 
 std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& file,
                                                          const std::vector<std::string>& overrides) {
-  std::map<std::string, std::string> hashes;
-  for (const std::string& name : files_named_in(file, overrides))
-    hashes[name] = sha256_of_file(file.parent_path() / name);
-  return hashes;
+  return lines_and_files(file, overrides).files_sha256;
 }
 
 std::string written_out(const std::filesystem::path& file, const std::vector<std::string>& overrides,

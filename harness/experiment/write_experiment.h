@@ -39,6 +39,16 @@ std::string without_keys(const std::string& scenario, const std::set<std::string
 std::set<std::string> files_named_in(const std::filesystem::path& file,
                                      const std::vector<std::string>& overrides);
 
+/// Lines of with_overrides, and hashes of hashes_of_named_files.
+struct ScenarioLines {
+  std::string text;
+  std::map<std::string, std::string> files_sha256;
+};
+
+/// Both, with the scenario read once.
+/// @throws std::runtime_error as the two
+ScenarioLines lines_and_files(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
 /// SHA-256 of each of these files, by its name there.
 /// @throws std::runtime_error as load_scenario, and when a file cannot be read
 std::map<std::string, std::string> hashes_of_named_files(const std::filesystem::path& file,

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/commands/shard_run.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/regression/result_folder.h"
@@ -123,9 +124,9 @@ void add_once(const DriveTask& task, std::vector<DriveTask>& group) {
   if (std::ranges::count(group, task.key, &DriveTask::key) == 0) group.push_back(task);
 }
 
-/// Drives what the look needs, for all cases together: those that see the same pictures share them.
-std::map<std::string, std::string> drive(const SuitePlan& plan, const SuiteArguments& arguments,
-                                         std::size_t look, std::vector<CaseRun>& runs, KeptDrives& kept) {
+/// What the look needs, for all cases together: those that see the same pictures share them.
+std::vector<std::vector<DriveTask>> drives_of_look(const SuitePlan& plan, std::size_t look,
+                                                   std::vector<CaseRun>& runs) {
   std::map<std::pair<std::string, std::uint64_t>, std::vector<DriveTask>> groups;
   for (CaseRun& run : runs) {
     if (run.is_done) continue;
@@ -138,7 +139,7 @@ std::map<std::string, std::string> drive(const SuitePlan& plan, const SuiteArgum
   }
   std::vector<std::vector<DriveTask>> tasks;
   for (auto& [pictures_and_seed, group] : groups) tasks.push_back(std::move(group));
-  return kept.complete_groups(tasks, arguments.run.jobs, "test " + plan.suite.name);
+  return tasks;
 }
 
 void judge_look(const SuitePlan& plan, const fs::path& out, std::size_t look,
@@ -152,12 +153,9 @@ void judge_look(const SuitePlan& plan, const fs::path& out, std::size_t look,
   run.is_done = is_last || !run.report.judgement || is_decided(run.report.judgement->comparison);
 }
 
-}  // namespace
-
-std::vector<CaseReport> run_suite(const SuitePlan& plan, const SuiteArguments& arguments, const fs::path& out,
-                                  KeptDrives& kept) {
+/// The cases before their first look.
+std::vector<CaseRun> runs_of(const SuitePlan& plan, const SuiteArguments& arguments) {
   std::vector<CaseRun> runs;
-  std::size_t looks = 1;
   for (const PlannedCase& planned : plan.cases) {
     CaseRun& run = runs.emplace_back(CaseRun{.planned = &planned, .experiment = planned.experiment});
     run.report = {.name = planned.what.name,
@@ -165,10 +163,31 @@ std::vector<CaseReport> run_suite(const SuitePlan& plan, const SuiteArguments& a
                   .not_compared = obstacle_to_comparison(planned, plan),
                   .gates = planned.gates.size()};
     plan_looks(arguments, run.report.not_compared, run);
-    looks = std::max(looks, run.looks.size());
   }
+  return runs;
+}
+
+std::string in_words(const SuitePlan& plan) {
+  return "test " + plan.suite.name;
+}
+
+}  // namespace
+
+std::optional<int> do_suite_shard(const SuitePlan& plan, const SuiteArguments& arguments,
+                                  const fs::path& out) {
+  if (!arguments.run.shards.is_used()) return {};
+  std::vector<CaseRun> runs = runs_of(plan, arguments);
+  return do_shard(out, arguments.run, {drives_of_look(plan, 0, runs), in_words(plan), plan.pixels, true});
+}
+
+std::vector<CaseReport> run_suite(const SuitePlan& plan, const SuiteArguments& arguments, const fs::path& out,
+                                  KeptDrives& kept) {
+  std::vector<CaseRun> runs = runs_of(plan, arguments);
+  std::size_t looks = 1;
+  for (const CaseRun& run : runs) looks = std::max(looks, run.looks.size());
   for (std::size_t look = 0; look < looks; ++look) {
-    const auto faults = drive(plan, arguments, look, runs, kept);
+    const auto faults =
+        kept.complete_groups(drives_of_look(plan, look, runs), arguments.run.jobs, in_words(plan));
     for (CaseRun& run : runs)
       if (!run.is_done) judge_look(plan, out, look, faults, kept, run);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "harness/commands/kept_drives.h"
@@ -9,6 +10,11 @@
 #include "harness/suite/case_report.h"
 
 namespace stereobench::harness {
+
+/// With --shard, or for `merge`: what do_shard does with the drives of the first look.
+/// @return the exit code, where the command is at its end
+std::optional<int> do_suite_shard(const SuitePlan& plan, const SuiteArguments& arguments,
+                                  const std::filesystem::path& out);
 
 /// Runs the cases of a plan into OUT/<case>/, as `run` does, and judges each. A case whose detector fails, or
 /// whose process dies, is an error of its own; the others go on. What was done is kept until

@@ -67,6 +67,7 @@ int test(const TestArguments& arguments) {
     say_what_would_be_done(plan, out);
     return kPassed;
   }
+  if (const auto end = do_suite_shard(plan, arguments.suite, out)) return *end;
   prepare_output_folder(out);
   fs::remove(out / kTestResult);  // of an earlier test: it is not the result of this one
   KeptDrives kept(out);
@@ -98,6 +99,7 @@ void add_options(CLI::App& command, TestArguments& arguments) {
       ->type_name("NAME|COMMAND");
   add_backend_option(command, suite.backend);
   add_seed_options(command, suite.run);
+  add_shard_options(command, suite.run.shards);
   command
       .add_flag("--until-decided", suite.until_decided,
                 "run 10, 20, 40, ... seeds of the baseline until no metric is inconclusive or one got worse")
@@ -133,6 +135,7 @@ void add_test_command(CLI::App& program, Action& action) {
       "Example: stereobench test assets/suites/quick.yaml --junit out/junit.xml");
   command->callback([arguments, command, &action] {
     arguments->suite.run.words = words_of(*command);
+    arguments->suite.run.shards.words = whole_words_of(*command);
     action = [arguments] { return test(*arguments); };
   });
 }

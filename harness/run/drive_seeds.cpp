@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "harness/io/answer_store.h"
 #include "harness/json/cbor.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/progress.h"
 #include "harness/process/standard_streams.h"
 #include "harness/run/seed_result.h"
+#include "harness/store/answer_store.h"
 
 namespace stereobench::harness {
 namespace {

@@ -52,6 +52,7 @@ struct DriveTask {
   renderer::Backend backend = renderer::Backend::kOsmesa;
   Detector detector = {};                   ///< who looks; empty: as the experiment says
   std::string key = {};                     ///< SHA-256 of all that the drive is made from; needed to keep it
+  std::string kind = {};                    ///< the same without its seeds: tasks of a kind cost the same
   std::optional<StreamSeeds> streams = {};  ///< where parts have seeds of their own; none: all have `seed`
   /// SHA-256 of all that the detector's answers are made from: drives that share it look once. Empty: each
   /// looks for itself.

@@ -6,6 +6,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/shard_run.h"
 #include "harness/commands/talk.h"
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
@@ -28,12 +29,14 @@ int run(const ScenarioArguments& arguments) {
                (out / "").string());
     return kPassed;
   }
-  prepare_output_folder(out);
-  KeptDrives kept(out);
   const std::string pixels = pixels_of(scenario, arguments.backend);
   const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kRunParts);
+  const std::string what = "run " + scenario.name;
+  if (const auto end = do_shard(out, arguments.run, {units_of(tasks), what, pixels})) return *end;
+  prepare_output_folder(out);
+  KeptDrives kept(out);
   RunFolder folder(out, arguments, experiment, pixels);
-  kept.complete(tasks, arguments.run.jobs, "run " + scenario.name,
+  kept.complete(tasks, arguments.run.jobs, what,
                 [&](std::size_t, const SeedResult& seed) { folder.add(seed); });
   const RunResult result = folder.finish();
   kept.discard();
@@ -53,6 +56,7 @@ void add_run_command(CLI::App& program, Action& action) {
       program.add_subcommand("run", "render a scenario, observe it, run the filters, score them");
   auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario_options(*command, *arguments);
+  add_shard_options(*command, arguments->run.shards);
   command->footer(
       "Each seed is rendered once and replayed for each filter. Writes run.json (metrics), steps.csv (every\n"
       "step), detections.csv.gz (every ball and detection), map.png, error.png, frames/ (detections drawn on "
@@ -64,6 +68,7 @@ void add_run_command(CLI::App& program, Action& action) {
       "camera.noise_sd_levels=4");
   command->callback([arguments, command, &action] {
     arguments->run.words = words_of(*command);
+    arguments->run.shards.words = whole_words_of(*command);
     action = [arguments] { return run(*arguments); };
   });
 }

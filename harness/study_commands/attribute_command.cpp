@@ -53,8 +53,10 @@ int attribute_errors(ScenarioArguments base) {
     for (const Oracle& oracle : oracles) fmt::print("  {}: {}\n", oracle.part, oracle.says);
     return kPassed;
   }
+  const std::string what = "attribute " + name;
+  if (const auto end = do_study_shard(base, cells, out, what)) return *end;
   prepare_output_folder(out);
-  StudyRuns runs(base, out, "attribute " + name);
+  StudyRuns runs(base, out, what);
   const auto metrics = runs.metrics(cells);
   const Attribution attribution =
       attribution_of(name, experiment.seeds, oracles, experiment.filters, metrics);
@@ -73,6 +75,7 @@ void add_attribute_command(CLI::App& program, Action& action) {
       program.add_subcommand("attribute", "say whose the error is: which part of the chain costs how much");
   auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario_options(*command, *arguments);
+  add_shard_options(*command, arguments->run.shards);
   command->footer(
       "Parts of the chain are made perfect, in all combinations, on the same seeds: the noise of the image,\n"
       "timing, what is believed of the rig, detection, identities, odometry, and the estimator (the bound).\n"
@@ -81,6 +84,7 @@ void add_attribute_command(CLI::App& program, Action& action) {
       "Example: stereobench attribute assets/scenarios/ball_circle.yaml --seeds 0..9 --filters smoother");
   command->callback([arguments, command, &action] {
     arguments->run.words = words_of(*command);
+    arguments->run.shards.words = whole_words_of(*command);
     action = [arguments] { return attribute_errors(*arguments); };
   });
 }

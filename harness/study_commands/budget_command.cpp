@@ -7,9 +7,11 @@
 #include "harness/budget/budget_picture.h"
 #include "harness/budget/budget_report.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shard_run.h"
 #include "harness/commands/talk.h"
 #include "harness/experiment/key_kind.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/sha256.h"
 #include "harness/result_pages/run_page.h"
 #include "harness/run/run_output.h"
 #include "harness/study_commands/study_metric.h"
@@ -67,15 +69,48 @@ Lines lines_at(const BudgetMix& mix, double level) {
   return lines;
 }
 
+/// @param too_many see BudgetQuestion
 BudgetAnswer answer_of(const BudgetMix& mix, const BudgetStudy& study, const ScenarioArguments& base,
-                       StudyRuns& runs) {
+                       StudyRuns& runs, std::optional<long> too_many = {}) {
   const std::vector<double> levels = budget_levels(mix, study.tolerance);
   runs.keep_sights(share_sight(base, lines_at(mix, levels.front()), lines_at(mix, levels.back())));
   const MetricAtLevel run = [&](double level, const std::vector<std::uint64_t>& seeds) {
     const auto metrics = runs.metrics({{lines_at(mix, level), {seeds.begin(), seeds.end()}}});
     return values_of_metric(metrics.front(), study.limit.metric, seeds.size());
   };
-  return {mix, find_budget({levels, study.seeds, study.limit, study.wanted}, run)};
+  return {mix, find_budget({levels, study.seeds, study.limit, study.wanted, too_many}, run)};
+}
+
+/// With --shard, or for `merge`: what do_shard does with seeds. A shard looks for the level at which too many
+/// of its own seeds fail; the search over all seeds, which is left to `merge`, finds many of its runs done.
+std::optional<int> do_budget_shard(const std::filesystem::path& out, const ScenarioArguments& base,
+                                   const BudgetStudy& study, const std::vector<BudgetMix>& mixes) {
+  if (!base.run.shards.is_used()) return {};
+  const Experiment experiment = read_experiment(base);
+  ShardedWork work = {.what = "budget " + study.scenario,
+                      .plan = {},
+                      .pixels = pixels_of(experiment.scenario, base.backend),
+                      .store = kDrivesFile,
+                      .kinds = {},
+                      .work = {}};
+  Sha256 plan;
+  for (const DriveTask& task : drive_tasks(base, {}, experiment, work.pixels, {})) {
+    plan.add(task.key);
+    work.kinds.push_back({task.kind});
+  }
+  work.plan = plan.hex();
+  work.work = [&](const std::vector<std::size_t>& units) {
+    BudgetStudy own = study;
+    own.seeds.clear();
+    for (const std::size_t unit : units) own.seeds.push_back(study.seeds[unit]);
+    if (own.seeds.empty()) return DriveCosts{};
+    const long all = std::ssize(study.seeds), mine = std::ssize(own.seeds);
+    const long too_many = (order_of_seeds(all, study.wanted) * mine + all - 1) / all;
+    StudyRuns runs(base, out, work.what);
+    for (const BudgetMix& mix : mixes) answer_of(mix, own, base, runs, too_many);
+    return DriveCosts{};
+  };
+  return do_shard(out, base.run, work);
 }
 
 void write_budget(const std::filesystem::path& out, const BudgetStudy& study, const ScenarioArguments& base,
@@ -120,6 +155,7 @@ int find_budgets(BudgetArguments arguments) {
     fmt::print("results: {}\n", (out / "").string());
     return kPassed;
   }
+  if (const auto end = do_budget_shard(out, base, study, mixes)) return *end;
   prepare_output_folder(out);
   StudyRuns runs(base, out, "budget " + study.scenario);
   for (const BudgetMix& mix : mixes) study.answers.push_back(answer_of(mix, study, base, runs));
@@ -167,6 +203,7 @@ void add_budget_command(CLI::App& program, Action& action) {
       program.add_subcommand("budget", "find how large a fault may be for a metric to hold its limit");
   auto arguments = std::make_shared<BudgetArguments>();
   add_scenario_options(*command, arguments->scenario);
+  add_shard_options(*command, arguments->scenario.run.shards);
   add_question(*command, *arguments);
   command->footer(
       "The same seeds are run at every level, as few of them as the answer needs. Without --seeds there are\n"
@@ -178,6 +215,7 @@ void add_budget_command(CLI::App& program, Action& action) {
   command->callback([arguments, command, &action] {
     if (!arguments->at_most && !arguments->at_least) throw CLI::RequiredError("--limit or --at-least");
     arguments->scenario.run.words = words_of(*command);
+    arguments->scenario.run.shards.words = whole_words_of(*command);
     action = [arguments] { return find_budgets(*arguments); };
   });
 }

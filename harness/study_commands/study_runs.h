@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct StudyCell {
   Lines lines;
   std::vector<StreamSeeds> seeds;
 };
+
+/// With --shard, or for `merge`: what do_shard does, for a study whose cells are all known from the start.
+/// @return the exit code, where the command is at its end
+std::optional<int> do_study_shard(const ScenarioArguments& base, const std::vector<StudyCell>& cells,
+                                  const std::filesystem::path& out, const std::string& what);
 
 /// Drives a scenario with changed lines and keeps what has ended, so that a study that is killed goes on.
 /// Cells that differ in nothing that a detector sees look once, also those that are asked for later.

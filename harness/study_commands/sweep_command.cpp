@@ -8,6 +8,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
+#include "harness/commands/shard_run.h"
 #include "harness/commands/talk.h"
 #include "harness/experiment/key_kind.h"
 #include "harness/io/atomic_file.h"
@@ -104,24 +105,34 @@ std::string pixels_of_any(const CellPlans& plans, renderer::Backend backend) {
   return {};
 }
 
+/// Gives cells their tasks.
+/// @param keeps_sights whether cells that come later are the same to the detector
+/// @return the tasks of all cells, one cell after the other
+std::vector<DriveTask> plan_drives(const ScenarioArguments& base, const std::vector<CellPlan*>& plans,
+                                   const std::string& pixels, bool keeps_sights) {
+  std::vector<DriveTask> tasks;
+  for (CellPlan* plan : plans) {
+    plan->tasks = drive_tasks(base, plan->overrides, plan->experiment, pixels, {});
+    tasks.insert(tasks.end(), plan->tasks.begin(), plan->tasks.end());
+  }
+  if (!keeps_sights) look_once(tasks);
+  return tasks;
+}
+
 /// Runs cells, and puts each together as the results of its seeds come.
 class CellRuns {
  public:
-  CellRuns(const ScenarioArguments& base, const std::filesystem::path& out, std::string name,
-           std::string pixels)
-      : base_(base), name_(std::move(name)), pixels_(std::move(pixels)), kept_(out) {}
+  CellRuns(const ScenarioArguments& base, const std::filesystem::path& out, std::string name)
+      : base_(base), name_(std::move(name)), kept_(out) {}
 
-  /// @param plans of the cells, which are given their tasks and what they are made from
-  /// @param keeps_sights whether cells that come later are the same to the detector
+  /// @param plans of the cells
+  /// @param tasks of plan_drives for these plans
+  /// @param pixels as of pixels_of
   /// @return the cells in the order of the plans
-  std::vector<SweepCell> run(const std::vector<CellPlan*>& plans, bool keeps_sights) {
-    std::vector<DriveTask> tasks;
-    for (CellPlan* plan : plans) {
-      plan->made_from = provenance_of(base_, plan->overrides, plan->experiment, pixels_);
-      plan->tasks = drive_tasks(base_, plan->overrides, plan->experiment, pixels_, {});
-      tasks.insert(tasks.end(), plan->tasks.begin(), plan->tasks.end());
-    }
-    if (!keeps_sights) look_once(tasks);
+  std::vector<SweepCell> run(const std::vector<CellPlan*>& plans, const std::vector<DriveTask>& tasks,
+                             const std::string& pixels) {
+    for (CellPlan* plan : plans)
+      plan->made_from = provenance_of(base_, plan->overrides, plan->experiment, pixels);
     drives_ += tasks.size();
     std::vector<SweepCell> cells;
     std::optional<CellTally> tally;
@@ -139,7 +150,6 @@ class CellRuns {
   }
 
   nlohmann::ordered_json timing() const { return timing_json(timing_, drives_); }
-  const std::string& pixels() const { return pixels_; }
   /// The results are written.
   void discard() { kept_.discard(); }
 
@@ -154,15 +164,14 @@ class CellRuns {
 
   const ScenarioArguments& base_;
   std::string name_;
-  std::string pixels_;
   KeptDrives kept_;
   Timing timing_;
   std::size_t drives_ = 0;
 };
 
 /// Adds values where curves bend, one after the other.
-void refine(const SweepArguments& arguments, CellPlans& plans, CellRuns& runs, bool keeps_sights,
-            SweepResult& sweep) {
+void refine(const SweepArguments& arguments, CellPlans& plans, CellRuns& runs, const std::string& pixels,
+            bool keeps_sights, SweepResult& sweep) {
   Variation& variation = sweep.variations.front();
   for (int i = 0; i < arguments.adaptive; ++i) {
     const auto value = next_value(sweep, takes_whole_numbers(variation.name()));
@@ -175,7 +184,8 @@ void refine(const SweepArguments& arguments, CellPlans& plans, CellRuns& runs, b
     const std::vector<double> numbers = numbers_of(variation);
     const auto place = std::ranges::upper_bound(numbers, number) - numbers.begin();
     plans.push_back(plan_of(arguments, sweep.variations, {*value}));
-    sweep.cells.insert(sweep.cells.begin() + place, runs.run({&plans.back()}, keeps_sights).front());
+    const auto tasks = plan_drives(arguments.scenario, {&plans.back()}, pixels, keeps_sights);
+    sweep.cells.insert(sweep.cells.begin() + place, runs.run({&plans.back()}, tasks, pixels).front());
     variation.values.insert(variation.values.begin() + place, *value);
   }
 }
@@ -217,18 +227,21 @@ int run_sweep(const SweepArguments& arguments) {
     fmt::print("{} cells; results: {}\n", plans.size(), (out / "").string());
     return kPassed;
   }
-  prepare_output_folder(out);
-  CellRuns runs(base, out, sweep.name, pixels_of_any(plans, base.backend));
+  const std::string pixels = pixels_of_any(plans, base.backend);
   std::vector<CellPlan*> all;
   for (CellPlan& plan : plans) all.push_back(&plan);
   const bool keeps_sights =
       arguments.adaptive > 0 && all.size() > 1 && share_sight(base, plans[0].overrides, plans[1].overrides);
-  sweep.cells = runs.run(all, keeps_sights);
-  refine(arguments, plans, runs, keeps_sights, sweep);
+  const std::vector<DriveTask> tasks = plan_drives(base, all, pixels, keeps_sights);
+  if (const auto end = do_shard(out, base.run, {units_of(tasks), "sweep " + sweep.name, pixels})) return *end;
+  prepare_output_folder(out);
+  CellRuns runs(base, out, sweep.name);
+  sweep.cells = runs.run(all, tasks, pixels);
+  refine(arguments, plans, runs, pixels, keeps_sights, sweep);
   if (const auto response = response_of(sweep)) sweep.response = fit_response(*response);
   const auto [gate_lines, broken] = gates_of_cells(sweep, plans);
   write_file_atomically(out / kReport, page_html(sweep_page(sweep, base.run.words, gate_lines)));
-  write_sweep(out, sweep, runs.timing(), provenance_of(base, {}, plans.front().experiment, runs.pixels()));
+  write_sweep(out, sweep, runs.timing(), provenance_of(base, {}, plans.front().experiment, pixels));
   runs.discard();
   fmt::print("{}: {} cells\n\n{}\n{}\n", sweep.name, plans.size(), kIntervalNote, sweep_table(sweep));
   say_gates(gate_lines, broken > 0);
@@ -242,6 +255,7 @@ void add_sweep_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("sweep", "run a scenario over a grid of values, e.g. of noise");
   auto arguments = std::make_shared<SweepArguments>();
   add_scenario_options(*command, arguments->scenario);
+  add_shard_options(*command, arguments->scenario.run.shards);
   repeatable(command->add_option(
                  "--vary", arguments->variations,
                  "a line of the scenario and its values, e.g. --vary camera.noise_sd_levels=0,1,2,4,8; may "
@@ -271,6 +285,7 @@ void add_sweep_command(CLI::App& program, Action& action) {
       "--seeds 0..9");
   command->callback([arguments, command, &action] {
     arguments->scenario.run.words = words_of(*command);
+    arguments->scenario.run.shards.words = whole_words_of(*command);
     action = [arguments] { return run_sweep(*arguments); };
   });
 }

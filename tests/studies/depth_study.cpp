@@ -105,8 +105,9 @@ harness::Experiment cameras(double radius_sd_m) {
 std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<std::uint64_t>& seeds,
                                           int jobs) {
   std::vector<harness::CalibrationSample> samples;
+  const harness::Experiment experiment = cameras(radius_sd_m);
   for (const harness::CalibrationTake& take : harness::take_calibration_scenes(
-           cameras(radius_sd_m), {kDepths, true}, seeds, renderer::Backend::kOsmesa, jobs))
+           {experiment, {kDepths, true}, renderer::Backend::kOsmesa, seeds}, jobs))
     samples.insert(samples.end(), take.samples.begin(), take.samples.end());
   const harness::FittedNoise as_stated;
   return harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins);

@@ -114,19 +114,6 @@ TEST(CollectionFile, SaysWhatIsWrongWhere) {
   }
 }
 
-// Law: the shards of any count have each drive once.
-TEST(Shard, HasEachDriveOnce) {
-  for (const std::size_t count : {1U, 2U, 3U, 7U})
-    for (std::size_t drive = 0; drive < 20; ++drive) {
-      std::size_t owners = 0;
-      for (std::size_t i = 1; i <= count; ++i)
-        owners += parse_shard(std::to_string(i) + "/" + std::to_string(count)).has(drive) ? 1U : 0U;
-      EXPECT_EQ(owners, 1U);
-    }
-  for (const char* bad : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "a/b", ""})
-    EXPECT_THROW(parse_shard(bad), std::runtime_error) << bad;
-}
-
 TEST(CollectionFile, ChangesPictures) {
   const std::string rest = "\ndrives: [{name: one, scenario: one.yaml, seeds: {train: 0}}]\n";
   const WrittenCollection written(

@@ -126,9 +126,9 @@ TEST(KeptDrives, AreTakenOverByTheSameScenarioAlone) {
     return copy;
   };
   EXPECT_THAT(run_field(copy_of_out("same"), {"--seeds", "0"}).err,
-              HasSubstr("1 of 1 drives are taken over"));
+              HasSubstr("1 of 1 drives were done before"));
   EXPECT_THAT(run_field(copy_of_out("gates"), {"--seeds", "0,100", "--set", "gates=[]"}).err,
-              HasSubstr("1 of 2 drives are taken over"));
+              HasSubstr("1 of 2 drives were done before"));
   EXPECT_EQ(run_field(copy_of_out("seed"), {"--seeds", "100"}).err, "");
   EXPECT_EQ(run_field(copy_of_out("line"), {"--seeds", "0", "--set", "oracle.range_sd_m=0.31"}).err, "");
   EXPECT_EQ(run_field(copy_of_out("filter"), {"--seeds", "0", "--filters", "ekf"}).err, "");

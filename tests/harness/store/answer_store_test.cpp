@@ -1,4 +1,4 @@
-#include "harness/io/answer_store.h"
+#include "harness/store/answer_store.h"
 
 #include <fstream>
 

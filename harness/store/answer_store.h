@@ -1,13 +1,16 @@
 /// Results of tasks on disk, so that a program that is killed loses none that was finished.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 
+#include "harness/store/answer_records.h"
+
 namespace stereobench::harness {
+
+/// The store in the folder of a run, a study or a shard: results of drives that were finished.
+inline constexpr const char* kDrivesFile = "unfinished.drives";
 
 /// One file of answers that only grows. Each answer stands under a key, the SHA-256 of all that it was made
 /// from, with its size and SHA-256; it is synced before append() returns. In memory there are the keys alone.
@@ -24,30 +27,49 @@ class AnswerStore {
   AnswerStore(const AnswerStore&) = delete;
   AnswerStore& operator=(const AnswerStore&) = delete;
 
-  std::size_t size() const { return places_.size(); }
-  bool holds(const std::string& key) const { return places_.contains(key); }
+  std::size_t size() const { return index_.places.size(); }
+  bool holds(const std::string& key) const { return index_.places.contains(key); }
   /// The answer of a key.
   /// @throws std::out_of_range when there is none; std::runtime_error when the file cannot be read
   std::string read(const std::string& key) const;
   /// Adds an answer. @param key 64 hexadecimal digits
   /// @throws std::runtime_error when it cannot be written; the file is then as it was before
   void append(const std::string& key, std::string_view answer);
+  /// Adds an answer that a power cut may take away again until sync().
+  void append_unsynced(const std::string& key, std::string_view answer);
+  void sync();
   /// Deletes the file: its answers are no longer needed.
   void remove();
 
  private:
-  /// Where an answer stands in the file.
-  struct Place {
-    std::uint64_t offset;
-    std::uint64_t bytes;
-  };
-  void index();
   void write_all(std::string_view bytes);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  std::uint64_t end_ = 0;  ///< of the last whole record
-  std::map<std::string, Place> places_;
+  AnswerIndex index_;
+};
+
+/// Whether another process has the file open to write to it. @return false where there is no such file
+bool is_in_use(const std::filesystem::path& file);
+
+/// A file of answers that is only read, and left as it is.
+class AnswerReader {
+ public:
+  /// @throws std::runtime_error when it cannot be read, or another process is writing to it
+  explicit AnswerReader(std::filesystem::path file);
+  ~AnswerReader();
+  AnswerReader(const AnswerReader&) = delete;
+  AnswerReader& operator=(const AnswerReader&) = delete;
+
+  const std::filesystem::path& file() const { return file_; }
+  const AnswerIndex& index() const { return index_; }
+  /// The answer of a key. @throws as AnswerStore::read
+  std::string read(const std::string& key) const;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  AnswerIndex index_;
 };
 
 }  // namespace stereobench::harness
