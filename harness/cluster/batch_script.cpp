@@ -13,7 +13,7 @@ using Words = std::vector<std::string>;
 
 /// What Slurm reads before the first command. Output is appended: a task that is put back into the queue goes
 /// on where it was.
-std::string head_of(const ClusterJob& job, const std::string& name, const std::string& log, int cpus) {
+std::string head_of(const ClusterJob& job, const std::string& name, const std::string& log) {
   const SlurmWishes& slurm = job.slurm;
   std::string text = "#!/bin/bash\n";
   const auto add = [&](const std::string& option, const std::string& value) {
@@ -25,7 +25,7 @@ std::string head_of(const ClusterJob& job, const std::string& name, const std::s
   add("account", slurm.account);
   add("time", slurm.time);
   add("mem", slurm.memory);
-  add("cpus-per-task", std::to_string(cpus));
+  add("cpus-per-task", std::to_string(slurm.cpus));
   text += "#SBATCH --open-mode=append\n#SBATCH --requeue\n";
   for (const std::string& option : slurm.options) text += "#SBATCH " + option + "\n";
   return text + fmt::format("cd {} || exit 2\n", shell_word(job.folder().string()));
@@ -42,25 +42,20 @@ std::string line_of(const ClusterJob& job, const Words& words) {
 }  // namespace
 
 std::string measure_script(const ClusterJob& job) {
-  return head_of(job, "measure", "0.txt", job.slurm.cpus) +
-         line_of(job, shard_words(job, "0", job.shard_folder(0).string())) + "\n";
+  return head_of(job, "measure", "measure.txt") + line_of(job, shard_words(job, "0")) + " --out " +
+         shell_word(job.shard_folder(0).string()) + "\n";
 }
 
 std::string shards_script(const ClusterJob& job) {
-  const std::string folder = (job.out / "shards").string();
-  std::string line = line_of(job, shard_words(job, "auto", "FOLDER_OF_SHARD"));
-  const std::string mark = "FOLDER_OF_SHARD";
-  line.replace(line.find(mark), mark.size(), shell_word(folder) + "/$((SLURM_ARRAY_TASK_ID + 1))");
-  return head_of(job, "shards", "task_%a.txt", job.slurm.cpus) + line + "\n";
+  return head_of(job, "shards", "task_%a.txt") + line_of(job, shard_words(job, "auto")) + " --out " +
+         shell_word((job.out / "shards").string()) + "/$((SLURM_ARRAY_TASK_ID + 1))\n";
 }
 
 std::string merge_script(const ClusterJob& job) {
-  Words words = {job.program, "merge"};
-  for (std::size_t number = job.first_shard(); number <= job.shards; ++number)
-    words.push_back(job.shard_folder(number).string());
-  words.insert(words.end(),
-               {"--out", job.result_folder().string(), "--jobs", std::to_string(job.slurm.cpus)});
-  return head_of(job, "merge", "merge.txt", job.slurm.cpus) + line_of(job, words) + "\n";
+  Words words = merge_words(job);
+  words.insert(words.begin(), job.program);
+  words.insert(words.end(), {"--jobs", std::to_string(job.slurm.cpus)});
+  return head_of(job, "merge", "merge.txt") + line_of(job, words) + "\n";
 }
 
 }  // namespace stereobench::harness

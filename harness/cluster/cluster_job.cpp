@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "worlds/yaml/fields.h"
+#include "worlds/yaml/plain_name.h"
 #include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::harness {
@@ -21,7 +21,6 @@ using worlds::text;
 using worlds::whole;
 using worlds::YamlValue;
 
-constexpr std::string_view kNamePattern = "^[A-Za-z0-9_-]+$";
 constexpr std::size_t kMostWords = 10'000;
 constexpr int kMostShards = 1'000'000;
 
@@ -50,14 +49,6 @@ const Fields<SlurmWishes>& slurm_keys() {
   return keys;
 }
 
-/// It becomes the name of a folder, and of Slurm's jobs.
-void read_name_of_job(const YamlValue& value, ClusterJob& job) {
-  job.name = value.text();
-  const bool is_plain = std::ranges::all_of(
-      job.name, [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-'); });
-  if (!is_plain || job.name.empty()) value.fail("expected letters, digits, _ and -");
-}
-
 void read_command(const YamlValue& value, ClusterJob& job) {
   for (const YamlValue& word : value.list(1, kMostWords)) {
     job.command.push_back(word.text());
@@ -71,9 +62,10 @@ void read_command(const YamlValue& value, ClusterJob& job) {
 
 const Fields<ClusterJob>& job_keys() {
   static const Fields<ClusterJob> keys({
-      text("job", "Its name: letters, digits, _ and -.", kNamePattern)
+      text("job", "Its name: letters, digits, _ and -.", worlds::kPlainNamePattern)
           .needed()
-          .by<ClusterJob>(read_name_of_job),
+          .by<ClusterJob>(
+              [](const YamlValue& value, ClusterJob& job) { job.name = worlds::plain_name(value); }),
       text("command", "Words behind `stereobench`; paths in them are relative to this file.")
           .list(1, kMostWords)
           .needed()
@@ -118,14 +110,21 @@ ClusterJob read_cluster_job(const std::filesystem::path& file) {
   return job;
 }
 
-std::vector<std::string> shard_words(const ClusterJob& job, const std::string& number,
-                                     const std::string& folder) {
+std::vector<std::string> shard_words(const ClusterJob& job, const std::string& number) {
   std::vector<std::string> words = {job.program};
   words.insert(words.end(), job.command.begin(), job.command.end());
-  words.insert(words.end(), {"--shard", fmt::format("{}/{}", number, job.shards), "--out", folder, "--jobs",
+  words.insert(words.end(), {"--shard", fmt::format("{}/{}", number, job.shards), "--jobs",
                              std::to_string(job.slurm.cpus)});
   if (job.overlap > 0) words.insert(words.end(), {"--shard-overlap", std::to_string(job.overlap)});
   if (job.measures && number != "0") words.insert(words.end(), {"--shard-costs", job.costs().string()});
+  return words;
+}
+
+std::vector<std::string> merge_words(const ClusterJob& job) {
+  std::vector<std::string> words = {"merge"};
+  for (std::size_t number = job.first_shard(); number <= job.shards; ++number)
+    words.push_back(job.shard_folder(number).string());
+  words.insert(words.end(), {"--out", job.result_folder().string()});
   return words;
 }
 

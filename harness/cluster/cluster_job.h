@@ -44,10 +44,11 @@ struct ClusterJob {
 ///   unknown or missing key
 ClusterJob read_cluster_job(const std::filesystem::path& file);
 
-/// The words of a shard's command line, the program's name first.
+/// The words of a shard's command line but for --out, the program's name first.
 /// @param number as --shard takes it: "7", "auto"
-/// @param folder of its results
-std::vector<std::string> shard_words(const ClusterJob& job, const std::string& number,
-                                     const std::string& folder);
+std::vector<std::string> shard_words(const ClusterJob& job, const std::string& number);
+
+/// The words of the command line that joins all shards, behind the program's name.
+std::vector<std::string> merge_words(const ClusterJob& job);
 
 }  // namespace stereobench::harness

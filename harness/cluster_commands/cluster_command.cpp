@@ -32,9 +32,9 @@ ClusterJob job_of(const fs::path& file) {
 int plan(const ClusterJob& job, const Call& call) {
   const fs::path here = fs::current_path();
   fs::current_path(job.folder());
-  Words words = shard_words(job, "1", job.shard_folder(1).string());
+  Words words = shard_words(job, "1");
   words.front() = "stereobench";
-  words.push_back("--dry-run");
+  words.insert(words.end(), {"--out", job.shard_folder(1).string(), "--dry-run"});
   if (const int outcome = call(words); outcome != kPassed) return outcome;
   fs::current_path(here);
   prepare_output_folder(job.out / "logs");
@@ -126,10 +126,8 @@ int resume(const ClusterJob& job) {
 }
 
 int merge_job(const ClusterJob& job, const Call& call) {
-  Words words = {"stereobench", "merge"};
-  for (std::size_t number = job.first_shard(); number <= job.shards; ++number)
-    words.push_back(job.shard_folder(number).string());
-  words.insert(words.end(), {"--out", job.result_folder().string()});
+  Words words = merge_words(job);
+  words.insert(words.begin(), "stereobench");
   return call(words);
 }
 

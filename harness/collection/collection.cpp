@@ -10,6 +10,7 @@
 #include "harness/collection/picture_keys.h"
 #include "harness/experiment/seeds.h"
 #include "worlds/yaml/fields.h"
+#include "worlds/yaml/plain_name.h"
 #include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::harness {
@@ -23,25 +24,15 @@ using worlds::text;
 using worlds::YamlMap;
 using worlds::YamlValue;
 
-constexpr std::string_view kFolderPattern = "^[A-Za-z0-9_-]+$";
 constexpr std::string_view kDatePattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}$";
 constexpr std::size_t kMostDrives = 1000;
 
-/// Names become names of folders.
-void read_name(const YamlValue& value, std::string& name) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  name = value.text();
-  if (!std::ranges::all_of(name, is_plain)) value.fail("expected letters, digits, _ and -");
-}
-
 template <class Struct>
 Field<Struct> name_key(std::string_view key, std::string_view says, std::string Struct::*member) {
-  return text(key, says, kFolderPattern)
+  return text(key, says, worlds::kPlainNamePattern)
       .needed()
       .template by<Struct>(
-          [member](const YamlValue& value, Struct& object) { read_name(value, object.*member); });
+          [member](const YamlValue& value, Struct& object) { object.*member = worlds::plain_name(value); });
 }
 
 void read_date(const YamlValue& value, CollectionAbout& about) {

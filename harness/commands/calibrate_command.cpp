@@ -58,18 +58,7 @@ std::vector<std::string> keys_of_takes(const CalibrateArguments& arguments, cons
 std::optional<int> do_calibration_shard(const std::filesystem::path& out, const RunArguments& run,
                                         const CalibrationLook& look, const std::vector<std::string>& keys,
                                         const std::string& pixels) {
-  ShardedWork work = {.what = "calibrate " + look.experiment.scenario.name,
-                      .plan = {},
-                      .pixels = pixels,
-                      .store = kDrivesFile,
-                      .kinds = {},
-                      .work = {}};
-  Sha256 plan;
-  for (const std::string& key : keys) {
-    plan.add(key);
-    work.kinds.push_back({std::string()});
-  }
-  work.plan = plan.hex();
+  ShardedWork work = even_work("calibrate " + look.experiment.scenario.name, pixels, kDrivesFile, keys);
   work.work = [&](const std::vector<std::size_t>& units) {
     AnswerStore store(out / kDrivesFile);
     CalibrationLook own = look;

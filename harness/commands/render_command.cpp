@@ -6,7 +6,6 @@
 #include "harness/commands/kept_drives.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/shard_run.h"
-#include "harness/io/sha256.h"
 #include "harness/process/interruption.h"
 
 namespace stereobench::harness {
@@ -53,15 +52,12 @@ void render_and_say(const std::vector<RenderTask>& tasks, int jobs) {
 /// With --shard, or for `merge`: what do_shard does with drives of which each is a unit.
 std::optional<int> do_render_shard(const std::filesystem::path& out, const RunArguments& run,
                                    const std::vector<RenderTask>& tasks, const std::string& pixels) {
-  ShardedWork work = {
-      .what = in_words(tasks), .plan = {}, .pixels = pixels, .store = {}, .kinds = {}, .work = {}};
-  Sha256 plan;
-  plan.add(pixels);
+  std::vector<std::string> keys;
   for (const RenderTask& task : tasks) {
-    for (const WantedDataset& wanted : task.datasets) plan.add(wanted.identity.dump());
-    work.kinds.push_back({std::string()});
+    std::string& key = keys.emplace_back(pixels);
+    for (const WantedDataset& wanted : task.datasets) key += wanted.identity.dump();
   }
-  work.plan = plan.hex();
+  ShardedWork work = even_work(in_words(tasks), pixels, {}, keys);
   work.work = [&](const std::vector<std::size_t>& units) {
     std::vector<RenderTask> chosen;
     for (const std::size_t unit : units) chosen.push_back(tasks[unit]);

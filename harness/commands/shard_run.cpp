@@ -115,6 +115,18 @@ std::optional<int> do_shard(const std::filesystem::path& out, const RunArguments
   return kPassed;
 }
 
+ShardedWork even_work(std::string what, std::string pixels, std::string store,
+                      const std::vector<std::string>& keys) {
+  Sha256 plan;
+  for (const std::string& key : keys) plan.add(key);
+  return {.what = std::move(what),
+          .plan = plan.hex(),
+          .pixels = std::move(pixels),
+          .store = std::move(store),
+          .kinds = std::vector<std::vector<std::string>>(keys.size(), {std::string()}),
+          .work = {}};
+}
+
 std::optional<int> do_shard(const std::filesystem::path& out, const RunArguments& run,
                             const DriveWork& work) {
   ShardedWork sharded = {

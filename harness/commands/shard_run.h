@@ -34,6 +34,12 @@ struct ShardedWork {
 std::optional<int> do_shard(const std::filesystem::path& out, const RunArguments& run,
                             const ShardedWork& work);
 
+/// Work in units that cost alike.
+/// @param keys of the units: all that they are made from
+/// @return the work without ShardedWork::work
+ShardedWork even_work(std::string what, std::string pixels, std::string store,
+                      const std::vector<std::string>& keys);
+
 /// Drives that a command needs, and which of them stay together.
 struct DriveWork {
   std::vector<std::vector<DriveTask>> units;  ///< drives of a unit share pictures; each has its key

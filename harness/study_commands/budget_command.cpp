@@ -11,7 +11,6 @@
 #include "harness/commands/talk.h"
 #include "harness/experiment/key_kind.h"
 #include "harness/io/atomic_file.h"
-#include "harness/io/sha256.h"
 #include "harness/result_pages/run_page.h"
 #include "harness/run/run_output.h"
 #include "harness/study_commands/study_metric.h"
@@ -87,18 +86,10 @@ std::optional<int> do_budget_shard(const std::filesystem::path& out, const Scena
                                    const BudgetStudy& study, const std::vector<BudgetMix>& mixes) {
   if (!base.run.shards.is_used()) return {};
   const Experiment experiment = read_experiment(base);
-  ShardedWork work = {.what = "budget " + study.scenario,
-                      .plan = {},
-                      .pixels = pixels_of(experiment.scenario, base.backend),
-                      .store = kDrivesFile,
-                      .kinds = {},
-                      .work = {}};
-  Sha256 plan;
-  for (const DriveTask& task : drive_tasks(base, {}, experiment, work.pixels, {})) {
-    plan.add(task.key);
-    work.kinds.push_back({task.kind});
-  }
-  work.plan = plan.hex();
+  const std::string pixels = pixels_of(experiment.scenario, base.backend);
+  std::vector<std::string> keys;
+  for (const DriveTask& task : drive_tasks(base, {}, experiment, pixels, {})) keys.push_back(task.key);
+  ShardedWork work = even_work("budget " + study.scenario, pixels, kDrivesFile, keys);
   work.work = [&](const std::vector<std::size_t>& units) {
     BudgetStudy own = study;
     own.seeds.clear();

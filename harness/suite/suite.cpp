@@ -10,6 +10,7 @@
 #include "harness/experiment/seeds.h"
 #include "slam/filter_registry.h"
 #include "worlds/yaml/fields.h"
+#include "worlds/yaml/plain_name.h"
 #include "worlds/yaml/yaml_document.h"
 
 namespace stereobench::harness {
@@ -24,7 +25,6 @@ using worlds::whole;
 using worlds::YamlMap;
 using worlds::YamlValue;
 
-constexpr std::string_view kNamePattern = "^[A-Za-z0-9_-]+$";
 constexpr std::size_t kMostEntries = 1000;
 constexpr double kMostPercent = 1e6;
 constexpr double kMostChange = 1e12;
@@ -100,7 +100,7 @@ void read_case_filters(const YamlValue& value, WrittenCase& written) {
 
 std::vector<Field<WrittenCase>> what_is_run() {
   return {
-      text("name", "Of the case: letters, digits, _ and -.", kNamePattern)
+      text("name", "Of the case: letters, digits, _ and -.", worlds::kPlainNamePattern)
           .needed()
           .fills(&WrittenCase::what, &SuiteCase::name),
       text("like", "The preset whose keys it has, too; one that stands above.").fills(&WrittenCase::like),
@@ -153,14 +153,6 @@ const Fields<WrittenCase>& case_keys() {
   return keys;
 }
 
-/// Names become names of files.
-void check_name(const YamlValue& value, const std::string& name) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  if (!std::ranges::all_of(name, is_plain)) value.fail("expected letters, digits, _ and -");
-}
-
 using Presets = std::map<std::string, SuiteCase>;
 
 SuiteCase read_case(const YamlValue& value, const Presets& presets) {
@@ -171,7 +163,7 @@ SuiteCase read_case(const YamlValue& value, const Presets& presets) {
     written.what = preset->second;
   }
   case_keys().read_into(value, written);
-  check_name(YamlMap(value, case_keys()).at("name"), written.what.name);
+  written.what.name = worlds::plain_name(YamlMap(value, case_keys()).at("name"));
   return written.what;
 }
 
@@ -188,7 +180,7 @@ void read_cases(const YamlValue& list, const Presets& presets, Suite& suite) {
 /// Presets and cases are read by hand, one after the other.
 const Fields<Suite>& suite_keys() {
   static const Fields<Suite> keys({
-      text("suite", "Its name.", kNamePattern).needed().fills(&Suite::name),
+      text("suite", "Its name.", worlds::kPlainNamePattern).needed().fills(&Suite::name),
       number("alpha", {1e-4, 0.5}, "Chance of any false alarm, all cases together.").fills(&Suite::alpha),
       group("presets", case_keys(), "Keys that several cases have in common.").list(0, kMostEntries),
       group("cases", case_keys(), "What is run.").list(1, kMostEntries).needed(),
@@ -205,7 +197,7 @@ Suite read_suite(const std::filesystem::path& file) {
   Suite suite = suite_keys().read(top);
   suite.file = file;
   const YamlMap map(top, suite_keys());
-  check_name(map.at("suite"), suite.name);
+  suite.name = worlds::plain_name(map.at("suite"));
   Presets presets;
   if (const auto list = map.find("presets"))
     for (const YamlValue& entry : list->list(0, kMostEntries)) {

@@ -89,7 +89,12 @@ class Slurm:
         return int((self.folder / f"{daemon}.pid").read_text())
 
     def kill(self, daemon):
-        """As the kernel does when memory is short."""
+        """As the kernel does when memory is short. The controller is killed when it has just written down its jobs,
+        which it does some seconds after a change: what it started since, it would not know of."""
+        if daemon == "slurmctld":
+            state = self.folder / "state/job_state"
+            before = state.stat().st_mtime_ns if state.exists() else 0
+            wait_for(lambda: state.exists() and state.stat().st_mtime_ns != before, "the controller writes its state")
         process = self.pid(daemon)
         os.kill(process, signal.SIGKILL)
         wait_for(lambda: not Path(f"/proc/{process}/exe").exists(), f"{daemon} is gone")
@@ -97,6 +102,12 @@ class Slurm:
     def restart(self, daemon):
         self.run(*([daemon, "-i"] if daemon == "slurmctld" else [daemon]))
         self.wait_until_up()
+
+    def undrain(self):
+        """What an administrator does where a controller that was killed had not yet written down what it started:
+        it starts the same job again, and takes the node out of service, as that runs the job already."""
+        if "drain" in self.run("sinfo", "-h", "-o", "%T", check=False).stdout:
+            self.run("scontrol", "update", f"nodename={socket.gethostname().split('.')[0]}", "state=resume", check=False)
 
     def queue(self):
         """What waits or runs: lines of "JOB TASK STATE"."""

@@ -3,6 +3,7 @@ one process, to the byte, and no drive was kept twice.
 
 usage: slurm_test.py PROGRAM SOURCES
 Exits with 77 (skipped) where Slurm is not installed: apt-get install slurm-wlm munge."""
+import json
 import os
 import random
 import re
@@ -10,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -20,13 +22,17 @@ KILLS = 10
 PASSED_OVER = {"timing.json"}
 
 
+def command_of(scenario):
+    return ["sweep", scenario, "--vary", "oracle.range_sd_m=0.1,0.2,0.3,0.4", "--seeds", "0..19", "--filters",
+            "ekf,ufastslam", "--set", "particles=400"]
+
+
 def write_job(folder, sources, program):
     scenario = os.path.relpath(sources / "assets/scenarios/open_field.yaml", folder)
     job = folder / "job.yaml"
     job.write_text(f"""
 job: field
-command: [sweep, {scenario}, --vary, "oracle.range_sd_m=0.1,0.2,0.3,0.4", --seeds, 0..19, --filters, "ekf,ufastslam",
-          --set, particles=400]
+command: {json.dumps(command_of(scenario))}
 shards: {SHARDS}
 out: work
 program: {program}
@@ -50,15 +56,18 @@ def processes_of_shards():
     return found
 
 
-def kill_tasks(seed):
+def kill_tasks(slurm, seed):
     """Kills programs in the middle of their shards, as a machine does that goes down."""
     chance = random.Random(seed)
-    for _ in range(KILLS):
-        wait_for(processes_of_shards, "a shard runs")
-        victims = processes_of_shards()
-        if victims:
-            os.kill(chance.choice(victims), signal.SIGKILL)
-        subprocess.run(["sleep", str(0.2 + 0.5 * chance.random())], check=True)
+    kills = 0
+    while kills < KILLS:
+        wait_for(lambda: slurm.undrain() or processes_of_shards(), "a shard runs")
+        try:
+            os.kill(chance.choice(processes_of_shards()), signal.SIGKILL)
+            kills += 1
+        except (IndexError, ProcessLookupError):
+            continue  # it ended just now
+        time.sleep(0.1 + 0.2 * chance.random())
 
 
 def kept_drives(folder):
@@ -94,14 +103,14 @@ def main():
             wait_for(lambda: len(processes_of_shards()) == 2, "two shards run")
             slurm.kill("slurmctld")
             slurm.restart("slurmctld")
-            kill_tasks(seed=1)
+            kill_tasks(slurm, seed=1)
             slurm.kill("slurmd")
             slurm.restart("slurmd")
-            wait_for(lambda: slurm.queue() == [], "the queue is empty", 600)
+            wait_for(lambda: slurm.undrain() or slurm.queue() == [], "the queue is empty", 600)
             print(cluster("status", 3), end="")
             before = len(kept_drives(folder / "work"))
             print(cluster("resume"), end="")
-            wait_for(lambda: slurm.queue() == [], "the queue is empty", 600)
+            wait_for(lambda: slurm.undrain() or slurm.queue() == [], "the queue is empty", 600)
             print(cluster("status"), end="")
             logs = "".join(log.read_text() for log in sorted((folder / "work/logs").glob("*.txt")))
             assert (folder / "work/result/sweep.json").exists(), logs
@@ -109,9 +118,8 @@ def main():
         keys = kept_drives(folder / "work")
         print(f"{before} drives before the resume, {len(keys)} in all")
         assert len(keys) == len(set(keys)) == 80, (len(keys), len(set(keys)))
-        words = [str(program), "sweep", os.path.relpath(sources / "assets/scenarios/open_field.yaml", folder), "--vary",
-                 "oracle.range_sd_m=0.1,0.2,0.3,0.4", "--seeds", "0..19", "--filters", "ekf,ufastslam", "--set",
-                 "particles=400", "--out", str(folder / "serial")]
+        scenario = os.path.relpath(sources / "assets/scenarios/open_field.yaml", folder)
+        words = [str(program), *command_of(scenario), "--out", str(folder / "serial")]
         serial = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
         assert serial.returncode in (0, 1), serial.stderr
         expected, got = files_of(folder / "serial"), files_of(folder / "work/result")

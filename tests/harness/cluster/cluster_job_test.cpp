@@ -42,9 +42,8 @@ TEST(ClusterJob, IsReadFromItsFile) {
   EXPECT_EQ(job.out, written.folder() + "/out/noise");
   EXPECT_EQ(job.folder(), written.folder());
   EXPECT_EQ(job.first_shard(), 1U);
-  EXPECT_THAT(shard_words(job, "7", "x"),
-              ElementsAre("", "run", "a.yaml", "--seeds", "0..9", "--shard", "7/40", "--out", "x", "--jobs",
-                          "3", "--shard-overlap", "2"));
+  EXPECT_THAT(shard_words(job, "7"), ElementsAre("", "run", "a.yaml", "--seeds", "0..9", "--shard", "7/40",
+                                                 "--jobs", "3", "--shard-overlap", "2"));
 }
 
 TEST(ClusterJob, SaysWhatIsWrongWithIt) {
@@ -81,11 +80,10 @@ TEST(BatchScript, SaysWhatWasAskedFor) {
         "#SBATCH --cpus-per-task=1\n", "#SBATCH --requeue\n", "#SBATCH --open-mode=append\n",
         "#SBATCH --qos=low\n", "#SBATCH --output='/data/x y/logs/task_%a.txt'\n"})
     EXPECT_THAT(script, HasSubstr(line));
-  EXPECT_THAT(
-      script,
-      HasSubstr("exec apptainer exec s.sif /opt/stereobench run 'a b.yaml' --shard auto/40 --out '/data/x "
-                "y/shards'/$((SLURM_ARRAY_TASK_ID + 1)) --jobs 1 --shard-costs '/data/x "
-                "y/shards/0/costs.json'\n"));
+  EXPECT_THAT(script,
+              HasSubstr("exec apptainer exec s.sif /opt/stereobench run 'a b.yaml' --shard auto/40 --jobs 1 "
+                        "--shard-costs '/data/x y/shards/0/costs.json' --out '/data/x "
+                        "y/shards'/$((SLURM_ARRAY_TASK_ID + 1))\n"));
   EXPECT_THAT(measure_script(job), AllOf(HasSubstr("--shard 0/40"), Not(HasSubstr("--shard-costs"))));
   EXPECT_THAT(merge_script(job),
               AllOf(HasSubstr("merge '/data/x y/shards/0' "), HasSubstr("'/data/x y/shards/40' ")));
@@ -117,7 +115,7 @@ TEST(ScaleGuide, HasAManifestWithAsManyPodsAsShards) {
   EXPECT_EQ(rules[0]["onExitCodes"]["values"][0].as<int>(), 2);
 }
 
-// Mutations: two in a row as two numbers; the last range left out.
+// Mutation: two in a row as two numbers.
 TEST(Ranges, AreAsSlurmWritesThem) {
   EXPECT_EQ(ranges_of({}), "");
   EXPECT_EQ(ranges_of({2}), "2");

@@ -39,7 +39,7 @@ std::map<std::string, std::string> whole_collection(const TestFolder& scratch, c
 void expect_whole_files(const fs::path& folder, const std::map<std::string, std::string>& expected) {
   if (!fs::exists(folder)) return;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
+    const std::string name = entry.path().lexically_relative(folder).string();  // relative() wants it there
     // A drive's process may outlive its killed parent: what has no final name may be gone by now.
     if (name.ends_with(".tmp") || name.ends_with("dataset.unfinished.json")) continue;
     if (name.find("/dataset.parts") != std::string::npos) continue;  // of a container

@@ -99,8 +99,8 @@ TEST(MergeResults, IsTheUnionByKey) {
   }
 }
 
-// The alarm that a machine computes differently, however little. Mutations: no comparison; the first of two
-// taken; numbers compared as they are printed with six digits.
+// The alarm that a machine computes differently, however little. Mutations: no comparison, or the first
+// of two taken.
 TEST(MergeResults, OfOneChangedBitNameBothFilesAndThePlace) {
   OverlappingShards shards;
   shards.add(2, 0, result_of_drive(0, 0.1, std::nextafter(0.25, 1.0)));

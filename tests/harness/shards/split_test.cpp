@@ -31,8 +31,7 @@ std::vector<double> unlike_costs(std::uint64_t seed, std::size_t units) {
 }
 
 // Law (Graham 1969): no shard has more than the mean and one unit that is not the costliest of all but of
-// those that are dealt last; for any list, at most mean + (1 - 1/n) max. Mutations: units dealt round; the
-// cheapest first with the fullest shard.
+// those that are dealt last; for any list, at most mean + (1 - 1/n) max. Mutation: units dealt round.
 TEST(Split, IsEvenUpToAUnit) {
   for (std::uint64_t seed = 0; seed < 50; ++seed)
     for (const std::size_t shards : {1U, 2U, 7U, 40U}) {
@@ -44,7 +43,8 @@ TEST(Split, IsEvenUpToAUnit) {
     }
 }
 
-// Against the best that can be, found by trying all ways. Mutation: the order of the units as it is.
+// Against the best that can be, found by trying all ways. Mutations: the order of the units as it is; the
+// cheapest first.
 TEST(Split, IsAsGoodAsItsBoundSays) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const std::vector<double> costs = unlike_costs(seed, 9);

@@ -11,10 +11,10 @@ import heapq
 import random
 
 # Measured on one core (docs/results.md, "Scale"): seconds and bytes.
-DRIVE_S = 5.0            # ball_circle, one lap, six filters
+DRIVE_S = 2.8            # ball_circle, one lap, five filters
 DRIVE_SPREAD = 0.2       # standard deviation over the mean
 SHARD_S = 0.3            # overhead of a shard: start, plan, fingerprint
-DRIVE_BYTES = 13_000     # of a result in the store
+DRIVE_BYTES = 5_200      # of a result of `sweep` in the store
 PAIRS = 145              # of a drive
 
 # Assumed of a cluster: to be replaced by what yours has.
