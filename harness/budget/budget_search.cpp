@@ -108,7 +108,8 @@ std::vector<Index> BudgetSearch::not_yet_run_at(Index level) const {
   std::vector<Index> seeds;
   for (Index seed = 0; seed < seeds_.size(); ++seed)
     if (!seeds_[seed].values.contains(level)) seeds.push_back(seed);
-  std::ranges::stable_partition(seeds, [&](Index seed) { return verdict(seed, level) != Verdict::kKeeps; });
+  std::stable_partition(seeds.begin(), seeds.end(),
+                        [&](Index seed) { return verdict(seed, level) != Verdict::kKeeps; });
   return seeds;
 }
 

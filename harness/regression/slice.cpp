@@ -56,7 +56,7 @@ std::vector<Candidate> intervals_of(const Property& property, const Indices& thi
   std::ranges::sort(values);
   std::vector<double> lowest;
   for (std::size_t bin = 0; bin < kBins; ++bin) lowest.push_back(values[bin * values.size() / kBins]);
-  lowest.erase(std::ranges::unique(lowest).begin(), lowest.end());
+  lowest.erase(std::unique(lowest.begin(), lowest.end()), lowest.end());
   std::vector<double> highest;
   for (std::size_t bin = 1; bin < lowest.size(); ++bin)
     highest.push_back(*std::prev(std::ranges::lower_bound(values, lowest[bin])));

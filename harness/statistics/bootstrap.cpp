@@ -90,7 +90,7 @@ double normal_below(double x) {
 
 /// How many standard deviations of the resampled changes lie below the change itself.
 double bias_of(const std::vector<double>& changes, double change) {
-  const auto [first, last] = std::ranges::equal_range(changes, change);
+  const auto [first, last] = std::equal_range(changes.begin(), changes.end(), change);
   const auto below = static_cast<double>(first - changes.begin()) + 0.5 * static_cast<double>(last - first);
   const auto count = static_cast<double>(changes.size());
   return slam::normal_quantile(std::clamp(below, 0.5, count - 0.5) / count);

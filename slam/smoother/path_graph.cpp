@@ -174,7 +174,7 @@ std::vector<int> PathGraph::changed_variables() {
   changed.insert(changed.end(), behind_.begin(), behind_.end());
   behind_.clear();
   std::ranges::sort(changed);
-  changed.erase(std::ranges::unique(changed).begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   return changed;
 }
 

@@ -125,7 +125,7 @@ TEST(BudgetSearch, DoesNotDependOnTheOrderOfSeeds) {
     auto [question, worlds] = trial(key);
     const Budget budget = find_budget(question, std::ref(worlds));
     std::ranges::reverse(question.seeds);
-    std::ranges::rotate(question.seeds, question.seeds.begin() + 3);
+    std::rotate(question.seeds.begin(), question.seeds.begin() + 3, question.seeds.end());
     const Budget other = find_budget(question, MadeUpWorlds{worlds.metric});
     EXPECT_EQ(other.level, budget.level) << key;
     EXPECT_EQ(other.outcome, budget.outcome) << key;
