@@ -14,7 +14,6 @@ constexpr double kFar_m = 2.2;  ///< where balls are lost that are far
 constexpr int kFirst = 4;       ///< colours of two balls, each of which all seeds see
 constexpr int kSecond = 8;
 constexpr const char* kConsistent = "covariance made consistent";
-constexpr double kCoarserBelief = 11.0;  ///< makes the absolute trajectory error a fifth larger
 
 /// Moves a ball's centres, and its range and bearing as triangulation does.
 void shift_centres(vision::BallObservation& ball, const Eigen::Vector2d& left_px,
@@ -69,7 +68,7 @@ void take_one_colour_for_another(vision::BallObservation& ball, const Found&, sl
 
 }  // namespace
 
-std::vector<Variant> faulty_variants(double nis_per_degree) {
+std::vector<Variant> faulty_variants(double nis_per_degree, double coarser_belief) {
   using Ball = vision::BallObservation;
   const auto shifted = each_ball([](Ball& ball, const Found& found, slam::RandomStream&) {
     shift_centres(ball, {0.3, 0.0}, {0.0, 0.0}, found);
@@ -81,11 +80,11 @@ std::vector<Variant> faulty_variants(double nis_per_degree) {
         [factor](Ball& ball, const Found&, slam::RandomStream&) { ball.range_bearing.covariance *= factor; });
   };
   const auto late = [](const Found& found, slam::RandomStream&) { return found.before; };
-  const auto distrust_odometry = [](slam::FilterConfig& config) {
+  const auto distrust_odometry = [coarser_belief](slam::FilterConfig& config) {
     for (double slam::OdometryNoise::*part :
          {&slam::OdometryNoise::v_constant_mps, &slam::OdometryNoise::v_per_v,
           &slam::OdometryNoise::w_constant_radps, &slam::OdometryNoise::w_per_w})
-      config.odometry_noise.*part *= kCoarserBelief;
+      config.odometry_noise.*part *= coarser_belief;
   };
   return {
       {kAsItIs, {}, {}, as_it_is},
@@ -116,8 +115,8 @@ std::vector<Variant> faulty_variants(double nis_per_degree) {
        .says = {},
        .detect = covariance_times(0.5 * nis_per_degree),
        .beside = kConsistent},
-      {fmt::format("odometry believed {:g} times as noisy", kCoarserBelief),
-       {"filters.iekf.ate_rms_m"},
+      {fmt::format("odometry believed {:g} times as noisy", coarser_belief),
+       {"filters.iekf.ate_rms_m", "filters.iekf.heading_rms_rad"},
        {},
        as_it_is,
        distrust_odometry},

@@ -36,7 +36,8 @@ struct Variant {
 /// The detector itself, and the planted faults.
 /// @param nis_per_degree mean NIS / 2 of the detector on other seeds: its covariance times this is
 ///        consistent. Half of a covariance that is too large would be an improvement.
-std::vector<Variant> faulty_variants(double nis_per_degree);
+/// @param coarser_belief by what the filter's odometry noise is multiplied in the last fault
+std::vector<Variant> faulty_variants(double nis_per_degree, double coarser_belief);
 
 /// The detector with centres that are off by chance: of the same quality, whatever the seed.
 Variant noisy_variant(double sd_px);
