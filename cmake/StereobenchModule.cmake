@@ -3,15 +3,21 @@
 
 add_library(stereobench_options INTERFACE)
 target_compile_features(stereobench_options INTERFACE cxx_std_20)
-target_include_directories(stereobench_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(stereobench_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # GCC 12 sees overflows in what sanitizers make of the library's code
   set(warnings_fail -Werror)
 endif()
-target_compile_options(stereobench_options INTERFACE
+# Warnings are ours alone. What a project that uses an installed module is compiled with, too, stands outside.
+set(warnings
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wdouble-promotion ${warnings_fail}
-  -Wno-missing-field-initializers  # fields of our aggregates have defaults
+  -Wno-missing-field-initializers)  # fields of our aggregates have defaults
+target_compile_options(stereobench_options INTERFACE
+  "$<BUILD_INTERFACE:${warnings}>"
   -ffp-contract=off)  # results do not depend on whether the machine has fused multiply-add
-target_compile_definitions(stereobench_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+target_compile_definitions(stereobench_options INTERFACE $<BUILD_INTERFACE:GLM_FORCE_EXPLICIT_CTOR>
+  $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)  # that of our libraries, also where the user's compiler has AVX
+
+include(StereobenchInstallModule)
 
 option(STEREOBENCH_TIDY "run clang-tidy on every source" OFF)
 if(STEREOBENCH_TIDY)
@@ -54,6 +60,7 @@ function(stereobench_module name)
   target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
   target_precompile_headers(stereobench_${name} PRIVATE ${STEREOBENCH_COMMON_HEADERS} ${ARG_HEADERS})
   stereobench_unite(stereobench_${name} "${sources}")
+  stereobench_install_module(${name})
 endfunction()
 
 # stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable

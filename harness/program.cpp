@@ -5,15 +5,18 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/commands/all_commands.h"
 #include "harness/commands/commands.h"
 #include "harness/process/interruption.h"
 #include "harness/process/process_pool.h"
 #include "harness/process/standard_streams.h"
+#include "harness/reference_commands/complete_command.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -56,7 +59,40 @@ std::string option_advice(const CLI::App& program) {
   return advice;
 }
 
-int run_words(const std::vector<std::string>& words);
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program(
+      "Renders worlds of coloured balls, sees them in stereo, maps them, and scores every stage.");
+  program.name("stereobench");
+  program.set_version_flag("--version", STEREOBENCH_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
+      "crashed, 5 a suite's baseline is missing or of other inputs, or shards contradict each other;\n"
+      "--strict: 3 inconclusive, 6 a metric got better; `cluster status`: 3 shards are missing.\n"
+      "Start with: stereobench run assets/scenarios/ball_circle.yaml");
+  Action action;
+  add_commands(program, action);
+  if (argc > 1 && std::string_view(argv[1]) == "complete")
+    return complete(program, std::vector<std::string>(argv + 2, argv + argc));
+  for (CLI::App* const command : program.get_subcommands({})) refuse_empty_values(*command);
+  if (argc > 1) check_command(program, argv[1]);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help) {
+    return program.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    throw std::runtime_error(fmt::format("{}{}; see --help", error.what(), option_advice(program)));
+  }
+  return action();
+}
+
+int run_words(const std::vector<std::string>& words) {
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  return run_command_line(static_cast<int>(pointers.size()), pointers.data());
+}
+
+}  // namespace
 
 void add_commands(CLI::App& program, Action& action) {
   add_run_command(program, action);
@@ -88,39 +124,6 @@ void add_commands(CLI::App& program, Action& action) {
   add_faults_command(program, action);
   add_doctor_command(program, action);
 }
-
-int run_command_line(int argc, const char* const* argv) {
-  CLI::App program(
-      "Renders worlds of coloured balls, sees them in stereo, maps them, and scores every stage.");
-  program.name("stereobench");
-  program.set_version_flag("--version", STEREOBENCH_VERSION);
-  program.require_subcommand(1);
-  program.footer(
-      "Exit codes: 0 passed, 1 a gate is broken or a metric got worse, 2 bad input, 4 a run or a detector\n"
-      "crashed, 5 a suite's baseline is missing or of other inputs, or shards contradict each other;\n"
-      "--strict: 3 inconclusive, 6 a metric got better; `cluster status`: 3 shards are missing.\n"
-      "Start with: stereobench run assets/scenarios/ball_circle.yaml");
-  Action action;
-  add_commands(program, action);
-  for (CLI::App* const command : program.get_subcommands({})) refuse_empty_values(*command);
-  if (argc > 1) check_command(program, argv[1]);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& asked_for_help) {
-    return program.exit(asked_for_help);
-  } catch (const CLI::ParseError& error) {
-    throw std::runtime_error(fmt::format("{}{}; see --help", error.what(), option_advice(program)));
-  }
-  return action();
-}
-
-int run_words(const std::vector<std::string>& words) {
-  std::vector<const char*> pointers;
-  for (const std::string& word : words) pointers.push_back(word.c_str());
-  return run_command_line(static_cast<int>(pointers.size()), pointers.data());
-}
-
-}  // namespace
 
 int run_program(int argc, char** argv) {
   open_standard_streams();

@@ -78,9 +78,10 @@ void add_seed_options(CLI::App& command, RunArguments& arguments) {
       "--seeds,--seed", [&arguments](const std::string& text) { arguments.seeds = parse_seeds_option(text); },
       "which seeds to run: 0..9, or 0,2,5");
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  command.add_option("--jobs,-j", arguments.jobs, "processes at a time; the results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  command
+      .add_option("--jobs,-j", arguments.jobs,
+                  "processes at a time (default: one a processor); the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
   command.add_option("--out,-o", arguments.out, "folder for the results (default: out/<name>)");
   command.add_flag("--dry-run", arguments.dry_run,
                    "check the input, say what would be done, and write nothing");

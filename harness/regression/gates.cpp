@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/io/text_table.h"
+#include "harness/regression/metric_names.h"
 #include "worlds/yaml/advice.h"
 
 namespace stereobench::harness {
@@ -41,14 +42,6 @@ RunResult result_without_runs(const Experiment& experiment) {
   if (experiment.scenario.sensor == worlds::SensorKind::kStereo) nothing_yet.vision = VisionScore{};
   for (const std::string& filter : experiment.filters) nothing_yet.filters.push_back({.filter = filter});
   return nothing_yet;
-}
-
-/// All that gates can name, as dotted paths.
-void append_metrics(const Json& json, const std::string& path, std::vector<std::string>& metrics) {
-  if (json.is_number() || json.is_null()) metrics.push_back(path);
-  if (!json.is_object()) return;
-  for (const auto& [key, child] : json.items())
-    append_metrics(child, path.empty() ? key : path + "." + key, metrics);
 }
 
 std::string broken_message(const Gate& gate, const Json& metric) {
@@ -101,8 +94,7 @@ Json result_without_values(const Experiment& experiment) {
 void check_metrics(std::span<const Gate> gates, const Json& result) {
   for (const Gate& gate : gates) {
     if (find_metric(result, gate.metric) != nullptr) continue;
-    std::vector<std::string> metrics;
-    append_metrics(result, "", metrics);
+    const std::vector<std::string> metrics = metric_names(result);
     const std::vector<std::string_view> known(metrics.begin(), metrics.end());
     const auto meant = worlds::nearest_word(gate.metric, known);
     throw std::runtime_error(fmt::format("gate '{}': the result has no such number{}", gate.metric,

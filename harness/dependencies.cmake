@@ -1,0 +1,6 @@
+stereobench_need(libopencv-dev OpenCV COMPONENTS calib3d)
+stereobench_need(nlohmann-json3-dev nlohmann_json)
+stereobench_need(libcli11-dev CLI11)
+stereobench_need(libssl-dev OpenSSL COMPONENTS Crypto)
+stereobench_need(libc6-dev Threads)
+stereobench_need_module(libcairo2-dev CAIRO cairo)

@@ -1,0 +1,8 @@
+stereobench_need(libglm-dev glm)
+stereobench_need(libassimp-dev assimp)
+stereobench_need(libpng-dev PNG)
+stereobench_need(libtiff-dev TIFF)
+stereobench_need(zlib1g-dev ZLIB)
+stereobench_need_module(libturbojpeg0-dev TURBOJPEG libturbojpeg)
+stereobench_need_header(libgl-dev GL/glcorearb.h)
+stereobench_need_header(librandom123-dev Random123/philox.h)

@@ -1,0 +1,1 @@
+stereobench_need(libyaml-cpp-dev yaml-cpp)
