@@ -1,5 +1,5 @@
 # What is installed beside the modules: the program with what a user of it runs (component `program`), what
-# find_package(stereobench) reads (`dev`), and the loaders for Python (`python`). A component is a Debian package, too.
+# find_package(stereobench) reads (`dev`), and the package for Python (`python`). A component is a Debian package, too.
 include(CMakePackageConfigHelpers)
 
 set(STEREOBENCH_PYTHON_DIR lib/python3/dist-packages CACHE STRING "folder of Python's modules")
@@ -35,9 +35,13 @@ install(FILES ${packaging}/stereobench.bash RENAME stereobench
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install(FILES ${packaging}/_stereobench DESTINATION ${STEREOBENCH_ZSH_DIR} COMPONENT program)
 
-# The loaders.
+# The package for Python: its loaders, and the compiled part where it is built.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/harness/python/stereobench DESTINATION ${STEREOBENCH_PYTHON_DIR} COMPONENT python
         PATTERN __pycache__ EXCLUDE)
+get_target_property(python_part stereobench_python TYPE)
+if(python_part STREQUAL MODULE_LIBRARY)
+  install(TARGETS stereobench_python LIBRARY DESTINATION ${STEREOBENCH_PYTHON_DIR}/stereobench COMPONENT python)
+endif()
 
 # Man pages, of the help of the program that is installed. They are made when that is.
 find_program(HELP2MAN help2man)

@@ -55,8 +55,11 @@ endfunction()
 function(stereobench_module name)
   cmake_parse_arguments(ARG "" "" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/(main\\.cpp|python/bindings/.*)$")
   add_library(stereobench_${name} STATIC ${sources})
+  # Shared libraries may link a module. Hidden names let the compiler inline as it does in a program.
+  set_target_properties(stereobench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                                       VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(stereobench_${name} PUBLIC stereobench_options ${ARG_LINKS})
   target_precompile_headers(stereobench_${name} PRIVATE ${STEREOBENCH_COMMON_HEADERS} ${ARG_HEADERS})
   stereobench_unite(stereobench_${name} "${sources}")

@@ -48,15 +48,25 @@ runs and scores experiments.
 Each module is a CMake target of its own that needs only those before it.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-stereobench)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+if(python_part STREQUAL MODULE_LIBRARY)  # which is for one version of Python
+  get_property(minor GLOBAL PROPERTY STEREOBENCH_PYTHON_MINOR)
+  math(EXPR next_minor "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy, libosmesa6")
+else()
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-opencv")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${packaging}/postinst ${packaging}/prerm)
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python loaders of data sets that stereobench rendered
-The module stereobench.datasets opens data sets of stereobench as numpy arrays:
-pictures, depth, identities, flow, disparity, poses, tables and calibrations.
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "testbench of stereo vision and SLAM with exact truth, from Python
+The module stereobench renders scenarios to numpy arrays, calls detectors that
+are written in Python, steps filters, and scores both against exact truth. Its
+part stereobench.datasets opens rendered data sets: pictures, depth, flow,
+disparity, poses, tables and calibrations.
 
-Pictures and calibrations are read by OpenCV (python3-opencv).")
+Pictures and calibrations of data sets are read by OpenCV (python3-opencv).")
 
 include(CPack)

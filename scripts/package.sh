@@ -12,7 +12,7 @@ for program in help2man dpkg-shlibdeps file; do
     { echo "package.sh: $program is missing: apt-get install help2man dpkg-dev file" >&2; exit 2; }
 done
 [ -d build/release ] || cmake --preset release -Wno-dev >/dev/null
-cmake --build --preset release --target stereobench
+cmake --build --preset release --target stereobench stereobench_python
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(date --date "$(sed -n 's/^ -- .*>  //p;T;q' packaging/changelog)" +%s)}
 umask 022  # of folders in packages
 mkdir -p "$folder"

@@ -13,7 +13,7 @@
 #include "harness/drive/detection_stage.h"
 #include "harness/drive/drive_log.h"
 #include "harness/drive/perfect_detections.h"
-#include "harness/drive/shutter.h"
+#include "harness/drive/stereo_camera.h"
 #include "harness/process/stopwatch.h"
 #include "renderer/camera/expose.h"
 #include "renderer/renderer.h"
@@ -26,41 +26,6 @@ namespace {
 
 constexpr const char* kOurs = "stereobench";
 constexpr const char* kCallable = "callable";
-
-/// A pair as it was taken, with the truth behind it.
-struct TakenPair {
-  ExposedFrame exposed;
-  vision::StereoPair pair;
-  double late_s = 0.0;
-};
-
-/// Renders and exposes pairs; lives as long as the drive.
-class StereoCamera {
- public:
-  StereoCamera(const worlds::Scenario& scenario, const worlds::World& world, std::uint64_t seed,
-               renderer::Backend backend, renderer::LightDepth light, const renderer::FormReader& read)
-      : scenario_(scenario), seed_(seed), renderer_(world, scenario.rig, backend, light, read) {}
-
-  /// @return empty where the frame is lost
-  std::optional<TakenPair> take(std::size_t index, Timing& timing) {
-    Stopwatch watch(timing);
-    const std::optional<double> late_s = lateness_s(scenario_.shutter, seed_, index);
-    if (!late_s) return {};
-    TakenPair taken{.late_s = *late_s};
-    taken.exposed = watch.time(
-        "render", [&] { return open_shutter(renderer_, scenario_.path, index, scenario_.shutter, *late_s); });
-    taken.pair = watch.time(
-        "expose", [&] { return renderer::expose(taken.exposed.frame, scenario_.camera, seed_, index); });
-    return taken;
-  }
-
-  renderer::Renderer& renderer() { return renderer_; }
-
- private:
-  const worlds::Scenario& scenario_;
-  std::uint64_t seed_;
-  renderer::Renderer renderer_;
-};
 
 /// Shows an onlooker's detector what was taken, and scores what that finds; lives as long as the drive.
 class StereoOnlooker {

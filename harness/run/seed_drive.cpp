@@ -23,14 +23,6 @@ bool is_snapshot_step(std::size_t step, std::size_t count, std::size_t steps) {
   return false;
 }
 
-/// The start that filters are told.
-slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, std::uint64_t seed) {
-  slam::RandomStream random(seed, slam::Stream::kStart);
-  const double x = random.normal(), y = random.normal(), heading = random.normal();
-  return slam::boxplus(start,
-                       {noise.position_sd_m * x, noise.position_sd_m * y, noise.heading_sd_rad * heading});
-}
-
 /// Looks for a task, and keeps what it asks for.
 /// @param drive must live as long as the onlooker, and so must `worst`
 Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive, WorstPairs& worst,
@@ -74,6 +66,13 @@ std::string message_of(const std::exception_ptr& fault) {
 }
 
 }  // namespace
+
+slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, std::uint64_t seed) {
+  slam::RandomStream random(seed, slam::Stream::kStart);
+  const double x = random.normal(), y = random.normal(), heading = random.normal();
+  return slam::boxplus(start,
+                       {noise.position_sd_m * x, noise.position_sd_m * y, noise.heading_sd_rad * heading});
+}
 
 std::vector<FilterRun> replay_filters(const MeasurementLog& log, const std::vector<std::string>& filters,
                                       const slam::FilterConfig& config, std::uint64_t seed, Timing& timing) {

@@ -62,6 +62,10 @@ struct DriveTask {
   StreamSeeds seeds() const { return streams.value_or(StreamSeeds(seed)); }
 };
 
+/// The start pose that filters are told, with its noise.
+/// @param start the true one
+slam::Pose told_start(const slam::Pose& start, const worlds::StartNoise& noise, std::uint64_t seed);
+
 /// Runs each filter over a log.
 /// @param seed of the filters' own random streams
 /// @param timing the seconds of each filter are added to "filter.NAME"

@@ -11,7 +11,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/regression/gates.h"
 #include "harness/run/result_table.h"
-#include "harness/run_command/run_folder.h"
+#include "harness/run_command/run_scenario.h"
 
 namespace stereobench::harness {
 namespace {
@@ -34,12 +34,7 @@ int run(const ScenarioArguments& arguments) {
   const std::string what = "run " + scenario.name;
   if (const auto end = do_shard(out, arguments.run, {units_of(tasks), what, pixels})) return *end;
   prepare_output_folder(out);
-  KeptDrives kept(out);
-  RunFolder folder(out, arguments, experiment, pixels);
-  kept.complete(tasks, arguments.run.jobs, what,
-                [&](std::size_t, const SeedResult& seed) { folder.add(seed); });
-  const RunResult result = folder.finish();
-  kept.discard();
+  const RunResult result = run_into(out, arguments, experiment, tasks, pixels);
   fmt::print("{}: {} seed{}, {} steps\n\n", scenario.name, tasks.size(), tasks.size() == 1 ? "" : "s",
              scenario.path.size());
   say(result_table(result) + "\n");

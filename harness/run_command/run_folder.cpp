@@ -20,6 +20,13 @@ ReportCommands report_commands(const ScenarioArguments& arguments) {
 
 }  // namespace
 
+RunResult completed(RunResult sums, const std::vector<SensorLog>& logs, const ScenarioArguments& arguments,
+                    const Experiment& experiment, const std::string& pixels) {
+  sums.noise = check_noise(logs, filter_config(experiment), arguments.run.jobs);
+  sums.made_from = provenance_of(arguments, {}, experiment, pixels);
+  return sums;
+}
+
 RunFolder::RunFolder(std::filesystem::path out, const ScenarioArguments& arguments,
                      const Experiment& experiment, std::string pixels)
     : out_(std::move(out)),
@@ -36,10 +43,8 @@ void RunFolder::add(const SeedResult& seed) {
 
 RunResult RunFolder::finish() {
   const worlds::Scenario& scenario = experiment_.scenario;
-  RunResult result = output_.result();
-  result.noise = check_noise(logs_, filter_config(experiment_), arguments_.run.jobs);
+  const RunResult result = completed(output_.result(), logs_, arguments_, experiment_, pixels_);
   warn_of_blur(scenario.shutter, result.blur.value_or(CoarseBlur{}));
-  result.made_from = provenance_of(arguments_, {}, experiment_, pixels_);
   const RunStory story = {report_commands(arguments_), gates_of(experiment_), scenario.world.walls,
                           scenario.rig};
   output_.write(result, scenario.world.walls, [&](const RunResult& run, const RunCurves& curves) {

@@ -14,6 +14,13 @@ namespace stereobench::harness {
 inline constexpr SeedParts kRunParts = {
     .steps = true, .map = true, .snapshots = 4, .log = true, .detections = true, .pairs = 12};
 
+/// What run.json says beside the sums over the seeds: whether the noise is as told, and what it was made
+/// from.
+/// @param sums over the seeds
+/// @param logs of the first seeds; see kCheckedLogs
+RunResult completed(RunResult sums, const std::vector<SensorLog>& logs, const ScenarioArguments& arguments,
+                    const Experiment& experiment, const std::string& pixels);
+
 /// Takes the results of an experiment's seeds, and writes the files of its run.
 class RunFolder {
  public:

@@ -18,57 +18,65 @@ bool is_finite(const slam::Estimate& estimate) {
          std::isfinite(estimate.pose.heading_rad) && estimate.covariance.allFinite();
 }
 
-using Ancestors = std::vector<std::vector<int>>;  ///< by step
+}  // namespace
+
+FilterReplay::FilterReplay(const std::string& filter, slam::FilterConfig config, const slam::Pose& start,
+                           std::uint64_t seed)
+    : run_{.filter = filter, .seed = seed}, state_([&] {
+        config.report_updates = true;
+        return slam::make_filter(filter, config, start, seed);
+      }()) {
+  run_.particles = slam::particle_count(state_);
+}
 
 /// @return false when the estimate after the step is not finite
-bool drive_step(slam::Filter& filter, const LogStep& step, FilterRun& run, Ancestors& ancestors) {
-  for (const slam::Control& control : step.odometry) slam::predict(filter, control);
-  slam::update(filter, step.measurements);
-  const slam::Estimate estimate = slam::estimate_without_map(filter);
+bool FilterReplay::drive(const LogStep& step) {
+  for (const slam::Control& control : step.odometry) slam::predict(state_, control);
+  slam::update(state_, step.measurements);
+  const slam::Estimate estimate = slam::estimate_without_map(state_);
   if (!is_finite(estimate)) return false;
-  run.poses.push_back(estimate.pose);
-  run.covariances.push_back(estimate.covariance);
-  slam::UpdateReport report = slam::last_update(filter);
-  run.updates.push_back({std::move(report.innovations), estimate.effective_particles});
-  ancestors.push_back(std::move(report.ancestors));
+  run_.poses.push_back(estimate.pose);
+  run_.covariances.push_back(estimate.covariance);
+  slam::UpdateReport report = slam::last_update(state_);
+  run_.updates.push_back({std::move(report.innovations), estimate.effective_particles});
+  ancestors_.push_back(std::move(report.ancestors));
   return true;
 }
 
-void add_ancestors(const Ancestors& ancestors, FilterRun& run) {
-  const std::vector<int> distinct = distinct_ancestors(ancestors, run.particles);
-  for (std::size_t k = 0; k < run.updates.size(); ++k) run.updates[k].distinct_ancestors = distinct[k];
+void FilterReplay::fail(const std::string& why) {
+  run_.failed = true;
+  run_.failure = fmt::format("step {}: {}", run_.poses.size(), why);
 }
 
-}  // namespace
+void FilterReplay::step(const LogStep& step, std::span<const int> truth) {
+  if (run_.failed) return;
+  if (!truth.empty() && !run_.association) run_.association.emplace();
+  try {
+    const bool finite = drive(step);
+    if (!truth.empty()) judge(slam::last_decisions(state_), truth, *run_.association);
+    if (!finite) fail("the estimate is not finite");
+  } catch (const std::exception& error) {
+    fail(error.what());
+    has_thrown_ = true;
+  }
+}
+
+FilterRun FilterReplay::run(std::span<const int> truth) const {
+  FilterRun run = run_;
+  if (truth.empty()) run.association.reset();
+  if (!has_thrown_) run.last = slam::estimate(state_);
+  if (run.association && !has_thrown_) judge_map(run.last.landmarks, truth, *run.association);
+  const std::vector<int> distinct = distinct_ancestors(ancestors_, run.particles);
+  for (std::size_t k = 0; k < run.updates.size(); ++k) run.updates[k].distinct_ancestors = distinct[k];
+  return run;
+}
 
 FilterRun replay(const MeasurementLog& log, const std::string& filter, slam::FilterConfig config,
                  std::uint64_t seed) {
-  config.report_updates = true;
-  FilterRun run;
-  run.filter = filter;
-  run.seed = seed;
-  slam::Filter state = slam::make_filter(filter, config, log.start, seed);
-  run.particles = slam::particle_count(state);
+  FilterReplay replay(filter, config, log.start, seed);
   const std::vector<int> truth = true_landmarks(log);
-  if (!truth.empty()) run.association.emplace();
-  Ancestors ancestors;
-  try {
-    for (const LogStep& step : log.steps) {
-      const bool finite = drive_step(state, step, run, ancestors);
-      if (run.association) judge(slam::last_decisions(state), truth, *run.association);
-      if (finite) continue;
-      run.failed = true;
-      run.failure = fmt::format("step {}: the estimate is not finite", run.poses.size());
-      break;
-    }
-    run.last = slam::estimate(state);
-    if (run.association) judge_map(run.last.landmarks, truth, *run.association);
-  } catch (const std::exception& error) {
-    run.failed = true;
-    run.failure = fmt::format("step {}: {}", run.poses.size(), error.what());
-  }
-  add_ancestors(ancestors, run);
-  return run;
+  for (const LogStep& step : log.steps) replay.step(step, truth);
+  return replay.run(truth);
 }
 
 }  // namespace stereobench::harness

@@ -86,15 +86,18 @@ class ManPages(unittest.TestCase):
             self.assertEqual(page.read_bytes(), (again / page.name).read_bytes(), page.name)
 
 
-class Loaders(unittest.TestCase):
+class Package(unittest.TestCase):
     def test_python_finds_them(self):
         code = "import stereobench; print(stereobench.__file__)"
         text = run("/usr/bin/python3", "-c", code, env={"PYTHONPATH": str(python / PYTHON), "PYTHONDONTWRITEBYTECODE": "1"})
         self.assertEqual(text.strip(), str(python / PYTHON / "stereobench/__init__.py"))
 
     def test_every_module_is_there(self):
-        ours = [file for file in files_below(SOURCE / "harness/python") if file.endswith(".py")]
-        self.assertEqual([file for file in files_below(python / PYTHON)], ours)
+        ours = [file for file in files_below(SOURCE / "harness/python/stereobench") if "__pycache__" not in file]
+        there = files_below(python / PYTHON / "stereobench")
+        self.assertEqual([file for file in there if not file.endswith(".so")], ours)
+        built = [path.name for path in (BUILD / "python/stereobench").glob("_core*.so")]
+        self.assertEqual([file for file in there if file.endswith(".so")], built)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@
 # `scripts/...` and `.ci/run` install and build, so they must only exist and be executable. Any other command than those
 # listed below is a breach: it would not be checked.
 # The ```python blocks of a page that imports `stereobench` are one script, which runs after its commands in the same
-# folder. Without Debian's python3-opencv it does not.
+# folder. Without Debian's python3-opencv it does not, nor without the compiled part of the package where it needs that.
 set -euo pipefail
 root=$(cd "$1" && pwd)
 program=$2
@@ -52,13 +52,19 @@ python_blocks() {
 }
 
 try_python() {
-  grep -q '^from stereobench ' <<<"$(python_blocks)" || return 0
+  grep -q -E '^(from|import) stereobench' <<<"$(python_blocks)" || return 0
   if ! /usr/bin/python3 -c 'import cv2, numpy' 2>/dev/null; then
     echo "$document: python blocks are not run without python3-opencv"
     return 0
   fi
+  local package
+  package=$(dirname "$(dirname "$program")")/python
+  if grep -q '^import stereobench' <<<"$(python_blocks)" && ! ls "$package"/stereobench/_core*.so >/dev/null 2>&1; then
+    echo "$document: python blocks are not run without the compiled part of the Python package"
+    return 0
+  fi
   echo "+ python blocks of $document"
-  python_blocks | PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$root/harness/python" /usr/bin/python3 - ||
+  python_blocks | PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$package:$root/harness/python" /usr/bin/python3 - ||
     breach "its python blocks fail"
 }
 

@@ -1,0 +1,38 @@
+/// Detectors in Python: what they are shown, and what they answer.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "harness/detector/ball_geometry.h"
+#include "harness/detector/detector.h"
+
+namespace stereobench::harness::bindings {
+
+/// A frame as a detector may see it: nothing of the truth.
+struct PyFrame {
+  std::size_t step = 0;
+  std::int64_t stamp_ns = 0;
+  vision::StereoPair pair;  ///< empty pictures where the frame is lost
+  pybind11::object setup;   ///< dict, as a detector's program is told it
+};
+
+/// What a detector's program is told first, as a dict.
+pybind11::object setup_dict(const DetectorSetup& setup);
+
+/// A list of dicts as detectors answer it, read as the line of a detector's program is.
+/// @throws DetectorFault "detector: frame 3: balls[0]...: expected ..."
+std::vector<vision::BallObservation> balls_of(const pybind11::object& balls, std::size_t frame,
+                                              const DetectorSetup& setup);
+
+/// The reverse.
+pybind11::object dicts_of(const std::vector<vision::BallObservation>& balls, std::size_t frame);
+
+/// A callable of Python as a detector. It takes the interpreter's lock for each call.
+/// @param setup of the drive
+Detector detector_of(const pybind11::function& callable, const DetectorSetup& setup);
+
+}  // namespace stereobench::harness::bindings

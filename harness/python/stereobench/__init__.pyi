@@ -1,0 +1,19 @@
+"""stereobench, a testbench of stereo vision and SLAM, from Python."""
+from stereobench import datasets as datasets
+from stereobench._core import DriveFrame as DriveFrame
+from stereobench._core import Error as Error
+from stereobench._core import Estimates as Estimates
+from stereobench._core import Frame as Frame
+from stereobench._core import RunCrash as RunCrash
+from stereobench._core import Truth as Truth
+from stereobench._core import filter_names as filter_names
+from stereobench.drives import LANDMARK as LANDMARK
+from stereobench.drives import MEASUREMENT as MEASUREMENT
+from stereobench.drives import Drive as Drive
+from stereobench.drives import Filter as Filter
+from stereobench.drives import Tally as Tally
+from stereobench.drives import estimates as estimates
+from stereobench.results import Result as Result
+from stereobench.results import run as run
+from stereobench.results import sweep as sweep
+from stereobench.scenarios import Scenario as Scenario

@@ -1,0 +1,36 @@
+"""What a detector in Python costs a frame beyond its own work: the pictures as arrays, and its answer as measurements.
+
+usage: PYTHONPATH=build/release/python /usr/bin/python3 tests/studies/python_cost.py [LAPS of ball_circle]
+The answers are those of our detector, so that all else is the same with and without Python.
+"""
+
+import statistics
+import sys
+import time
+
+import stereobench as sb
+
+SCENARIO = "assets/scenarios/ball_circle.yaml"
+
+
+def milliseconds(work):
+    began = time.perf_counter()
+    work()
+    return 1e3 * (time.perf_counter() - began)
+
+
+def shown(frame):
+    return frame.left[0, 0, 0], frame.right[0, 0, 0], frame.setup["rig"]
+
+
+laps = float(sys.argv[1]) if len(sys.argv) > 1 else 0.5
+scenario = sb.Scenario(SCENARIO, {"path.laps": laps, "gates": []}, seeds=[0], filters="ekf")
+costs, balls = [], 0
+for own, ours in zip(sb.Drive(scenario), sb.Drive(scenario)):
+    answer = own.observe()
+    ours.observe()
+    balls += len(answer)
+    python_ms = milliseconds(lambda: (shown(own), own.measure(answer)))
+    costs.append(python_ms - milliseconds(ours.measure))
+print(f"{len(costs)} frames, {balls / len(costs):.1f} balls a frame: {statistics.median(costs):.2f} ms a frame "
+      f"(median), {max(costs):.2f} ms at most")
