@@ -8,6 +8,7 @@ set(STEREOBENCH_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stereobench)
 # stereobench_install_module(<name>): the library stereobench_<name> as stereobench::<name>, with all its headers.
 function(stereobench_install_module name)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  list(FILTER headers EXCLUDE REGEX "/python/bindings/")
   target_sources(stereobench_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${headers})
   set_target_properties(stereobench_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS stereobench_${name} EXPORT stereobench-${name}

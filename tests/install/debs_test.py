@@ -10,7 +10,7 @@ import shutil
 import sys
 import unittest
 
-from installed import BUILD, SKIPPED, SOURCE, one_below, run, scratch_folder
+from installed import BUILD, SKIPPED, SOURCE, module_headers, one_below, run, scratch_folder
 
 NAMES = ["stereobench", "libstereobench-dev", "python3-stereobench"]
 HAS_PYTHON = any((BUILD / "python/stereobench").glob("_core*.so"))
@@ -88,9 +88,8 @@ class Debs(unittest.TestCase):
         """The fields are made of the modules' dependencies.cmake; here of the headers themselves."""
         needed = {re.split(r"[ (]", word.strip())[0] for word in field("libstereobench-dev", "Depends").split(",")}
         included = set()
-        for path in SOURCE.glob("*/**/*.h"):
-            if path.relative_to(SOURCE).parts[0] in ("slam", "vision", "worlds", "renderer", "harness"):
-                included |= set(re.findall(r"^ *# *include <([^>]+/[^>]+|[^>]+\.h)>", path.read_text(), re.M))
+        for path in module_headers():
+            included |= set(re.findall(r"^ *# *include <([^>]+/[^>]+|[^>]+\.h)>", path.read_text(), re.M))
         places = [pathlib.Path(place) for place in ["/usr/include", "/usr/include/eigen3", "/usr/include/opencv4",
                                                     f"/usr/include/{run('dpkg-architecture', '-qDEB_HOST_MULTIARCH').strip()}"]]
         found = [next((place / header for place in places if (place / header).exists()), None) for header in sorted(included)]

@@ -41,3 +41,9 @@ def one_below(prefix, pattern):
 
 def files_below(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir())
+
+
+def module_headers():
+    """Those that a module installs: all but the bindings of Python."""
+    headers = [path for module in MODULES for path in (SOURCE / module).rglob("*.h")]
+    return [path for path in headers if "bindings" not in path.parts]

@@ -9,7 +9,7 @@ import re
 import sys
 import unittest
 
-from installed import BUILD, MODULES, SOURCE, files_below, install, one_below, run, scratch_folder
+from installed import BUILD, MODULES, SOURCE, files_below, install, module_headers, one_below, run, scratch_folder
 
 CONSUMERS = SOURCE / "tests/install/consumers"
 
@@ -145,7 +145,7 @@ class Package(unittest.TestCase):
 
     def test_every_header_of_a_module_and_nothing_of_this_checkout(self):
         headers = [file for file in files_below(prefix / "include/stereobench")]
-        ours = [str(path.relative_to(SOURCE)) for module in MODULES for path in (SOURCE / module).rglob("*.h")]
+        ours = [str(path.relative_to(SOURCE)) for path in module_headers()]
         self.assertEqual(headers, sorted(ours))
         for path in prefix.rglob("*.cmake"):
             for place in (SOURCE, BUILD, "/usr/include"):
