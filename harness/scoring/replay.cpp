@@ -18,6 +18,11 @@ bool is_finite(const slam::Estimate& estimate) {
          std::isfinite(estimate.pose.heading_rad) && estimate.covariance.allFinite();
 }
 
+void fail(FilterRun& run, const std::string& why) {
+  run.failed = true;
+  run.failure = fmt::format("step {}: {}", run.poses.size(), why);
+}
+
 }  // namespace
 
 FilterReplay::FilterReplay(const std::string& filter, slam::FilterConfig config, const slam::Pose& start,
@@ -43,20 +48,15 @@ bool FilterReplay::drive(const LogStep& step) {
   return true;
 }
 
-void FilterReplay::fail(const std::string& why) {
-  run_.failed = true;
-  run_.failure = fmt::format("step {}: {}", run_.poses.size(), why);
-}
-
 void FilterReplay::step(const LogStep& step, std::span<const int> truth) {
   if (run_.failed) return;
   if (!truth.empty() && !run_.association) run_.association.emplace();
   try {
     const bool finite = drive(step);
     if (!truth.empty()) judge(slam::last_decisions(state_), truth, *run_.association);
-    if (!finite) fail("the estimate is not finite");
+    if (!finite) fail(run_, "the estimate is not finite");
   } catch (const std::exception& error) {
-    fail(error.what());
+    fail(run_, error.what());
     has_thrown_ = true;
   }
 }
@@ -64,8 +64,12 @@ void FilterReplay::step(const LogStep& step, std::span<const int> truth) {
 FilterRun FilterReplay::run(std::span<const int> truth) const {
   FilterRun run = run_;
   if (truth.empty()) run.association.reset();
-  if (!has_thrown_) run.last = slam::estimate(state_);
-  if (run.association && !has_thrown_) judge_map(run.last.landmarks, truth, *run.association);
+  try {
+    if (!has_thrown_) run.last = slam::estimate(state_);
+    if (run.association && !has_thrown_) judge_map(run.last.landmarks, truth, *run.association);
+  } catch (const std::exception& error) {
+    fail(run, error.what());
+  }
   const std::vector<int> distinct = distinct_ancestors(ancestors_, run.particles);
   for (std::size_t k = 0; k < run.updates.size(); ++k) run.updates[k].distinct_ancestors = distinct[k];
   return run;

@@ -31,7 +31,6 @@ class FilterReplay {
 
  private:
   bool drive(const LogStep& step);
-  void fail(const std::string& why);
 
   FilterRun run_;
   bool has_thrown_ = false;  ///< then it believes nothing any more

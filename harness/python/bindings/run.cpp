@@ -24,8 +24,8 @@ struct Outcome {
   std::string broken;
 };
 
-/// @param detector None: as the scenario says. Seeds are then driven in forked processes: this process may not
-///   have rendered before.
+/// @param detector None: as the scenario says. Seeds are then driven in forked processes, so that this
+///   process may not have rendered before.
 Outcome run(const PyScenario& scenario, const std::filesystem::path& out, int jobs,
             const py::object& detector) {
   ScenarioArguments arguments = scenario.arguments;
