@@ -12,7 +12,7 @@ import shutil
 import sys
 import unittest
 
-from installed import SOURCE, files_below, install, one_below, run, scratch_folder
+from installed import BUILD, SOURCE, files_below, install, one_below, run, scratch_folder
 
 PYTHON = "lib/python3/dist-packages"
 
