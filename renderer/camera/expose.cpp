@@ -16,56 +16,67 @@
 namespace stereobench::renderer {
 namespace {
 
-constexpr int kFractionBits = 7;                // shifts are fixed-point numbers, in 1/128 levels
 constexpr double kLargestShift_levels = 255.0;  // clamps every pixel, as any larger shift would
 constexpr double kLargestDefocus_px = 100.0;
 constexpr std::size_t kLevelsAtOnce = 2048;
-constexpr std::size_t kLanes = 8;  ///< levels that are shifted by one instruction
+constexpr std::size_t kLanes = 16;  ///< levels that are shifted by one instruction
 
-using Shifts = std::vector<std::int16_t>;
+/// By how many levels each of the equally likely numbers shifts a pixel.
+using Shifts = std::vector<std::int8_t>;
 
-/// A shift s stands for (s + 1/2) / 128 levels: the halves keep the table antisymmetric and free of ties, so
-/// that rounding has no favourite direction.
-Shifts shifts_for(double sd_levels) {
+/// Rounded to whole levels, as pixels are. Levels are whole numbers: a shift that is added to one and rounded
+/// then is the same. What is more than a byte holds is shifted by one table after another.
+std::vector<Shifts> shifts_for(double sd_levels) {
+  constexpr int kMost = 127;
   const std::vector<double>& quantiles = standard_normal_quantiles();
-  Shifts shifts(kQuantiles);
-  std::transform(quantiles.begin(), quantiles.end(), shifts.begin(), [&](double quantile) {
-    const double levels = std::clamp(sd_levels * quantile, -kLargestShift_levels, kLargestShift_levels);
-    return static_cast<std::int16_t>(std::floor(levels * (1 << kFractionBits)));
-  });
-  return shifts;
+  std::vector<Shifts> tables;
+  bool is_all = false;
+  for (int before = 0; !is_all; before += kMost) {
+    Shifts& shifts = tables.emplace_back(kQuantiles);
+    is_all = true;
+    for (std::size_t i = 0; i < kQuantiles; ++i) {
+      const double levels = std::clamp(sd_levels * quantiles[i], -kLargestShift_levels, kLargestShift_levels);
+      const int whole = static_cast<int>(std::floor(levels + 0.5));
+      const int rest = whole > 0 ? std::max(whole - before, 0) : std::min(whole + before, 0);
+      shifts[i] = static_cast<std::int8_t>(std::clamp(rest, -kMost, kMost));
+      is_all = is_all && std::abs(rest) <= kMost;
+    }
+  }
+  return tables;
 }
 
-/// Adds shifts to eight levels, rounds and clamps; sums beyond 16 bits saturate, which clamps just as well.
-void shift_levels(std::uint8_t* levels, const std::int16_t* shifts) {
-  const cv::v_int16x8 fixed = cv::v_reinterpret_as_s16(cv::v_load_expand(levels) << kFractionBits);
-  const cv::v_int16x8 half = cv::v_setall_s16(1 << (kFractionBits - 1));
-  cv::v_pack_u_store(levels, (fixed + cv::v_load(shifts) + half) >> kFractionBits);
+/// Adds shifts to sixteen levels and clamps: sums of signed bytes saturate where levels end.
+void shift_levels(std::uint8_t* levels, const std::int8_t* shifts) {
+  const cv::v_uint8x16 middle = cv::v_setall_u8(128);
+  const cv::v_int8x16 from_middle = cv::v_reinterpret_as_s8(cv::v_load(levels) ^ middle);
+  cv::v_store(levels, cv::v_reinterpret_as_u8(from_middle + cv::v_load(shifts)) ^ middle);
 }
 
 /// Shifts a run of levels. They are drawn, looked up and added one step after another, because the processor
-/// cannot read eight numbers at once that it has just written one by one.
+/// cannot read sixteen numbers at once that it has just written one by one.
 /// @param first how many levels of the picture come before them
 void add_noise(std::span<std::uint8_t> levels, std::uint64_t first, const NoiseNumbers& noise,
-               const Shifts& shifts) {
+               const std::vector<Shifts>& tables) {
   std::array<std::uint16_t, kLevelsAtOnce> numbers;
-  std::array<std::int16_t, kLevelsAtOnce> drawn{};
+  std::array<std::int8_t, kLevelsAtOnce> drawn{};
   noise.draw(first, std::span(numbers).first(levels.size()));
-  for (std::size_t i = 0; i < levels.size(); ++i) drawn[i] = shifts[numbers[i]];
-  std::size_t done = 0;
-  for (; done + kLanes <= levels.size(); done += kLanes) shift_levels(&levels[done], &drawn[done]);
-  std::array<std::uint8_t, kLanes> rest{};  // the last levels, filled up
-  const std::span<std::uint8_t> last = levels.subspan(done);
-  std::ranges::copy(last, rest.begin());
-  if (!last.empty()) shift_levels(rest.data(), &drawn[done]);
-  std::copy_n(rest.begin(), last.size(), last.begin());
+  for (const Shifts& shifts : tables) {
+    for (std::size_t i = 0; i < levels.size(); ++i) drawn[i] = shifts[numbers[i]];
+    std::size_t done = 0;
+    for (; done + kLanes <= levels.size(); done += kLanes) shift_levels(&levels[done], &drawn[done]);
+    std::array<std::uint8_t, kLanes> rest{};  // the last levels, filled up
+    const std::span<std::uint8_t> last = levels.subspan(done);
+    std::ranges::copy(last, rest.begin());
+    if (!last.empty()) shift_levels(rest.data(), &drawn[done]);
+    std::copy_n(rest.begin(), last.size(), last.begin());
+  }
 }
 
-cv::Mat noisy(const cv::Mat& picture, const Shifts& shifts, const NoiseNumbers& noise) {
+cv::Mat noisy(const cv::Mat& picture, const std::vector<Shifts>& tables, const NoiseNumbers& noise) {
   cv::Mat result = picture.clone();  // continuous, so that its bytes are one sequence
   const std::span<std::uint8_t> levels(result.ptr(), result.total() * result.elemSize());
   for (std::size_t first = 0; first < levels.size(); first += kLevelsAtOnce)
-    add_noise(levels.subspan(first, std::min(kLevelsAtOnce, levels.size() - first)), first, noise, shifts);
+    add_noise(levels.subspan(first, std::min(kLevelsAtOnce, levels.size() - first)), first, noise, tables);
   return result;
 }
 
@@ -118,11 +129,11 @@ vision::StereoPair expose(const StereoFrame& frame, const worlds::CameraSensor& 
     return {develop(left, sensor, seed, 2 * frame_index), develop(right, sensor, seed, 2 * frame_index + 1)};
   }
   if (sensor.noise_sd_levels == 0.0) return {in_levels(left), in_levels(right)};
-  const Shifts shifts = shifts_for(sensor.noise_sd_levels);
+  const std::vector<Shifts> tables = shifts_for(sensor.noise_sd_levels);
   const auto key = [&](std::uint64_t side) {
     return NoiseNumbers({seed, slam::Stream::kImageNoise, 2 * frame_index + side});
   };
-  return {noisy(in_levels(left), shifts, key(0)), noisy(in_levels(right), shifts, key(1))};
+  return {noisy(in_levels(left), tables, key(0)), noisy(in_levels(right), tables, key(1))};
 }
 
 }  // namespace stereobench::renderer

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <Random123/philox.h>
 
@@ -21,7 +22,13 @@ struct PhiloxBlocks {
 /// @param numbers room for 8 numbers a block, the low half of each word first
 void write_blocks(const PhiloxBlocks& blocks, std::uint16_t* numbers);
 
-/// The same without the processor's wide registers: the reference.
+/// Writes the first blocks, as many as fill its registers. @return how many
+using WriteManyBlocks = std::size_t (*)(const PhiloxBlocks& blocks, std::uint16_t* numbers);
+
+/// What this processor has registers for, the widest first. write_blocks() takes that.
+const std::vector<WriteManyBlocks>& wide_writers();
+
+/// The same as write_blocks() without wide registers: the reference.
 void write_blocks_one_by_one(const PhiloxBlocks& blocks, std::uint16_t* numbers);
 
 }  // namespace stereobench::renderer

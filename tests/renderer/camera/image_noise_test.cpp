@@ -59,17 +59,35 @@ TEST(NoiseNumbers, GoOnBeyondFourThousandMillionBlocks) {
   }
 }
 
+PhiloxBlocks some_blocks(std::size_t count, slam::RandomStream& random) {
+  return {.key = {{random.bits(), random.bits()}},
+          .first = {{random.bits() / 2, random.bits(), random.bits(), random.bits()}},
+          .count = count};
+}
+
 TEST(PhiloxBlocks, AreTheSameInWideRegisters) {
   slam::RandomStream random(1, slam::Stream::kOracle);
   for (std::size_t count = 0; count < 40; ++count) {
-    const PhiloxBlocks blocks = {.key = {{random.bits(), random.bits()}},
-                                 .first = {{random.bits() / 2, random.bits(), random.bits(), random.bits()}},
-                                 .count = count};
+    const PhiloxBlocks blocks = some_blocks(count, random);
     std::vector<std::uint16_t> wide(8 * count), narrow(8 * count);
     write_blocks(blocks, wide.data());
     write_blocks_one_by_one(blocks, narrow.data());
     EXPECT_EQ(wide, narrow) << count;
   }
+}
+
+TEST(PhiloxBlocks, AreTheSameInRegistersOfEachWidth) {
+  slam::RandomStream random(2, slam::Stream::kOracle);
+  for (const WriteManyBlocks write_many : wide_writers())
+    for (std::size_t count = 0; count < 40; ++count) {
+      const PhiloxBlocks blocks = some_blocks(count, random);
+      std::vector<std::uint16_t> wide(8 * count), narrow(8 * count);
+      const std::size_t done = write_many(blocks, wide.data());
+      EXPECT_LT(count - done, 8U);
+      write_blocks_one_by_one(blocks, narrow.data());
+      narrow.resize(8 * done), wide.resize(8 * done);
+      EXPECT_EQ(wide, narrow) << count;
+    }
 }
 
 }  // namespace
