@@ -5,6 +5,7 @@
 
 #include "renderer/camera/expose.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -71,18 +72,31 @@ TEST(Expose, ChannelsNeighboursCamerasAndFramesAreUncorrelated) {
   EXPECT_LE(std::abs(mean_product(noise, neighbour)), largest);
 }
 
-/// The numbers are those of RandomStream, one half word a byte: an independent way to the same picture.
-TEST(Expose, UsesTheNumbersOfTheImageNoiseStream) {
-  const StereoFrame frame = grey({37, 5}, 100);  // 555 bytes: does not end with a block
-  const vision::StereoPair pair = expose(frame, {3.0}, 0x123456789abcULL, 17);
+/// A picture of one level, its noise and the numbers of the stream: an independent way to the same picture.
+void expect_numbers_of_stream(int level, double sd_levels) {
+  const StereoFrame frame = grey({37, 5}, level);  // 555 bytes: does not end with a block
+  const vision::StereoPair pair = expose(frame, {sd_levels}, 0x123456789abcULL, 17);
   slam::RandomStream words(0x123456789abcULL, slam::Stream::kImageNoise, 2 * 17 + 1);
   for (std::size_t i = 0; i < 555; i += 2) {
     const std::uint32_t word = words.bits();
     for (std::size_t half = 0; half < 2 && i + half < 555; ++half) {
       const double uniform = (static_cast<double>((word >> (16 * half)) & 0xffffU) + 0.5) / 65536.0;
-      const double expected = 100.0 + 3.0 * slam::normal_quantile(uniform);
-      ASSERT_NEAR(pair.right.data[i + half], expected, 0.52) << "byte " << i + half;
+      const double expected = std::clamp(level + sd_levels * slam::normal_quantile(uniform), 0.0, 255.0);
+      ASSERT_NEAR(pair.right.data[i + half], expected, 0.52 + 1e-3 * sd_levels) << "byte " << i + half;
     }
+  }
+}
+
+/// One half word a byte.
+TEST(Expose, UsesTheNumbersOfTheImageNoiseStream) {
+  expect_numbers_of_stream(100, 3.0);
+}
+
+/// Shifts beyond what a signed byte holds, either way. Mutation: the first table alone.
+TEST(Expose, AddsNoiseOfManyLevels) {
+  for (const double sd_levels : {40.0, 60.0, 200.0}) {
+    expect_numbers_of_stream(10, sd_levels);
+    expect_numbers_of_stream(245, sd_levels);
   }
 }
 
