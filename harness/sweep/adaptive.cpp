@@ -2,56 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "harness/io/number_table.h"
+#include "harness/statistics/statistics.h"
+#include "slam/math/elementary.h"
 
 namespace stereobench::harness {
 namespace {
 
-/// How far a filter's ATE at a level is from the line through both neighbours, over the seeds.
-Summary bend_at(const SweepResult& sweep, const std::vector<double>& x, std::size_t middle,
-                std::size_t filter) {
-  const double t = (x[middle] - x[middle - 1]) / (x[middle + 1] - x[middle - 1]);
-  const std::vector<double>& left = sweep.cells[middle - 1].ate_m[filter];
-  const std::vector<double>& right = sweep.cells[middle + 1].ate_m[filter];
-  std::vector<double> bends = sweep.cells[middle].ate_m[filter];
-  for (std::size_t seed = 0; seed < bends.size(); ++seed)
-    bends[seed] -= (1.0 - t) * left[seed] + t * right[seed];
-  return summarise(bends);
+/// Whether values are spread over decades: then their ratios count.
+bool is_over_decades(const std::vector<double>& x) {
+  constexpr double kDecade = 10.0;
+  const auto lowest = std::ranges::find_if(x, [](double value) { return value > 0.0; });
+  return x.front() >= 0.0 && lowest != x.end() && x.back() >= kDecade * *lowest;
 }
 
-/// From the least mean ATE of a filter to the largest.
-double height_of(const SweepResult& sweep, std::size_t filter) {
-  std::vector<double> means;
-  for (const SweepCell& cell : sweep.cells) means.push_back(summarise(cell.ate_m[filter]).mean);
-  const auto [low, high] = std::ranges::minmax(means);
-  return high - low;
+/// Where values lie on the axis; -infinity for a 0 that stands apart.
+std::vector<double> places_of(std::vector<double> x) {
+  if (is_over_decades(x)) std::ranges::transform(x, x.begin(), slam::logarithm);
+  return x;
 }
 
-/// Halfway; in ratio where the upper end is several times the lower one.
-double between(double low, double high) {
-  constexpr double kSeveral = 3.0;
-  return low > 0.0 && high > kSeveral * low ? std::sqrt(low * high) : 0.5 * (low + high);
+/// The logarithms of a filter's mean ATE; NaN where it failed in all seeds.
+std::vector<double> heights_of(const SweepResult& sweep, std::size_t filter) {
+  std::vector<double> heights;
+  for (const SweepCell& cell : sweep.cells)
+    heights.push_back(slam::logarithm(summarise(cell.ate_m[filter]).mean));
+  return heights;
 }
 
-/// The level where any filter's curve bends most; 0: none does.
-std::size_t sharpest_bend(const SweepResult& sweep, const std::vector<double>& x) {
-  std::size_t sharpest = 0;
-  double most = 0.0;
-  for (std::size_t filter = 0; filter < sweep.cells.front().ate_m.size(); ++filter) {
-    const double height = height_of(sweep, filter);
-    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-      const Summary bend = bend_at(sweep, x, i, filter);
-      const double part = std::abs(bend.mean) / height;
-      if (!(std::abs(bend.mean) > bend.half_width) || !(part > most)) continue;
-      most = part;
-      sharpest = i;
+/// The second derivative of the parabola through a point and its neighbours; not finite at both ends.
+double curvature_at(const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
+  if (i == 0 || i + 1 == x.size()) return std::numeric_limits<double>::quiet_NaN();
+  const double before = (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
+  const double behind = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+  return 2.0 * (behind - before) / (x[i + 1] - x[i - 1]);
+}
+
+/// How much a value between a pair is needed: by area, then by distance.
+struct Need {
+  double area = 0.0;
+  double distance = 0.0;
+
+  auto operator<=>(const Need&) const = default;
+};
+
+/// @param i the lower one of the pair
+Need need_between(const std::vector<double>& x, const std::vector<std::vector<double>>& curves,
+                  std::size_t i) {
+  Need need{0.0, x[i + 1] - x[i]};
+  if (!std::isfinite(need.distance)) return {};
+  for (const std::vector<double>& y : curves)
+    for (const std::size_t end : {i, i + 1}) {
+      const double area =
+          std::abs(curvature_at(x, y, end)) * need.distance * need.distance * need.distance / 12.0;
+      if (std::isfinite(area)) need.area = std::max(need.area, area);
     }
-  }
-  return sharpest;
+  return need;
+}
+
+/// The value halfway between two places, as it is written.
+std::string between(double low, double high, bool is_by_ratio, bool is_whole) {
+  const double middle = is_by_ratio ? std::sqrt(low * high) : 0.5 * (low + high);
+  return is_whole ? fmt::format("{:.0f}", middle) : fmt::format("{:.4g}", middle);
 }
 
 }  // namespace
@@ -69,16 +87,23 @@ std::vector<double> numbers_of(const Variation& variation) {
 }
 
 std::optional<std::string> next_value(const SweepResult& sweep, bool is_whole) {
-  const std::vector<double> x = numbers_of(sweep.variations.front());
-  const std::size_t bend = sharpest_bend(sweep, x);
-  if (bend == 0) return {};
-  const bool is_left_wider = x[bend] - x[bend - 1] >= x[bend + 1] - x[bend];
-  const std::size_t low = is_left_wider ? bend - 1 : bend;
-  const double middle = between(x[low], x[low + 1]);
-  std::string value = is_whole ? fmt::format("{:.0f}", middle) : fmt::format("{:.4g}", middle);
-  const double number = numbers_of({{"value"}, {value}}).front();
-  const bool is_new = number > x[low] && number < x[low + 1];
-  return is_new ? std::optional(value) : std::nullopt;
+  const std::vector<double> values = numbers_of(sweep.variations.front());
+  const std::vector<double> places = places_of(values);
+  std::vector<std::vector<double>> curves;
+  for (std::size_t filter = 0; filter < sweep.cells.front().ate_m.size(); ++filter)
+    curves.push_back(heights_of(sweep, filter));
+  std::optional<std::string> next;
+  Need most;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const std::string value = between(values[i], values[i + 1], is_over_decades(values), is_whole);
+    const double number = numbers_of({{"value"}, {value}}).front();
+    const bool is_new = number > values[i] && number < values[i + 1];
+    const Need need = need_between(places, curves, i);
+    if (!is_new || !(need > most)) continue;
+    most = need;
+    next = value;
+  }
+  return next;
 }
 
 }  // namespace stereobench::harness

@@ -1,4 +1,4 @@
-/// Where a sweep should look next: at a value between two others, where a curve bends.
+/// Where a sweep should look next: between two values, where the line between them says least of a curve.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,19 @@ namespace stereobench::harness {
 /// The numbers that a variation's values are. @throws std::runtime_error for a value that is none
 std::vector<double> numbers_of(const Variation& variation);
 
-/// A value between two neighbours at which some filter's ATE is to be found out next.
+/// A value between two neighbours at which the ATE of the filters is to be found out next.
 ///
-/// A curve bends at a value by how far its ATE is from the line through both neighbours, seed by seed. The
-/// largest bend, as a part of the curve's whole height, is refined on its wider side. A bend whose 95 %
-/// interval over the seeds holds 0 is none.
+/// Of each filter's curve, the area between it and the line through two neighbours is estimated as |f''| h^3
+/// / 12: h is their distance, f'' the larger of the second divided differences at both. The pair with the
+/// largest area gets the value between them; where no curve bends, the pair that is farthest apart. f is the
+/// logarithm of the mean ATE over seeds. Where the highest value is ten times the lowest above 0 or more,
+/// distances are those of logarithms, and 0 stands apart.
+///
+/// That chance makes curves bend as well is left in: an area near it has a small h. docs/results.md compares
+/// with evenly spaced values.
 /// @param sweep of one variation of numbers, with at least three cells, by ascending value
 /// @param is_whole whether the key takes whole numbers
-/// @return to 4 significant digits; none where no curve bends, or no new value is left
+/// @return to 4 significant digits; none where no new value is left
 std::optional<std::string> next_value(const SweepResult& sweep, bool is_whole);
 
 }  // namespace stereobench::harness

@@ -18,6 +18,11 @@ double rounded(double level) {
   return numbers_of({{"level"}, {fmt::format("{:.12g}", level)}}).front();
 }
 
+/// Whether levels are far enough apart to tell an error that grows with them from one that stays.
+bool span_an_octave(const std::vector<double>& levels) {
+  return levels.back() >= 2.0 * levels.front();
+}
+
 /// The levels of a sweep; empty where its values are no numbers.
 std::vector<double> levels_of(const SweepResult& sweep) {
   try {
@@ -46,7 +51,7 @@ std::optional<Response> response_of(const SweepResult& sweep) {
   if (takes_whole_numbers(sweep.variations.front().keys.front())) return {};
   const std::vector<double> levels = levels_of(sweep);
   const bool ascends = std::ranges::adjacent_find(levels, std::greater_equal<>()) == levels.end();
-  if (levels.size() < kFewestLevels || levels.front() < 0.0 || !ascends) return {};
+  if (levels.size() < kFewestLevels || levels.front() < 0.0 || !ascends || !span_an_octave(levels)) return {};
   const std::string& key = sweep.variations.front().keys.front();
   Response response{.parameter = sweep.paired_to ? fmt::format("{} - {}", key, *sweep.paired_to) : key,
                     .levels = levels,

@@ -103,8 +103,7 @@ TEST(SweepCommand, ComparesCellsWithTheReference) {
   EXPECT_THAT(bytes_of(out / "sweep.csv"), HasSubstr("ate_difference_m,ate_difference_ci95_m,p"));
 }
 
-// Ranges that are right lie between those that are short and long: the curve is a V, which is looked at where
-// it bends, and the table stays in order. Mutations: values at the end of the list; no value at all.
+// The table stays in order. Mutations: values at the end of the list; no value at all.
 TEST(SweepCommand, AddsValuesWhereTheCurveBends) {
   const TestFolder scratch;
   const auto out = sweep_in(

@@ -47,6 +47,8 @@ TEST(SweepResponse, IsNoneOfOtherSweeps) {
   EXPECT_FALSE(response_of(sweep_over({"0", "two", "3"})));
   EXPECT_FALSE(response_of(sweep_over({"-1", "0", "1"})));
   EXPECT_FALSE(response_of(sweep_over({"0", "2", "1"})));
+  EXPECT_FALSE(response_of(sweep_over({"0.12", "0.125", "0.13"})));
+  EXPECT_TRUE(response_of(sweep_over({"1", "1.5", "2"})));
   SweepResult counts = sweep_over({"0", "1", "2"});
   counts.variations.front().keys = {"detector_noise.latency_frames"};
   EXPECT_FALSE(response_of(counts));
