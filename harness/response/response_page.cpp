@@ -89,19 +89,18 @@ PageTable law_table(const ResponseFit& fit) {
 std::vector<Block> response_blocks(const ResponseFit& fit) {
   const std::vector<std::string> sentences = response_sentences(fit);
   if (sentences.empty()) return {};
-  return {
-      {.title = "Response to " + fit.parameter,
-       .note = "In brackets are 95 % intervals, from seeds that are drawn anew.",
-       .content = PageText{sentences}},
-      {.title = "Floor, slope and knee",
-       .note = "error^2 = floor^2 + slope^2 / (1 / level^2 + 1 / upper knee^2). At the knee the sensor costs "
-               "as much "
-               "as all else.",
-       .content = law_table(fit)},
-      {.title = "Response curves",
-       .note =
-           "Bars are 95 % intervals. A logarithmic axis has no place for level 0, which the laws follow too.",
-       .content = charts_of(fit)}};
+  return {{.title = "Response to " + fit.parameter,
+           .note = "In brackets are 95 % intervals, from seeds that are drawn anew.",
+           .content = PageText{sentences}},
+          {.title = "Floor, slope and knee",
+           .note = "Of the ATE, rms over seeds: error^2 = floor^2 + slope^2 / (1 / level^2 + 1 / upper "
+                   "knee^2). At the knee "
+                   "the sensor costs as much as all else.",
+           .content = law_table(fit)},
+          {.title = "Response curves",
+           .note = "Bars are 95 % intervals. A logarithmic axis has no place for level 0: the laws follow "
+                   "it, and response.png shows it.",
+           .content = charts_of(fit)}};
 }
 
 }  // namespace stereobench::harness

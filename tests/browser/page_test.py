@@ -69,7 +69,7 @@ def run(*arguments, expected=(0,)):
 
 
 def make_pages():
-    """A run, one of a worse detector, what changed between them, a sweep, a calibration, and a log."""
+    """A run, one of a worse detector, what changed between them, sweeps, a calibration, a log, and a study."""
     scenario = str(SOURCE / "assets/scenarios/ball_circle.yaml")
     short = [scenario, "--set", "path.laps=0.2", "--set", "gates=[]"]
     filters = ["--filters", "ekf,ufastslam", "--particles", "20"]
@@ -79,6 +79,11 @@ def make_pages():
     run("run", *short, *filters, "--seeds", "0..2", "--out", "after", "--detector", worse)
     run("compare", "before", "after", "--html", "compare.html", expected=(0, 1))
     run("sweep", *short, *filters, "--seeds", "0..1", "--vary", "camera.noise_sd_levels=0,4", "--out", "sweep")
+    field = [str(SOURCE / "assets/scenarios/open_field.yaml"), "--set", "path.step_s=4", "--set", "gates=[]"]
+    field += ["--set", "filters=[ekf, smoother]"]
+    run("sweep", *field, "--seeds", "0..4", "--vary", "oracle.bearing_sd_deg=0,0.5,2,8", "--out", "response")
+    run("sensitivity", *field, "--samples", "16", "--vary", "oracle.range_sd_m=0.1..1", "--metric",
+        "filters.ekf.ate_rms_m", "--out", "sensitivity")
     run("calibrate", scenario, "--seeds", "0..3", "--out", "calibration")
     run("render", scenario, "--set", "path.laps=0.2", "--out", "dataset")
     run("slam", "dataset", "--filters", "ekf", "--out", "log")
@@ -90,7 +95,7 @@ class Pages(unittest.TestCase):
 
     def on_every_page(self, check):
         for name in ("before/report.html", "after/report.html", "compare.html", "sweep/report.html",
-                     "calibration/report.html", "log/report.html"):
+                     "response/report.html", "sensitivity/report.html", "calibration/report.html", "log/report.html"):
             with self.subTest(page=name):
                 self.open(name)
                 check(name)
@@ -138,6 +143,23 @@ class Pages(unittest.TestCase):
         self.assertEqual(BROWSER.complaints, [])
         for count in BROWSER.value(CHART_COLOURS):
             self.assertGreater(count, 10)
+
+    def test_what_has_no_place_on_an_axis_is_not_drawn(self):
+        """Level 0 on a logarithmic axis. Red where points or laws alone are looked at."""
+        self.open("response/report.html")
+        BROWSER.value(CHART_COLOURS)
+        charts = BROWSER.value("""[...document.querySelectorAll('.chart canvas')].map(c => Chart.getChart(c)).map(chart => ({
+          log: chart.options.scales.x.type === 'logarithmic',
+          series: chart.data.datasets.map(({label, data, borderColor}) => ({label, data, borderColor}))}))""")
+        curves = [chart for chart in charts if chart["log"]]
+        self.assertEqual(len(curves), 1)
+        series = {one["label"]: one for one in curves[0]["series"]}
+        self.assertEqual([point["x"] for point in series["ekf"]["data"]], [0, 0.5, 2, 8])
+        self.assertEqual([point["y"] is None for point in series["ekf"]["data"]], [True, False, False, False])
+        laws = [label for label in series if label.endswith(", law")]
+        self.assertGreater(len(laws), 0)
+        for law in laws:
+            self.assertEqual(series[law]["borderColor"], series[law.removesuffix(", law")]["borderColor"])
 
     def test_texts_are_no_html(self):
         self.open("after/report.html")

@@ -13,7 +13,7 @@ const intervals = {
     ctx.lineWidth = 1.5;
     ctx.beginPath();
     for (const [at, low, high] of dataset.intervals) {
-      if (low === null || high === null) continue;
+      if (low === null || high === null || (x.type === 'logarithmic' && !(at > 0))) continue;
       const px = x.getPixelForValue(at);
       const within = y.type === 'logarithmic' ? Math.max(low, y.min) : low;  // 0 and less are far below
       const [from, to] = [y.getPixelForValue(within), y.getPixelForValue(high)];
@@ -29,14 +29,16 @@ const intervals = {
   },
 };
 
-function points(x, y, logarithmic) {
-  return x.map((at, i) => ({x: at, y: logarithmic && !(y[i] > 0) ? null : y[i]}));
+/** Points of a chart; those without a place on a logarithmic axis are gaps. */
+function points(x, y, {log_x, log_y}) {
+  const isLost = (at, value) => (log_x && !(at > 0)) || (log_y && !(value > 0));
+  return x.map((at, i) => ({x: at, y: isLost(at, y[i]) ? null : y[i]}));
 }
 
 /** A band is two lines, the second of which is filled down to the first. */
 function bandDatasets(series, chart, colour) {
   const line = (y, more) => ({
-    label: series.name, data: points(series.x, y, chart.log_y), borderColor: 'transparent', pointRadius: 0,
+    label: series.name, data: points(series.x, y, chart), borderColor: 'transparent', pointRadius: 0,
     pointHitRadius: 0, spanGaps: false, ...more});
   return [line(series.low, {hiddenInLegend: true, fill: false}),
           line(series.high, {fill: '-1', backgroundColor: `${colour}38`})];
@@ -48,9 +50,10 @@ function datasetsOf(series, chart) {
   const isPoints = series.look === 'points';
   const many = series.x.length > 300;
   return [{
-    label: series.name, data: points(series.x, series.y, chart.log_y), borderColor: colour,
+    label: series.name, data: points(series.x, series.y, chart), borderColor: colour,
     backgroundColor: isPoints && many ? `${colour}88` : colour, showLine: !isPoints, borderWidth: 2,
     pointStyle: !isPoints ? 'line' : many ? 'circle' : point, pointRadius: isPoints ? (many ? 1.5 : 4) : 0, pointHitRadius: 6, spanGaps: false,
+    clip: 6,  // points at the ends are seen whole
     borderDash: series.look === 'dashes' ? [4, 4] : isPoints ? [] : dash,
     intervals: series.low.length > 0 ? series.x.map((at, i) => [at, series.low[i], series.high[i]]) : null,
   }];

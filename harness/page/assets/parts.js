@@ -110,8 +110,8 @@ function look(name) {
   if (base in usualPlaces)
     return {colour: lookColours[usualPlaces[base]][isDark() ? 1 : 0], dash: [], point: base === 'B' ? 'triangle' :
       'circle'};
-  if (!lookOf.has(name)) lookOf.set(name, lookOf.size);
-  const place = lookOf.get(name);
+  if (!lookOf.has(base)) lookOf.set(base, lookOf.size);
+  const place = lookOf.get(base);
   const dashes = [[], [8, 3], [2, 2]];
   return {colour: lookColours[place % lookColours.length][isDark() ? 1 : 0],
           dash: dashes[Math.floor(place / lookColours.length) % dashes.length],
