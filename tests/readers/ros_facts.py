@@ -20,7 +20,7 @@ TOPICS = {
     "/ground_truth/balls": "visualization_msgs/MarkerArray", "/ground_truth/pose_2d": "geometry_msgs/Pose2D",
     "/ground_truth/landmarks": "sensor_msgs/PointCloud2", "/sightings": "sensor_msgs/PointCloud2"}
 LATCHED = ("/tf_static", "/ground_truth/landmarks")
-FLOAT64 = 8
+FLOAT32, FLOAT64 = 7, 8
 
 
 def table(plain, name):
@@ -49,12 +49,19 @@ def robot(x, y, heading):
 
 
 def points(cloud):
-    """The numbers of a sensor_msgs/PointCloud2 whose fields are all of 64 bits: a dictionary a point."""
+    """The numbers of a sensor_msgs/PointCloud2, x, y and z of 32 bits, all others of 64: a dictionary a point."""
     assert (cloud.height, cloud.is_bigendian, cloud.is_dense) == (1, False, True)
     assert len(cloud.data) == cloud.row_step == cloud.width * cloud.point_step
-    assert all((field.datatype, field.count) == (FLOAT64, 1) for field in cloud.fields)
-    return [{field.name: np.frombuffer(cloud.data, "<f8", 1, point * cloud.point_step + field.offset)[0]
+    types = [(field.datatype, field.count) for field in cloud.fields]
+    assert types == [(FLOAT32, 1)] * 3 + [(FLOAT64, 1)] * (len(types) - 3)
+    return [{field.name: float(np.frombuffer(cloud.data, "<f4" if field.datatype == FLOAT32 else "<f8", 1,
+                                             point * cloud.point_step + field.offset)[0])
              for field in cloud.fields} for point in range(cloud.width)]
+
+
+def numbers(cloud):
+    """The same without x, y and z."""
+    return [{name: value for name, value in point.items() if name not in ("x", "y", "z")} for point in points(cloud)]
 
 
 class RosFacts:
@@ -162,7 +169,7 @@ class RosFacts:
         truth = [(nanoseconds(row["t_s"]), *(float(row[key]) for key in ("x_m", "y_m", "theta_rad")))
                  for row in table(self.plain, "groundtruth.csv")]
         self.assertEqual([(ns, pose.x, pose.y, pose.theta) for ns, pose in self.of("/ground_truth/pose_2d")], truth)
-        seen = [{"ns": ns, **point} for ns, cloud in self.of("/sightings") for point in points(cloud)]
+        seen = [{"ns": ns, **point} for ns, cloud in self.of("/sightings") for point in numbers(cloud)]
         wanted = [{"ns" if key == "t_s" else key: nanoseconds(text) if key == "t_s" else float(text)
                    for key, text in row.items()} for row in table(self.plain, "observations.csv")]
         self.assertEqual(seen, wanted)
@@ -170,8 +177,19 @@ class RosFacts:
         self.assertEqual({cloud.header.frame_id for _, cloud in self.of("/sightings")}, {"base_link"})
         (ns, landmarks), = self.of("/ground_truth/landmarks")
         self.assertEqual((ns, landmarks.header.frame_id), (self.messages[0][1] - EPOCH_NS, "map"))
-        self.assertEqual(points(landmarks), [{key: float(text) for key, text in row.items()}
-                                             for row in table(self.plain, "landmarks.csv")])
+        self.assertEqual(numbers(landmarks), [{key: float(text) for key, text in row.items()}
+                                              for row in table(self.plain, "landmarks.csv")])
+
+    def test_clouds_are_seen_where_things_are(self):
+        """Viewers look for x, y and z of 32 bits. Red where y is to the right, and where a sighting has its range as x."""
+        (_, landmarks), = self.of("/ground_truth/landmarks")
+        for point in points(landmarks):
+            self.assertEqual([point["x"], point["y"], point["z"]], [np.float32(point["x_m"]), np.float32(point["y_m"]), 0])
+        for _, cloud in self.of("/sightings"):
+            for point in points(cloud):
+                self.assertAlmostEqual(math.hypot(point["x"], point["y"]), point["range_m"], delta=1e-6)
+                self.assertAlmostEqual(math.atan2(point["y"], point["x"]), point["bearing_rad"], delta=1e-6)
+                self.assertEqual(point["z"], 0)
 
     def test_balls(self):
         balls, seen = table(self.plain, "balls.csv"), table(self.plain, "observations.csv")

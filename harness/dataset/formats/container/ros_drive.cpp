@@ -38,6 +38,12 @@ bool is_of_palette(int colour) {
   return colour >= 0 && static_cast<std::size_t>(colour) < vision::kPalette.size();
 }
 
+/// Where something is seen, from the robot: m, x to the front, y to the left.
+Eigen::Vector2d place_from_robot(const slam::RangeBearing& seen) {
+  const slam::SineCosine turn = slam::sine_cosine(seen.bearing_rad);
+  return {seen.range_m * turn.cosine, seen.range_m * turn.sine};
+}
+
 class RosPlayer {
  public:
   RosPlayer(const DatasetDrive& drive, const MeasurementLog& log, RosVersion version,
@@ -107,11 +113,12 @@ void RosPlayer::play_rig() {
 void RosPlayer::play_landmarks() {
   const std::string_view topic = "/ground_truth/landmarks";
   const std::int64_t stamp_ns = log_.steps.front().stamp_ns;
-  std::vector<std::vector<double>> rows;
+  std::vector<RosPoint> points;
   for (const LandmarkTruth& landmark : log_.landmarks)
-    rows.push_back({static_cast<double>(landmark.landmark_id), landmark.position_m.x(),
-                    landmark.position_m.y(), static_cast<double>(landmark.colour_class)});
-  send(topic, stamp_ns, ros_table(version_, header(topic, stamp_ns, kMap), kLandmarkColumns, rows));
+    points.push_back({landmark.position_m,
+                      {static_cast<double>(landmark.landmark_id), landmark.position_m.x(),
+                       landmark.position_m.y(), static_cast<double>(landmark.colour_class)}});
+  send(topic, stamp_ns, ros_points(version_, header(topic, stamp_ns, kMap), kLandmarkColumns, points));
 }
 
 /// All readings that end until then: one lasts until the next one, the last until the last step.
@@ -166,10 +173,11 @@ void RosPlayer::play_balls(std::size_t step) {
   const std::int64_t stamp_ns = drive_.steps[step].stamp_ns, lifetime_ns = until_next_pair_ns(step);
   std::vector<RosSphere> detected, true_balls;
   for (const slam::RangeBearing& seen : log_.steps[step].measurements) {
-    const slam::SineCosine turn = slam::sine_cosine(seen.bearing_rad);
+    const Eigen::Vector2d place_m = place_from_robot(seen);
     const int colour = seen.colour_class;
-    detected.push_back({colour_name(colour), static_cast<int>(detected.size()),
-                        Eigen::Vector3d(seen.range_m * turn.cosine, seen.range_m * turn.sine, 0.0),
+    detected.push_back({colour_name(colour),
+                        static_cast<int>(detected.size()),
+                        {place_m.x(), place_m.y(), 0.0},
                         drive_.world.ball_radius_m(),
                         is_of_palette(colour) ? worlds::palette_rgb(colour) : Eigen::Vector3d::Ones()});
   }
@@ -188,13 +196,14 @@ void RosPlayer::play_balls(std::size_t step) {
 /// What was measured, as numbers that filters are given. Nothing is sent where nothing was seen.
 void RosPlayer::play_sightings(const LogStep& step) {
   if (step.measurements.empty()) return;
-  std::vector<std::vector<double>> rows;
+  std::vector<RosPoint> points;
   for (const slam::RangeBearing& seen : step.measurements)
-    rows.push_back({static_cast<double>(seen.landmark_id), seen.range_m, seen.bearing_rad,
-                    static_cast<double>(seen.colour_class), seen.covariance(0, 0), seen.covariance(0, 1),
-                    seen.covariance(1, 1)});
+    points.push_back({place_from_robot(seen),
+                      {static_cast<double>(seen.landmark_id), seen.range_m, seen.bearing_rad,
+                       static_cast<double>(seen.colour_class), seen.covariance(0, 0), seen.covariance(0, 1),
+                       seen.covariance(1, 1)}});
   send("/sightings", step.stamp_ns,
-       ros_table(version_, header("/sightings", step.stamp_ns, kRobot), kSightingColumns, rows));
+       ros_points(version_, header("/sightings", step.stamp_ns, kRobot), kSightingColumns, points));
 }
 
 /// 0 for the last pair.

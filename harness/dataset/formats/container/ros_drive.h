@@ -37,7 +37,7 @@ inline constexpr auto kRosTopics = std::to_array<RosTopic>({
     {"/ground_truth/balls", RosType::kSpheres},
 });
 
-/// The columns of /sightings and of /ground_truth/landmarks: those of observations.csv, without their time,
+/// The numbers of /sightings and of /ground_truth/landmarks: columns of observations.csv, without their time,
 /// and of landmarks.csv.
 inline constexpr auto kSightingColumns =
     std::to_array<std::string_view>({"landmark_id", "range_m", "bearing_rad", "colour_class", "range_var_m2",

@@ -187,25 +187,36 @@ std::string ros_spheres(RosVersion version, const RosHeader& header, std::span<c
   return out.take();
 }
 
-std::string ros_table(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
-                      std::span<const std::vector<double>> rows) {
+std::string ros_points(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
+                       std::span<const RosPoint> points) {
+  constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+  constexpr std::size_t kPlaceBytes = 16;  // three of four bytes, and as many to where numbers of eight begin
+  const std::size_t point_bytes = kPlaceBytes + columns.size() * sizeof(double);
   RosEncoder out(version);
-  const std::size_t row_bytes = columns.size() * sizeof(double);
+  const auto field = [&out](std::string_view name, std::size_t offset, std::uint8_t type) {
+    out.text(name);
+    out.count(offset);
+    out.number(type);
+    out.count(1);
+  };
   out.header(header);
   out.count(1);  // height
-  out.count(rows.size());
-  out.count(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    out.text(columns[i]);
-    out.count(i * sizeof(double));
-    out.number(kRosFloat64);
-    out.count(1);
-  }
+  out.count(points.size());
+  out.count(kAxes.size() + columns.size());
+  for (std::size_t i = 0; i < kAxes.size(); ++i) field(kAxes[i], i * sizeof(float), kRosFloat32);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    field(columns[i], kPlaceBytes + i * sizeof(double), kRosFloat64);
   out.flag(false);  // is_bigendian
-  out.count(row_bytes);
-  out.count(row_bytes * rows.size());
-  out.count(row_bytes * rows.size());  // of data
-  for (const std::vector<double>& row : rows) out.block(reinterpret_cast<const char*>(row.data()), row_bytes);
+  out.count(point_bytes);
+  out.count(point_bytes * points.size());
+  out.count(point_bytes * points.size());  // of data
+  for (const RosPoint& point : points) {
+    const std::array place = {static_cast<float>(point.place_m.x()), static_cast<float>(point.place_m.y()),
+                              0.0F, 0.0F};
+    static_assert(sizeof(place) == kPlaceBytes);
+    out.block(reinterpret_cast<const char*>(place.data()), kPlaceBytes);
+    out.block(reinterpret_cast<const char*>(point.numbers.data()), point.numbers.size() * sizeof(double));
+  }
   out.flag(true);  // is_dense
   return out.take();
 }

@@ -19,8 +19,8 @@ namespace stereobench::harness {
 /// value begins at a multiple of its size.
 enum class RosVersion { kOne, kTwo };
 
-/// A number of 64 bits, as a field of sensor_msgs/PointCloud2 says it.
-inline constexpr std::uint8_t kRosFloat64 = 8;
+/// Numbers of 32 and of 64 bits, as a field of sensor_msgs/PointCloud2 says them.
+inline constexpr std::uint8_t kRosFloat32 = 7, kRosFloat64 = 8;
 
 /// When a message's values hold, and in which frame.
 struct RosHeader {
@@ -71,10 +71,17 @@ std::string ros_transforms(RosVersion version, std::span<const RosTransform> tra
 std::string ros_spheres(RosVersion version, const RosHeader& header, std::span<const RosSphere> spheres,
                         std::int64_t lifetime_ns);
 
-/// sensor_msgs/PointCloud2: a row a point, whose fields are numbers of 64 bits.
-/// @param columns names of the fields
-/// @param rows of as many numbers
-std::string ros_table(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
-                      std::span<const std::vector<double>> rows);
+/// A point on the floor that has numbers.
+struct RosPoint {
+  Eigen::Vector2d place_m;  ///< in the header's frame
+  std::vector<double> numbers;
+};
+
+/// sensor_msgs/PointCloud2: x, y and z of 32 bits, which is what viewers of clouds look for, then the numbers
+/// of 64.
+/// @param columns names of the numbers
+/// @param points of as many numbers
+std::string ros_points(RosVersion version, const RosHeader& header, std::span<const std::string_view> columns,
+                       std::span<const RosPoint> points);
 
 }  // namespace stereobench::harness
