@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "harness/budget/budget_range.h"
@@ -91,6 +92,14 @@ Studies studies_of(const LinearError& error, std::size_t seeds, double high) {
   return studies;
 }
 
+/// Writes what was found beside the result of the test.
+void record_studies(const std::string& name, const Studies& studies) {
+  testing::Test::RecordProperty(name + "_above", studies.above);
+  testing::Test::RecordProperty(name + "_median", fmt::format("{:.4f}", studies.median()));
+  testing::Test::RecordProperty(name + "_times_fewer_runs",
+                                fmt::format("{:.1f}", studies.grid_runs / studies.runs));
+}
+
 /// 5 % of the studies and two standard errors of that share.
 constexpr int kMostAbove = 16;
 
@@ -112,6 +121,7 @@ TEST(KnownLaw, QuantilesAreRight) {
 // enough. Mutations: one more seed may fail; the level that fails for the one that holds.
 TEST(KnownLaw, OfARangeErrorIsBoundedAndNear) {
   const Studies studies = studies_of(range_error(), 59, 3.0);
+  record_studies("range", studies);
   EXPECT_LE(studies.above, kMostAbove);
   EXPECT_GE(studies.median(), 0.9);
   EXPECT_LE(studies.median(), 1.0);
@@ -122,9 +132,11 @@ TEST(KnownLaw, OfARangeErrorIsBoundedAndNear) {
 // true level in median, that of 361 seeds (of which 11 may fail) above 0.9.
 TEST(KnownLaw, OfDeadReckoningIsBoundedAndNear) {
   const Studies few = studies_of(dead_reckoning(), 59, 0.3);
+  record_studies("dead_reckoning_59", few);
   EXPECT_LE(few.above, kMostAbove);
   EXPECT_NEAR(few.median(), 0.78, 0.04);
   const Studies many = studies_of(dead_reckoning(), 361, 0.3);
+  record_studies("dead_reckoning_361", many);
   EXPECT_LE(many.above, kMostAbove);
   EXPECT_GE(many.median(), 0.9);
   EXPECT_LE(many.median(), 1.0);

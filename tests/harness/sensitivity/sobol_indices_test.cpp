@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/harness/sensitivity/known_functions.h"
@@ -25,9 +26,15 @@ void expect_closed_form(const KnownFunction& function, const SobolIndices& indic
 // The largest error of seeds 0 to 19 is 0.0015. Mutations: A for B in the first
 // index; the wrong column swapped; the total of B in place of A; half of Jansen's sum.
 TEST(SobolIndices, AreIshigamisInClosedForm) {
-  for (const std::uint64_t seed : {0U, 1U, 2U})
-    expect_closed_form(ishigami(),
-                       study_of(ishigami(), {.samples = 8192, .level = 0.95, .seed = seed}).indices, 0.005);
+  double largest = 0.0;
+  for (const std::uint64_t seed : {0U, 1U, 2U}) {
+    const SobolIndices indices = study_of(ishigami(), {.samples = 8192, .level = 0.95, .seed = seed}).indices;
+    expect_closed_form(ishigami(), indices, 0.005);
+    for (std::size_t i = 0; i < indices.factors.size(); ++i)
+      largest = std::max({largest, std::abs(indices.factors[i].first.value - ishigami().first[i]),
+                          std::abs(indices.factors[i].total.value - ishigami().total[i])});
+  }
+  RecordProperty("largest_error", fmt::format("{:.5f}", largest));
 }
 
 // The largest error of seeds 0 to 19 is 0.020. Mutations: means are not taken off, which the mean of 100
