@@ -94,8 +94,7 @@ std::vector<Block> response_blocks(const ResponseFit& fit) {
            .content = PageText{sentences}},
           {.title = "Floor, slope and knee",
            .note = "Of the ATE, rms over seeds: error^2 = floor^2 + slope^2 / (1 / level^2 + 1 / upper "
-                   "knee^2). At the knee "
-                   "the sensor costs as much as all else.",
+                   "knee^2). At the knee the sensor costs as much as all else.",
            .content = law_table(fit)},
           {.title = "Response curves",
            .note = "Bars are 95 % intervals. A logarithmic axis has no place for level 0: the laws follow "

@@ -118,7 +118,7 @@ std::string knee_word(const ResponseFit& fit, const ResponseLaw& law) {
 
 std::vector<std::string> response_header(const ResponseFit& fit) {
   const std::string unit = unit_of(fit.parameter);
-  return {"filter",
+  return {"curve",
           "floor [m]",
           fmt::format("slope [m{}{}]", unit.empty() ? "" : " / ", unit),
           unit.empty() ? "knee" : fmt::format("knee [{}]", unit),

@@ -19,7 +19,7 @@ int run_sweep(const SweepArguments& arguments) {
   if (base.run.dry_run) {
     for (const CellPlan& cell : plan.cells)
       fmt::print("{}: would run {}\n", name_of(plan.sweep.variations, cell.values), work_of(cell.experiment));
-    if (arguments.adaptive > 0) fmt::print("{} further cells where curves bend\n", arguments.adaptive);
+    if (arguments.adaptive > 0) fmt::print("up to {} further cells where curves bend\n", arguments.adaptive);
     fmt::print("{} cells; results: {}\n", plan.cells.size(), (out / "").string());
     return kPassed;
   }
@@ -55,7 +55,7 @@ void add_sweep_command(CLI::App& program, Action& action) {
       ->type_name("VALUE");
   command
       ->add_option("--adaptive", arguments->adaptive,
-                   "so many further values, where a filter's ATE bends most against --vary")
+                   "up to so many further values, where a filter's ATE bends most against --vary")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
   command->footer(

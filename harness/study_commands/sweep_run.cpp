@@ -158,7 +158,7 @@ void refine(const SweepArguments& arguments, CellPlans& plans, CellRuns& runs, c
   for (int i = 0; i < arguments.adaptive; ++i) {
     const auto value = next_value(sweep, takes_whole_numbers(variation.name()));
     if (!value) {
-      note(fmt::format("--adaptive: {} of {} values added; no value is left between the others", i,
+      note(fmt::format("--adaptive: {} of {} values added; no further value can be added", i,
                        arguments.adaptive));
       return;
     }

@@ -15,13 +15,14 @@ std::vector<double> numbers_of(const Variation& variation);
 /// A value between two neighbours at which the ATE of the filters is to be found out next.
 ///
 /// Of each filter's curve, the area between it and the line through two neighbours is estimated as |f''| h^3
-/// / 12: h is their distance, f'' the larger of the second divided differences at both. The pair with the
-/// largest area gets the value between them; where no curve bends, the pair that is farthest apart. f is the
-/// logarithm of the mean ATE over seeds. Where the highest value is ten times the lowest above 0 or more,
-/// distances are those of logarithms, and 0 stands apart.
+/// / 12. h is their distance. f'' is that of the parabola through a value and its neighbours, the larger of
+/// both ends. f is the logarithm of the mean ATE over seeds. The pair with the largest area gets the value
+/// between them; where no curve bends, the pair that is farthest apart. Where the highest value is ten times
+/// the lowest above 0 or more, distances are those of logarithms, and no value is put between 0 and the next
+/// one.
 ///
-/// That chance makes curves bend as well is left in: an area near it has a small h. docs/results.md compares
-/// with evenly spaced values.
+/// Chance bends curves, too. It is not tested for: where values are close, h^3 is small, and so is the area.
+/// docs/results.md compares with evenly spaced values.
 /// @param sweep of one variation of numbers, with at least three cells, by ascending value
 /// @param is_whole whether the key takes whole numbers
 /// @return to 4 significant digits; none where no new value is left

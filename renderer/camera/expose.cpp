@@ -25,7 +25,8 @@ constexpr std::size_t kLanes = 16;  ///< levels that are shifted by one instruct
 using Shifts = std::vector<std::int8_t>;
 
 /// Rounded to whole levels, as pixels are. Levels are whole numbers: a shift that is added to one and rounded
-/// then is the same. What is more than a byte holds is shifted by one table after another.
+/// then is the same. A byte holds up to 127 levels. Larger shifts are split over up to three tables, which
+/// are added one after another.
 std::vector<Shifts> shifts_for(double sd_levels) {
   constexpr int kMost = 127;
   const std::vector<double>& quantiles = standard_normal_quantiles();
@@ -81,7 +82,7 @@ cv::Mat noisy(const cv::Mat& picture, const std::vector<Shifts>& tables, const N
 }
 
 /// Whether nothing is asked of a camera but noise of one size: then all is done in whole numbers, in a
-/// third of the time.
+/// fraction of the time.
 bool only_adds_noise(const worlds::CameraSensor& sensor) {
   worlds::CameraSensor plain;
   plain.noise_sd_levels = sensor.noise_sd_levels;

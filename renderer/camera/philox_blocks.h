@@ -22,10 +22,10 @@ struct PhiloxBlocks {
 /// @param numbers room for 8 numbers a block, the low half of each word first
 void write_blocks(const PhiloxBlocks& blocks, std::uint16_t* numbers);
 
-/// Writes the first blocks, as many as fill its registers. @return how many
+/// Writes the first blocks, a multiple of 8 or of 4. @return how many
 using WriteManyBlocks = std::size_t (*)(const PhiloxBlocks& blocks, std::uint16_t* numbers);
 
-/// What this processor has registers for, the widest first. write_blocks() takes that.
+/// What this processor has registers for, the widest first. write_blocks() takes the first.
 const std::vector<WriteManyBlocks>& wide_writers();
 
 /// The same as write_blocks() without wide registers: the reference.

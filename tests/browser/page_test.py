@@ -144,8 +144,8 @@ class Pages(unittest.TestCase):
         for count in BROWSER.value(CHART_COLOURS):
             self.assertGreater(count, 10)
 
-    def test_what_has_no_place_on_an_axis_is_not_drawn(self):
-        """Level 0 on a logarithmic axis. Red where points or laws alone are looked at."""
+    def test_a_response_has_no_level_0_and_one_colour_a_filter(self):
+        """A logarithmic axis has no place for 0. Red where points at 0 are kept, and where a law is a name of its own."""
         self.open("response/report.html")
         BROWSER.value(CHART_COLOURS)
         charts = BROWSER.value("""[...document.querySelectorAll('.chart canvas')].map(c => Chart.getChart(c)).map(chart => ({

@@ -2,7 +2,7 @@
 
 usage: responses.py PROGRAM SCENARIO_FOLDER OUT [--jobs N] [--seeds A..B]
 
-OUT keeps finished sweeps, for a study that is stopped and goes on.
+OUT keeps finished sweeps, for a study that is stopped and goes on. Other seeds or another program need another OUT.
 """
 
 import argparse

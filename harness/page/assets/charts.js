@@ -1,3 +1,5 @@
+const beyond = 6;  // pixels around a chart, so that points at its ends are seen whole
+
 /** Draws the interval of each point. */
 const intervals = {
   id: 'intervals',
@@ -7,7 +9,7 @@ const intervals = {
     const {ctx, scales: {x, y}, chartArea} = chart;
     ctx.save();
     ctx.beginPath();
-    ctx.rect(chartArea.left, chartArea.top, chartArea.width, chartArea.height);
+    ctx.rect(chartArea.left - beyond, chartArea.top - beyond, chartArea.width + 2 * beyond, chartArea.height + 2 * beyond);
     ctx.clip();
     ctx.strokeStyle = dataset.borderColor;
     ctx.lineWidth = 1.5;
@@ -53,7 +55,7 @@ function datasetsOf(series, chart) {
     label: series.name, data: points(series.x, series.y, chart), borderColor: colour,
     backgroundColor: isPoints && many ? `${colour}88` : colour, showLine: !isPoints, borderWidth: 2,
     pointStyle: !isPoints ? 'line' : many ? 'circle' : point, pointRadius: isPoints ? (many ? 1.5 : 4) : 0, pointHitRadius: 6, spanGaps: false,
-    clip: 6,  // points at the ends are seen whole
+    clip: beyond,
     borderDash: series.look === 'dashes' ? [4, 4] : isPoints ? [] : dash,
     intervals: series.low.length > 0 ? series.x.map((at, i) => [at, series.low[i], series.high[i]]) : null,
   }];

@@ -128,7 +128,7 @@ TEST(KnownLaw, OfARangeErrorIsBoundedAndNear) {
   EXPECT_LT(100.0 * studies.runs, studies.grid_runs);
 }
 
-// Errors that add up along a path differ much from world to world: the bound of 59 seeds is at 0.77 of the
+// Errors that add up along a path differ much from world to world: the bound of 59 seeds is at 0.78 of the
 // true level in median, that of 361 seeds (of which 11 may fail) above 0.9.
 TEST(KnownLaw, OfDeadReckoningIsBoundedAndNear) {
   const Studies few = studies_of(dead_reckoning(), 59, 0.3);

@@ -104,7 +104,7 @@ TEST(SweepCommand, ComparesCellsWithTheReference) {
 }
 
 // The table stays in order. Mutations: values at the end of the list; no value at all.
-TEST(SweepCommand, AddsValuesWhereTheCurveBends) {
+TEST(SweepCommand, AddsValuesInOrder) {
   const TestFolder scratch;
   const auto out = sweep_in(
       scratch, "sweep", {"--vary", "detector_noise.range_scale=0.8,1,1.2", "--adaptive", "2", "--jobs", "2"});

@@ -83,7 +83,7 @@ ReadOdometry read_ros_odometry(RosVersion version, std::string_view bytes);
 /// geometry_msgs/Pose2D.
 slam::Pose read_ros_planar_pose(RosVersion version, std::string_view bytes);
 
-/// sensor_msgs/PointCloud2 whose fields are numbers of 64 bits.
+/// sensor_msgs/PointCloud2: fields of 64 bits, of which others may stand beside them.
 /// @param columns the fields that are taken, in this order
 /// @return a row a point
 std::vector<std::vector<double>> read_ros_table(RosVersion version, std::string_view bytes,
