@@ -12,7 +12,8 @@ import subprocess
 
 from PIL import Image
 
-SCENARIOS = {"ball_circle": "0..9", "corridor": "0..4"}
+SEEDS = {"ball_circle": "0..9", "corridor": "0..4"}
+SEEDS_OF_ONE = {("corridor", "centre_noise"): "0..9"}  # with large noise some drives go astray
 SWEEPS = {
     "image_noise": ["camera.noise_sd_levels=0,1,2,4,8"],
     "centre_noise": ["detector_noise.centre_sd_px=0,0.125,0.25,0.5,1,2"],
@@ -25,12 +26,13 @@ CURVES_PX = 676  # height of a response's curves; its sentences are below
 WIDTH_PX = 640   # of a response in the picture
 
 
-def sweep(arguments, scenario, words, out):
+def sweep(arguments, scenario, name, out):
     if (out / "sweep.json").exists():
         return
-    subprocess.run([arguments.program, "sweep", f"{arguments.scenarios}/{scenario}.yaml", "--vary", *words, "--filters",
-                    ",".join(FILTERS), "--seeds", arguments.seeds or SCENARIOS[scenario], "--set", "gates=[]", "--jobs",
-                    str(arguments.jobs), "--out", out], check=True, stdout=subprocess.DEVNULL)
+    seeds = arguments.seeds or SEEDS_OF_ONE.get((scenario, name), SEEDS[scenario])
+    subprocess.run([arguments.program, "sweep", f"{arguments.scenarios}/{scenario}.yaml", "--vary", *SWEEPS[name],
+                    "--filters", ",".join(FILTERS), "--seeds", seeds, "--set", "gates=[]", "--jobs", str(arguments.jobs),
+                    "--out", out], check=True, stdout=subprocess.DEVNULL)
 
 
 def millimetres(summary):
@@ -45,8 +47,9 @@ def table(out):
     for cell in json.loads((out / "sweep.json").read_text())["cells"]:
         run = cell["run"]
         ates = " | ".join(millimetres(run["filters"][name]["ate_rms_m"]) for name in FILTERS)
+        bound = 1e3 * run["bound"]["pose_rms_m"]["mean"]
         lines.append(f"| {', '.join(cell['values'].values())} | {run['vision']['recall']:.3f} | "
-                     f"{1e3 * run['bound']['pose_rms_m']['mean']:.3g} | {ates} |")
+                     f"{bound:.{4 if bound >= 1000 else 3}g} | {ates} |")
     return "\n".join(lines)
 
 
@@ -70,13 +73,13 @@ def main():
     parser.add_argument("scenarios")
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seeds", help="of both scenarios; default: 0..9 of ball_circle, 0..4 of corridor")
+    parser.add_argument("--seeds", help="of all sweeps; default: 0..9 of ball_circle, 0..4 of corridor, 0..9 with its centre noise")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    for scenario in SCENARIOS:
+    for scenario in SEEDS:
         folders = [arguments.out / f"{scenario}_{name}" for name in SWEEPS]
-        for folder, (name, words) in zip(folders, SWEEPS.items()):
-            sweep(arguments, scenario, words, folder)
+        for folder, name in zip(folders, SWEEPS):
+            sweep(arguments, scenario, name, folder)
             print(f"\n{scenario}, {name}\n\n{table(folder)}", flush=True)
         sheet = tiled([folder / "response.png" for folder in folders])
         sheet.save(arguments.out / f"response_{scenario}.png", optimize=True)
