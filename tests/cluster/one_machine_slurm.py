@@ -105,9 +105,14 @@ class Slurm:
 
     def undrain(self):
         """What an administrator does where a controller that was killed had not yet written down what it started:
-        it starts the same job again, and takes the node out of service, as that runs the job already."""
+        it starts the same job again, and takes the node out of service, as that runs the job already. A task whose
+        node daemon was killed while it was launched is held until it is released."""
         if "drain" in self.run("sinfo", "-h", "-o", "%T", check=False).stdout:
             self.run("scontrol", "update", f"nodename={socket.gethostname().split('.')[0]}", "state=resume", check=False)
+        held = self.run("squeue", "-h", "-r", "-o", "%i|%r", check=False).stdout.splitlines()
+        for task, reason in (line.split("|", 1) for line in held if "|" in line):
+            if "launch failed" in reason:
+                self.run("scontrol", "release", task, check=False)
 
     def queue(self):
         """What waits or runs: lines of "JOB TASK STATE"."""
