@@ -103,7 +103,7 @@ class Slurm:
         self.run(*([daemon, "-i"] if daemon == "slurmctld" else [daemon]))
         self.wait_until_up()
 
-    def undrain(self):
+    def administer(self):
         """What an administrator does where a controller that was killed had not yet written down what it started:
         it starts the same job again, and takes the node out of service, as that runs the job already. A task whose
         node daemon was killed while it was launched is held until it is released."""

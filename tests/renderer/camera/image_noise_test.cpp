@@ -76,7 +76,7 @@ TEST(PhiloxBlocks, AreTheSameInWideRegisters) {
   }
 }
 
-/// The last word of a counter is 2^32 - 1 in every second case.
+/// In every second case the counter of the last block is 2^32 - 1.
 TEST(PhiloxBlocks, AreTheSameInRegistersOfEachWidth) {
   slam::RandomStream random(2, slam::Stream::kOracle);
   for (const WriteManyBlocks write_many : wide_writers())
