@@ -66,8 +66,17 @@ function(stereobench_module name)
   stereobench_install_module(${name})
 endfunction()
 
+# stereobench_discover_suites(<executable> <label>): a test of ctest for each suite of GoogleTest in an executable.
+function(stereobench_discover_suites tests label)
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${tests}_suites.cmake)
+  add_custom_command(TARGET ${tests} POST_BUILD BYPRODUCTS ${suites} VERBATIM
+                     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tests}> -D LABEL=${label} -D OUT=${suites}
+                             -P ${CMAKE_SOURCE_DIR}/cmake/discover_suites.cmake)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
+endfunction()
+
 # stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable
-# <module>_tests from tests/<module>/.
+# <module>_tests from tests/<module>/, and a test of ctest for each of its suites.
 function(stereobench_tests module)
   cmake_parse_arguments(ARG "" "LABEL" "LINKS;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/*.cpp)
@@ -78,5 +87,5 @@ function(stereobench_tests module)
   target_precompile_headers(${module}_tests PRIVATE ${STEREOBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>
                             ${ARG_HEADERS})
   stereobench_unite(${module}_tests "${sources}")
-  gtest_discover_tests(${module}_tests PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 120)
+  stereobench_discover_suites(${module}_tests ${ARG_LABEL})
 endfunction()

@@ -34,8 +34,12 @@ TEST_P(ShippedScenario, KeepsItsGatesAndHasThemNear) {
     EXPECT_FALSE(distance.is_far()) << distance.gate.metric << "\n" << distance_table(distances);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
-                         testing::Values("ball_circle", "corridor", "office", "open_field", "room"));
+// A suite each, so that they run side by side.
+INSTANTIATE_TEST_SUITE_P(BallCircle, ShippedScenario, testing::Values("ball_circle"));
+INSTANTIATE_TEST_SUITE_P(Corridor, ShippedScenario, testing::Values("corridor"));
+INSTANTIATE_TEST_SUITE_P(Office, ShippedScenario, testing::Values("office"));
+INSTANTIATE_TEST_SUITE_P(OpenField, ShippedScenario, testing::Values("open_field"));
+INSTANTIATE_TEST_SUITE_P(Room, ShippedScenario, testing::Values("room"));
 
 // Mutation: a scenario without a gate on its NIS.
 TEST_P(ShippedScenario, LimitsWhatMayGoWrongBothWays) {
