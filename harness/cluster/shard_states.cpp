@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "harness/shards/shard_record.h"
-#include "harness/store/answer_store.h"
 
 namespace stereobench::harness {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 ShardState state_of(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / kShardFile)) return ShardState::kNotBegun;
   if (read_shard_record(folder).is_finished) return ShardState::kFinished;
-  return is_in_use(folder / kDrivesFile) ? ShardState::kRunning : ShardState::kStopped;
+  return is_under_way(folder) ? ShardState::kRunning : ShardState::kStopped;
 }
 
 }  // namespace

@@ -105,11 +105,11 @@ std::optional<int> do_shard(const std::filesystem::path& out, const RunArguments
                               .drives = drives,
                               .needs_measured = needs_measured};
   prepare_output_folder(out);
-  begin_shard(out, record);
+  ShardWork shard_work(out, record);
   DriveCosts costs = work.work(units);
   if (shard.number == 0) costs.measured_plan = work.plan;
   write_file_atomically(out / kCostsFile, costs.json());
-  finish_shard(out, record);
+  shard_work.finish();
   fmt::print("{}: shard {} is done, {} of {} drives, in {}; `stereobench merge` joins the shards\n",
              work.what, shard.in_words(), drives, all_drives, (out / "").string());
   return kPassed;

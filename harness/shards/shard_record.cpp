@@ -1,6 +1,7 @@
 #include "harness/shards/shard_record.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,19 +37,29 @@ bool is_same_shard(const ShardRecord& one, const ShardRecord& other) {
 
 }  // namespace
 
-void begin_shard(const std::filesystem::path& folder, const ShardRecord& record) {
-  if (std::filesystem::exists(folder / kShardFile) && !is_same_shard(read_shard_record(folder), record))
+ShardWork::ShardWork(std::filesystem::path folder, ShardRecord record)
+    : folder_(std::move(folder)), record_(std::move(record)) {
+  const std::filesystem::path file = folder_ / kShardFile;
+  const bool was_begun = std::filesystem::exists(file);
+  if (was_begun && !is_same_shard(read_shard_record(folder_), record_))
     throw std::runtime_error(
         fmt::format("{}: is of another shard, of another command, or of files that have changed since; "
                     "remove the folder, "
                     "or choose another one with --out",
-                    (folder / kShardFile).string()));
-  write_file_atomically(folder / kShardFile, shard_json(record));
+                    file.string()));
+  std::optional<FileLock> before;  // the file is replaced
+  if (was_begun) before.emplace(file);
+  write_file_atomically(file, shard_json(record_));
+  lock_.emplace(file);
 }
 
-void finish_shard(const std::filesystem::path& folder, ShardRecord record) {
-  record.is_finished = true;
-  write_file_atomically(folder / kShardFile, shard_json(record));
+void ShardWork::finish() {
+  record_.is_finished = true;
+  write_file_atomically(folder_ / kShardFile, shard_json(record_));
+}
+
+bool is_under_way(const std::filesystem::path& folder) {
+  return is_in_use(folder / kShardFile);
 }
 
 ShardRecord read_shard_record(const std::filesystem::path& folder) {

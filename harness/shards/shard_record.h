@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/io/file_lock.h"
 #include "harness/shards/shard.h"
 
 namespace stereobench::harness {
@@ -26,12 +28,24 @@ struct ShardRecord {
   bool is_finished = false;
 };
 
-/// Takes up a folder for a shard: writes shard.json there, as unfinished.
-/// @throws std::runtime_error, one line, where another shard, or a shard of other work, lies there
-void begin_shard(const std::filesystem::path& folder, const ShardRecord& record);
+/// A shard that this process does.
+class ShardWork {
+ public:
+  /// Takes up a folder: writes shard.json there, as unfinished, and keeps others from doing the shard.
+  /// @throws std::runtime_error, one line, where another shard, or a shard of other work, lies there, or
+  /// another process is at it
+  ShardWork(std::filesystem::path folder, ShardRecord record);
+  /// Says in shard.json that the shard is finished. All of its results are on the disk.
+  void finish();
 
-/// Says in shard.json that a shard is finished. All of its results are on the disk.
-void finish_shard(const std::filesystem::path& folder, ShardRecord record);
+ private:
+  std::filesystem::path folder_;
+  ShardRecord record_;
+  std::optional<FileLock> lock_;
+};
+
+/// Whether a process is at the shard of a folder.
+bool is_under_way(const std::filesystem::path& folder);
 
 /// @throws std::runtime_error "file: key: what was expected"
 ShardRecord read_shard_record(const std::filesystem::path& folder);

@@ -8,30 +8,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "harness/io/file_lock.h"
+
 namespace stereobench::harness {
-namespace {
-
-/// Takes the file for this process, or makes sure that no other one writes to it. The lock ends with the
-/// process, however that ends, and its children do not have it. File systems without locks are let be.
-/// @param kind F_WRLCK or F_RDLCK
-/// @throws std::runtime_error, with the file closed, where another process has it
-void lock_answers(int descriptor, short kind, const std::filesystem::path& file) {
-  struct flock lock {};
-  lock.l_type = kind;
-  lock.l_whence = SEEK_SET;
-  if (::fcntl(descriptor, F_SETLK, &lock) == 0 || (errno != EACCES && errno != EAGAIN)) return;
-  ::close(descriptor);
-  throw std::runtime_error(
-      fmt::format("{}: another stereobench is writing to this folder; wait for it, or choose another folder",
-                  file.string()));
-}
-
-}  // namespace
-
 AnswerStore::AnswerStore(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail_with_errno(file_, "cannot be written", errno);
-  lock_answers(descriptor_, F_WRLCK, file_);
+  lock_file(descriptor_, F_WRLCK, file_);
   index_ = index_of_answers(descriptor_, file_);
   if (index_.end < index_.size && ::ftruncate(descriptor_, static_cast<off_t>(index_.end)) != 0)
     fail_with_errno(file_, "cannot be written", errno);
@@ -84,21 +67,10 @@ void AnswerStore::remove() {
   index_.places.clear();
 }
 
-bool is_in_use(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  struct flock lock {};
-  lock.l_type = F_RDLCK;
-  lock.l_whence = SEEK_SET;
-  const bool is_locked = ::fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-  ::close(descriptor);
-  return is_locked;
-}
-
 AnswerReader::AnswerReader(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail_with_errno(file_, "cannot be read", errno);
-  lock_answers(descriptor_, F_RDLCK, file_);
+  lock_file(descriptor_, F_RDLCK, file_);
   index_ = index_of_answers(descriptor_, file_);
 }
 

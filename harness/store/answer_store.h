@@ -49,9 +49,6 @@ class AnswerStore {
   AnswerIndex index_;
 };
 
-/// Whether another process has the file open to write to it. @return false where there is no such file
-bool is_in_use(const std::filesystem::path& file);
-
 /// A file of answers that is only read, and left as it is.
 class AnswerReader {
  public:

@@ -43,7 +43,7 @@ class OverlappingShards {
     for (std::size_t i = 0; i < kShards; ++i) {
       folders_.push_back(scratch_.path() / ("s" + std::to_string(i + 1)));
       fs::create_directories(folders_.back());
-      begin_shard(folders_.back(), record(i));
+      ShardWork(folders_.back(), record(i));
       for (const int number : {static_cast<int>(i), static_cast<int>(i) + 1})
         add(i, number, result_of_drive(number, 0.1 * static_cast<double>(i)));
     }
@@ -62,7 +62,7 @@ class OverlappingShards {
     AnswerStore(file(shard)).append(key_of_drive(number), result);
   }
   void finish() {
-    for (std::size_t i = 0; i < folders_.size(); ++i) finish_shard(folders_[i], record(i));
+    for (std::size_t i = 0; i < folders_.size(); ++i) ShardWork(folders_[i], record(i)).finish();
   }
   fs::path file(std::size_t shard) const { return folders_[shard] / kDrivesFile; }
   const std::vector<fs::path>& folders() const { return folders_; }
@@ -151,15 +151,18 @@ TEST(CheckShards, WantsAllOfThemFinishedAndOfTheSameWork) {
               HasSubstr("1 of 3 shards are missing: 2; run them with --shard N/3"));
   ShardRecord other = shards.record(1);
   other.command.push_back("more");
-  fs::remove(folders[1] / kShardFile);
-  finish_shard(folders[1], other);
+  const auto put = [&] {
+    fs::remove(folders[1] / kShardFile);
+    ShardWork(folders[1], other).finish();
+  };
+  put();
   EXPECT_THAT(complaint_of([&] { check_shards(folders); }), HasSubstr("are shards of different commands"));
   other = shards.record(1);
   other.plan = "another";
-  finish_shard(folders[1], other);
+  put();
   EXPECT_THAT(shards.conflict(), HasSubstr("a file that the command reads, or the program, has changed"));
   other.pixels = "other pixels";
-  finish_shard(folders[1], other);
+  put();
   EXPECT_THAT(shards.conflict(), HasSubstr("render different pixels (pixels and other pixels"));
   EXPECT_THROW(check_shards({shards.out()}), std::runtime_error);
 }

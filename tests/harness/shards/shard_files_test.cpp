@@ -1,8 +1,11 @@
 /// shard.json and costs.json.
+#include <array>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "harness/shards/drive_costs.h"
 #include "harness/shards/shard_record.h"
@@ -28,9 +31,9 @@ ShardRecord some_record() {
 
 TEST(ShardRecord, IsReadAsItWasWritten) {
   const TestFolder folder;
-  begin_shard(folder.path(), some_record());
+  ShardWork(folder.path(), some_record());
   EXPECT_FALSE(read_shard_record(folder.path()).is_finished);
-  finish_shard(folder.path(), some_record());
+  ShardWork(folder.path(), some_record()).finish();
   const ShardRecord record = read_shard_record(folder.path());
   EXPECT_TRUE(record.is_finished);
   EXPECT_EQ(record.command, some_record().command);
@@ -48,18 +51,45 @@ TEST(ShardRecord, IsReadAsItWasWritten) {
 // is taken up again.
 TEST(ShardRecord, OfOtherWorkIsNotTakenUp) {
   const TestFolder folder;
-  begin_shard(folder.path(), some_record());
-  finish_shard(folder.path(), some_record());
+  ShardWork(folder.path(), some_record());
+  ShardWork(folder.path(), some_record()).finish();
   for (int what = 0; what < 4; ++what) {
     ShardRecord other = some_record();
     if (what == 0) other.plan = "abd";
     if (what == 1) other.command.back() = "0..8";
     if (what == 2) other.shard.number = 3;
     if (what == 3) other.shard.count = 4;
-    EXPECT_THAT(complaint_of([&] { begin_shard(folder.path(), other); }), HasSubstr("is of another shard"));
+    EXPECT_THAT(complaint_of([&] { ShardWork(folder.path(), other); }), HasSubstr("is of another shard"));
   }
-  begin_shard(folder.path(), some_record());
+  ShardWork(folder.path(), some_record());
   EXPECT_FALSE(read_shard_record(folder.path()).is_finished);
+}
+
+// A child does the shard until this process has looked. Mutations: no lock; one that ends when shard.json is
+// written; a lock of a file that is then replaced, which another process gets as well.
+TEST(ShardWork, IsDoneByOneProcess) {
+  const TestFolder folder;
+  std::array<int, 2> begun{}, seen{};
+  ASSERT_EQ(::pipe(begun.data()) + ::pipe(seen.data()), 0);
+  const pid_t child = ::fork();
+  char byte = 0;
+  if (child == 0) {
+    const ShardWork work(folder.path(), some_record());
+    const bool is_told = ::write(begun[1], "b", 1) == 1 && ::read(seen[0], &byte, 1) == 1;
+    ::_exit(is_told ? 0 : 1);
+  }
+  ASSERT_EQ(::read(begun[0], &byte, 1), 1);
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_TRUE(is_under_way(folder.path()));
+    EXPECT_THAT(complaint_of([&] { ShardWork(folder.path(), some_record()); }),
+                HasSubstr("another stereobench is writing"));
+  }
+  ASSERT_EQ(::write(seen[1], "s", 1), 1);
+  int status = -1;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_FALSE(is_under_way(folder.path()));
+  for (const int end : {begun[0], begun[1], seen[0], seen[1]}) ::close(end);
 }
 
 TEST(ShardRecord, ThatIsNoneIsRefused) {
