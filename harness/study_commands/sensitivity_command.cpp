@@ -58,6 +58,12 @@ StudyCell cell_at(const Factors& factors, const StudyPoint& point) {
   return cell;
 }
 
+std::vector<StudyCell> cells_of(const Factors& factors, const std::vector<StudyPoint>& points) {
+  std::vector<StudyCell> cells;
+  for (const StudyPoint& point : points) cells.push_back(cell_at(factors, point));
+  return cells;
+}
+
 void write_sensitivity(const std::filesystem::path& out, const Sensitivity& study,
                        const ScenarioArguments& base, const Provenance& made_from) {
   write_file_atomically(out / "sensitivity.png", draw_sensitivity_picture(study));
@@ -90,14 +96,15 @@ int find_sensitivity(SensitivityArguments arguments) {
                count_of_points(factors, arguments.settings.samples), factors.size(), (out / "").string());
     return kPassed;
   }
+  const std::string what = "sensitivity " + name;
+  const auto points = pick_freeze_points(factors, arguments.settings.samples, arguments.settings.seed);
+  if (const auto end = do_study_shard(base, cells_of(factors, points), out, what)) return *end;
   prepare_output_folder(out);
-  StudyRuns runs(base, out, "sensitivity " + name);
+  StudyRuns runs(base, out, what);
   Sensitivity study =
-      study_sensitivity(factors, arguments.settings, [&](const std::vector<StudyPoint>& points) {
-        std::vector<StudyCell> cells;
-        for (const StudyPoint& point : points) cells.push_back(cell_at(factors, point));
+      study_sensitivity(factors, arguments.settings, [&](const std::vector<StudyPoint>& asked) {
         std::vector<double> values;
-        for (const SeedMetrics& metrics : runs.metrics(cells))
+        for (const SeedMetrics& metrics : runs.metrics(cells_of(factors, asked)))
           values.push_back(values_of_metric(metrics, metric, 1).front());
         return values;
       });
@@ -137,6 +144,7 @@ void add_sensitivity_command(CLI::App& program, Action& action) {
   auto arguments = std::make_shared<SensitivityArguments>();
   add_scenario_options(*command, arguments->scenario);
   add_question(*command, *arguments);
+  add_shard_options(*command, arguments->scenario.run.shards);
   command->footer(
       "Sobol indices by pick-freeze: the first index is the share of the metric's variance that goes when "
       "the\n"
@@ -150,6 +158,7 @@ void add_sensitivity_command(CLI::App& program, Action& action) {
   command->callback([arguments, command, &action] {
     if (arguments->ranges.empty() && !arguments->by_stream) throw CLI::RequiredError("--vary or --by-stream");
     arguments->scenario.run.words = words_of(*command);
+    arguments->scenario.run.shards.words = whole_words_of(*command);
     if (!arguments->scenario.run.seeds.empty())
       arguments->settings.seed = arguments->scenario.run.seeds.front();
     action = [arguments] { return find_sensitivity(*arguments); };

@@ -55,6 +55,9 @@ std::vector<Command> commands() {
                        "filters.ekf.ate_rms_m", "--limit", "0.1", "--share", "0.7", "--confidence", "0.7",
                        "--seeds", "0..7", "--filters", "ekf"},
                       kShortWay)},
+      {"sensitivity", with({"sensitivity", field, "--vary", "oracle.range_sd_m=0.1..3", "--metric",
+                            "filters.ekf.ate_rms_m", "--samples", "16", "--filters", "ekf"},
+                           kShortWay)},
       {"render", with({"render", circle, "--seeds", "0..2"}, kSmall)},
       {"calibrate", {"calibrate", circle, "--seeds", "0..2"}}};
 }
