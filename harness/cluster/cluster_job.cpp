@@ -25,8 +25,11 @@ constexpr std::size_t kMostWords = 10'000;
 constexpr int kMostShards = 1'000'000;
 
 /// Commands whose work can be cut into shards.
-constexpr std::array<std::string_view, 7> kCommands = {"run",       "sweep", "budget", "attribute",
-                                                       "calibrate", "test",  "render"};
+constexpr std::array<std::string_view, 9> kCommands = {
+    "run", "sweep", "budget", "attribute", "sensitivity", "calibrate", "test", "render", "dataset"};
+
+/// Its shards are cut by count alone.
+constexpr std::string_view kDatasetCommand = "dataset";
 
 /// What a job says of its shards, and the command must not.
 constexpr std::array<std::string_view, 6> kOfShards = {"--shard", "--shard-costs", "--shard-overlap", "--out",
@@ -79,7 +82,9 @@ const Fields<ClusterJob>& job_keys() {
           .by<ClusterJob>([](const YamlValue& value, ClusterJob& job) {
             job.overlap = static_cast<std::size_t>(value.integer(0, 1000));
           }),
-      flag("measure", "Do one drive of each kind first, and cut the rest by what they cost.")
+      flag("measure",
+           "Do one drive of each kind first, and cut the rest by what they cost; not of "
+           "a dataset.")
           .fills(&ClusterJob::measures),
       text("out", "Folder for shards and result, which all nodes see; relative to this file.")
           .by<ClusterJob>([](const YamlValue& value, ClusterJob& job) { job.out = value.text(); }),
@@ -105,6 +110,7 @@ ClusterJob read_cluster_job(const std::filesystem::path& file) {
   check_keys(top, job_keys());
   ClusterJob job = job_keys().read(top);
   job.file = file;
+  if (job.command.front() == kDatasetCommand) job.measures = false;
   const std::filesystem::path out = job.out.empty() ? std::filesystem::path("out") / job.name : job.out;
   job.out = (job.folder() / out).lexically_normal();
   return job;

@@ -2,8 +2,10 @@
 
 #include <charconv>
 #include <chrono>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -21,6 +23,9 @@ using Words = std::vector<std::string>;
 /// Slurm's programs wait for a controller that is down for longer than a minute.
 constexpr std::chrono::minutes kPatience{3};
 constexpr std::size_t kMostBytes = 1 << 20;
+
+/// Why a task waits whose node failed: "launch failed requeued held".
+constexpr std::string_view kHeldReason = "launch failed";
 
 /// @return what a program writes, a line each
 /// @throws std::runtime_error, one line, where it fails
@@ -51,19 +56,25 @@ std::string submit(const std::filesystem::path& script, const Words& options) {
   return lines.back().substr(0, lines.back().find(';'));  // "17;cluster"
 }
 
-std::set<std::size_t> tasks_in_queue(const Words& jobs) {
-  std::set<std::size_t> tasks;
+std::vector<QueuedTask> tasks_in_queue(const Words& jobs) {
+  std::vector<QueuedTask> tasks;
   if (jobs.empty()) return tasks;
   const std::set<std::string> asked(jobs.begin(), jobs.end());
-  for (const std::string& line : answer_of({"squeue", "--noheader", "--array", "--format=%F %K"})) {
+  for (const std::string& line : answer_of({"squeue", "--noheader", "--array", "--format=%F %K %r"})) {
     std::istringstream words(line);
-    std::string job, task;
+    std::string job, task, reason;
     std::size_t number = 0;
     if (!(words >> job >> task) || !asked.contains(job)) continue;
     const auto [end, error] = std::from_chars(task.data(), task.data() + task.size(), number);
-    if (error == std::errc() && end == task.data() + task.size()) tasks.insert(number);
+    if (error != std::errc() || end != task.data() + task.size()) continue;
+    std::getline(words >> std::ws, reason);
+    tasks.push_back({job, number, reason.starts_with(kHeldReason)});
   }
   return tasks;
+}
+
+void release(const QueuedTask& task) {
+  answer_of({"scontrol", "release", fmt::format("{}_{}", task.job, task.task)});
 }
 
 }  // namespace stereobench::harness

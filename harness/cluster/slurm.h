@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,20 @@ namespace stereobench::harness {
 /// @throws std::runtime_error, one line, with what sbatch says
 std::string submit(const std::filesystem::path& script, const std::vector<std::string>& options);
 
-/// Which tasks of array jobs wait or run.
-/// @param jobs their numbers; those that Slurm no longer knows are passed over
+/// A task of an array job that waits or runs.
+struct QueuedTask {
+  std::string job;
+  std::size_t task = 0;
+  /// Slurm keeps it from running, as its node failed while it was launched, until somebody releases it.
+  bool is_held = false;
+};
+
+/// @param jobs numbers of array jobs; those that Slurm no longer knows are passed over
 /// @throws std::runtime_error, one line, where squeue cannot be asked
-std::set<std::size_t> tasks_in_queue(const std::vector<std::string>& jobs);
+std::vector<QueuedTask> tasks_in_queue(const std::vector<std::string>& jobs);
+
+/// Lets a held task run.
+/// @throws std::runtime_error, one line, with what scontrol says
+void release(const QueuedTask& task);
 
 }  // namespace stereobench::harness

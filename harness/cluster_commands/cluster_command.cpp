@@ -104,16 +104,31 @@ int status(const ClusterJob& job) {
   return is_done ? kPassed : kInconclusive;
 }
 
+/// Lets the tasks run that Slurm holds. @return the numbers of the shards that wait or run
+std::set<std::size_t> release_held_shards(const ClusterJob& job) {
+  std::set<std::size_t> queued, released;
+  for (const QueuedTask& task : tasks_in_queue(read_submissions(job.out))) {
+    queued.insert(task.task + 1);
+    if (!task.is_held) continue;
+    release(task);
+    released.insert(task.task + 1);
+  }
+  if (!released.empty())
+    fmt::print("{}: released, as Slurm held them after their node failed: shards {}\n", job.name,
+               ranges_of({released.begin(), released.end()}));
+  return queued;
+}
+
 int resume(const ClusterJob& job) {
+  const std::set<std::size_t> queued = release_held_shards(job);
   const std::vector<ShardState> states = states_of(job);
-  const std::set<std::size_t> queued = tasks_in_queue(read_submissions(job.out));
   std::vector<std::size_t> missing;
   bool measures = false;
   for (const ShardState state : {ShardState::kNotBegun, ShardState::kStopped})
     for (const std::size_t number : shards_in(job, states, state)) {
       if (number == 0)
         measures = true;
-      else if (!queued.contains(number - 1))
+      else if (!queued.contains(number))
         missing.push_back(number);
     }
   std::ranges::sort(missing);
@@ -153,8 +168,8 @@ void add_cluster_command(CLI::App& program, Action& action, const Call& call) {
            [call](const ClusterJob& job) { return submit_job(job, call); });
   add_step(*command, action, "status", "say how far the shards are; exits with 3 while some are missing",
            status);
-  add_step(*command, action, "resume", "submit the shards that are neither finished nor in the queue",
-           resume);
+  add_step(*command, action, "resume",
+           "submit the shards that are neither finished nor in the queue, and release held ones", resume);
   add_step(*command, action, "merge", "join the shards here and now",
            [call](const ClusterJob& job) { return merge_job(job, call); });
   command->footer(

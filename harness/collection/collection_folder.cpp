@@ -13,6 +13,7 @@
 #include "harness/io/json_file.h"
 #include "harness/io/sha256.h"
 #include "harness/io/text_file.h"
+#include "harness/shards/shard_record.h"
 
 namespace stereobench::harness {
 namespace {
@@ -102,7 +103,8 @@ CollectionTotals finish_collection(const fs::path& folder, const CollectionRecor
     files[name] = sha256_of(text);
   }
   written.move_into_place();
-  sync_file_system(folder);  // the manifest says that all of it is there
+  fs::remove(folder / kShardFile);  // of a part that the others came to
+  sync_file_system(folder);         // the manifest says that all of it is there
   write_file_atomically(folder / kManifest, manifest_text(files));
   return totals;
 }

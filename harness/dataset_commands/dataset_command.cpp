@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -11,8 +12,9 @@
 #include "harness/commands/dataset_talk.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
+#include "harness/io/sha256.h"
 #include "harness/process/interruption.h"
-#include "harness/shards/shard.h"
+#include "harness/shards/shard_record.h"
 
 namespace stereobench::harness {
 namespace {
@@ -23,6 +25,7 @@ struct DatasetArguments {
   fs::path file;
   fs::path out;
   Shard shard;
+  std::vector<std::string> words;  ///< of the command line, but for --shard and --out
   renderer::Backend backend = renderer::Backend::kOsmesa;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool dry_run = false;
@@ -65,6 +68,18 @@ void render_drives(const Collection& collection, const std::vector<RenderTask>& 
   }
 }
 
+ShardRecord record_of_shard(const DatasetArguments& arguments, const CollectionPlan& plan,
+                            std::size_t drives) {
+  return {.command = arguments.words,
+          .folder = fs::current_path(),
+          .version = STEREOBENCH_VERSION,
+          .shard = arguments.shard,
+          .plan = sha256_of(collection_json(plan.record)),
+          .pixels = {},
+          .store = {},
+          .drives = drives};
+}
+
 int make_dataset(const DatasetArguments& arguments) {
   const Collection collection = read_collection(arguments.file);
   const fs::path out = arguments.out.empty() ? fs::path("out") / collection.name : arguments.out;
@@ -77,8 +92,11 @@ int make_dataset(const DatasetArguments& arguments) {
     return kPassed;
   }
   begin_collection(out, plan.record);
+  std::optional<ShardWork> shard_work;
+  if (arguments.shard.count > 1) shard_work.emplace(out, record_of_shard(arguments, plan, drives.size()));
   say_that_work_is_kept();
   render_drives(collection, drives, arguments.jobs);
+  if (shard_work) shard_work->finish();
   const std::vector<std::string> missing = missing_entries(out, plan.record);
   if (!missing.empty()) {
     fmt::print(
@@ -126,7 +144,10 @@ void add_dataset_command(CLI::App& program, Action& action) {
       "was;\n"
       "what is complete is left as it is.\n\n"
       "Example: stereobench dataset assets/datasets/quick.yaml --out out/quick --jobs 2");
-  command->callback([arguments, &action] { action = [arguments] { return make_dataset(*arguments); }; });
+  command->callback([arguments, command, &action] {
+    arguments->words = whole_words_of(*command);
+    action = [arguments] { return make_dataset(*arguments); };
+  });
 }
 
 }  // namespace stereobench::harness

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/collection/collection_record.h"
 #include "harness/collection/dataset_placement.h"
 #include "harness/collection/merge.h"
 #include "harness/commands/commands.h"
@@ -69,7 +70,8 @@ int merge_work(const MergeArguments& arguments, const Call& call) {
 int merge(const MergeArguments& arguments, const Call& call) {
   say_that_work_is_kept();
   try {
-    const bool is_work = fs::exists(arguments.shards.front() / kShardFile);
+    const fs::path& first = arguments.shards.front();
+    const bool is_work = fs::exists(first / kShardFile) && !fs::exists(first / kCollectionFile);
     return is_work ? merge_work(arguments, call) : merge_collection(arguments);
   } catch (const ShardConflict& conflict) {
     complain(conflict);

@@ -105,19 +105,18 @@ class Slurm:
 
     def administer(self):
         """What an administrator does where a controller that was killed had not yet written down what it started:
-        it starts the same job again, and takes the node out of service, as that runs the job already. A task whose
-        node daemon was killed while it was launched is held until it is released."""
+        it starts the same job again, and takes the node out of service, as that runs the job already."""
         if "drain" in self.run("sinfo", "-h", "-o", "%T", check=False).stdout:
             self.run("scontrol", "update", f"nodename={socket.gethostname().split('.')[0]}", "state=resume", check=False)
-        held = self.run("squeue", "-h", "-r", "-o", "%i|%r", check=False).stdout.splitlines()
-        for task, reason in (line.split("|", 1) for line in held if "|" in line):
-            if "launch failed" in reason:
-                self.run("scontrol", "release", task, check=False)
 
-    def queue(self):
-        """What waits or runs: lines of "JOB TASK STATE"."""
-        answer = self.run("squeue", "-h", "-r", "-o", "%F %K %T", check=False)
-        return answer.stdout.split("\n")[:-1] if answer.returncode == 0 else None
+    def is_at_rest(self):
+        """Whether nothing runs or will: the queue is empty, or waits for tasks that are held, as the node daemon was
+        killed while they were launched."""
+        answer = self.run("squeue", "-h", "-r", "-o", "%r", check=False)
+        reasons = answer.stdout.splitlines()
+        held = [reason for reason in reasons if reason.startswith("launch failed")]
+        waiting = held and reasons.count("Dependency") + len(held) == len(reasons)
+        return answer.returncode == 0 and (waiting or not reasons)
 
     def __exit__(self, *_):
         self.run("scancel", "--user", str(os.getuid()), check=False)

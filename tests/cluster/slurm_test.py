@@ -106,11 +106,11 @@ def main():
             kill_tasks(slurm, seed=1)
             slurm.kill("slurmd")
             slurm.restart("slurmd")
-            wait_for(lambda: slurm.administer() or slurm.queue() == [], "the queue is empty", 600)
+            wait_for(lambda: slurm.administer() or slurm.is_at_rest(), "the queue is at rest", 600)
             print(cluster("status", 3), end="")
             before = len(kept_drives(folder / "work"))
             print(cluster("resume"), end="")
-            wait_for(lambda: slurm.administer() or slurm.queue() == [], "the queue is empty", 600)
+            wait_for(lambda: slurm.administer() or slurm.is_at_rest(), "the queue is at rest", 600)
             print(cluster("status"), end="")
             logs = "".join(log.read_text() for log in sorted((folder / "work/logs").glob("*.txt")))
             assert (folder / "work/result/sweep.json").exists(), logs

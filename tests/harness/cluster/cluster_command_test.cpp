@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/harness/commands/program.h"
+#include "tests/harness/collection/small_collection.h"
 
 namespace stereobench::harness {
 namespace {
@@ -71,7 +71,7 @@ TEST_F(ClusterCommand, SubmitsWhatIsMissingAndMergesIt) {
   EXPECT_THAT(status.out,
               AllOf(HasSubstr("finished:      2 shards: 0,2"), HasSubstr("not begun:      2 shards: 1,3")));
   EXPECT_NE(run_script("merge.sbatch"), 0);
-  set_queue("2 2 RUNNING\\n17 0 PENDING\\n");  // 17 is somebody else's
+  set_queue("2 2 None\\n17 0 Priority\\n");  // 17 is somebody else's
   EXPECT_EQ(cluster("resume").exit_code, 0);
   EXPECT_THAT(asked(), HasSubstr(fmt::format("--parsable --array=0%2 {}/shards.sbatch\n", scripts)));
   EXPECT_EQ(run_script("shards.sbatch", 0), 0);
@@ -81,6 +81,44 @@ TEST_F(ClusterCommand, SubmitsWhatIsMissingAndMergesIt) {
   EXPECT_EQ(run_script("merge.sbatch"), 0);
   EXPECT_TRUE(fs::exists(path("work/result/sweep.json")));
   EXPECT_EQ(cluster("merge").exit_code, 0);
+}
+
+// A task whose node failed while it was launched waits for ever, and is no work for another array. One that a
+// person holds is left alone. Mutations: each held task released; none; one that is released also submitted;
+// the job's number without its task.
+TEST_F(ClusterCommand, ReleasesWhatSlurmHoldsAsANodeFailed) {
+  ASSERT_EQ(cluster("submit").exit_code, 0);
+  EXPECT_EQ(run_script("measure.sbatch"), 0);
+  write_program("scontrol", "echo \"scontrol $@\" >> " + path("asked").string());
+  set_queue("2 0 launch failed requeued held\\n2 1 JobHeldUser\\n2 2 Priority\\n17 3 launch failed\\n");
+  const std::string before = asked();
+  const Outcome resumed = cluster("resume");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.out, AllOf(HasSubstr("held them after their node failed: shards 1\n"),
+                                 HasSubstr("no shard is missing")));
+  EXPECT_EQ(asked(), before + "scontrol release 2_0\n");
+}
+
+// Data sets are no results in a store: their shards say themselves how far they are, and nothing is measured.
+// Mutations: shard 0 asked for; a shard that never says that it is finished.
+TEST_F(ClusterCommand, RendersACollection) {
+  write_collection(scratch_);
+  scratch_.write("job.yaml", "job: set\ncommand: [dataset, small.yaml]\nshards: 2\nout: work\n");
+  ASSERT_EQ(cluster("submit").exit_code, 0);
+  const std::string scripts = path("work").string();
+  EXPECT_EQ(asked(), fmt::format("--parsable --array=0-1 {0}/shards.sbatch\n"
+                                 "--parsable --dependency=afterany:1 {0}/merge.sbatch\n",
+                                 scripts));
+  EXPECT_EQ(run_script("shards.sbatch", 1), 0);
+  EXPECT_THAT(cluster("status").out,
+              AllOf(HasSubstr("finished:      1 shards: 2"), HasSubstr("not begun:      1")));
+  EXPECT_EQ(run_script("shards.sbatch", 0), 0);
+  EXPECT_EQ(cluster("status").exit_code, 0);
+  EXPECT_EQ(run_script("merge.sbatch"), 0);
+  EXPECT_EQ(
+      run_stereobench({"dataset", path("small.yaml").string(), "--out", path("whole").string()}).exit_code,
+      0);
+  EXPECT_TRUE(files_below(path("work/result")) == files_below(path("whole")));
 }
 
 // Mutation: sbatch's exit code not looked at.
