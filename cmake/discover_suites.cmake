@@ -6,6 +6,6 @@ set(text "")
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n?([^ ]+)\\..*" "\\1" suite "${suite}")
   string(APPEND text "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=] --gtest_brief=1)\n"
-                     "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL})\n")
+                     "set_tests_properties([=[${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT 3600)\n")
 endforeach()
 file(WRITE ${OUT} "${text}")
