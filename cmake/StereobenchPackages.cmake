@@ -20,7 +20,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME stereobench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # What the program opens at run time, and the letters of its charts.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6, fonts-dejavu-core")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6 | libegl1, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, python3")  # python3: for the example of a detector
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-stereobench, python3-opencv, ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "testbench of stereo vision and SLAM with exact truth
@@ -54,7 +54,7 @@ if(python_part STREQUAL MODULE_LIBRARY)  # which is for one version of Python
   math(EXPR next_minor "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy, libosmesa6")
+      "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy, libosmesa6 | libegl1")
 else()
   set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")

@@ -81,7 +81,7 @@ std::uint64_t hash_of(const StereoFrame& frame) {
 
 const char* name_of(Backend backend) {
   constexpr std::array<const char*, kBackends.size()> kNames = {"osmesa", "egl", "egl-gpu"};
-  return kNames.at(static_cast<std::size_t>(backend));
+  return kNames.at(static_cast<std::size_t>(drawn_by(backend)));
 }
 
 Backend backend_named(const std::string& name) {

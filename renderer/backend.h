@@ -10,9 +10,11 @@
 
 namespace stereobench::renderer {
 
+/// Those that have names.
 inline constexpr std::array<Backend, 3> kBackends = {Backend::kOsmesa, Backend::kEgl, Backend::kEglGpu};
 
-/// What the command line and run.json call it: "osmesa", "egl", "egl-gpu".
+/// What the command line and run.json call it: "osmesa", "egl", "egl-gpu". kSoftware has the name of what it
+/// is here.
 const char* name_of(Backend backend);
 
 /// @throws std::runtime_error that lists the names there are

@@ -21,7 +21,7 @@ class Renderer {
   ///   the world is not finite, has no size, or there are more than 254 balls
   /// @param depth of the light in its pictures: expose.h says which cameras need more than eight bits
   /// @param read meshes
-  Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kOsmesa,
+  Renderer(const worlds::World& world, const vision::StereoRig& rig, Backend backend = Backend::kSoftware,
            LightDepth depth = LightDepth::kEightBits, const FormReader& read = read_form);
   ~Renderer();
   Renderer(Renderer&& other) noexcept;

@@ -7,11 +7,12 @@
 
 namespace stereobench::renderer {
 
-/// Which OpenGL draws. The two in software are the same rasteriser of the same Mesa: their pixels are equal.
+/// Which OpenGL draws. Those in software are the same rasteriser of the same Mesa: their pixels are equal.
 enum class Backend {
-  kOsmesa,  ///< Mesa's llvmpipe as a library: what everything is compared with
-  kEgl,     ///< llvmpipe behind EGL, which outlives OSMesa: Mesa 25.1 dropped it
-  kEglGpu   ///< the first graphics card that EGL has
+  kOsmesa,   ///< Mesa's llvmpipe as a library
+  kEgl,      ///< llvmpipe behind EGL, which outlives OSMesa: Mesa 25.1 dropped it
+  kEglGpu,   ///< the first graphics card that EGL has
+  kSoftware  ///< kOsmesa where this machine has its library, and kEgl else (drawn_by): the default everywhere
 };
 
 /// How finely linear light is told. Eight bits are as fine as what a camera stores that stores light as it

@@ -14,7 +14,7 @@ namespace stereobench::harness {
 struct RenderRequest {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;  ///< "key.path=value"
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   std::vector<const DatasetFormat*> formats = {&dataset_formats().front()};
   TruthRequest truth;
   FrameChoice frames;  ///< as it was asked for

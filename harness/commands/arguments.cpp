@@ -136,9 +136,8 @@ void add_backend_option(CLI::App& command, renderer::Backend& backend) {
       .add_option_function<std::string>(
           "--backend", [&backend](const std::string& name) { backend = parse_backend(name); },
           "what renders: osmesa, egl (the same software and pixels through EGL) or egl-gpu (a graphics card; "
-          "other pixels)")
-      ->type_name("NAME")
-      ->default_str(renderer::name_of(backend));
+          "other pixels); without it osmesa where its library is, else egl")
+      ->type_name("NAME");
 }
 
 namespace {

@@ -55,7 +55,7 @@ int examine(renderer::Backend backend) {
 void add_doctor_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("doctor", "say what it runs on and whether a test frame renders as expected");
-  auto backend = std::make_shared<renderer::Backend>(renderer::Backend::kOsmesa);
+  auto backend = std::make_shared<renderer::Backend>(renderer::Backend::kSoftware);
   add_backend_option(*command, *backend);
   command->footer(
       "The fingerprint names the pixels that are rendered here: where two are equal, pictures can be "

@@ -21,7 +21,7 @@ struct ScenarioArguments {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;  ///< "key.path=value"
   RunArguments run;
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   std::string detector;                    ///< command of a program; empty: as the scenario says
   double detector_timeout_s = 0.0;         ///< 0: as the scenario says
   std::optional<double> detector_start_s;  ///< none: as the scenario says

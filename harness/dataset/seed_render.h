@@ -24,7 +24,7 @@ struct RenderTask {
   std::uint64_t seed = 0;
   FrameChoice frames;  ///< as of frames_of_drive
   TruthRequest truth;
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   std::vector<WantedDataset> datasets;  ///< of the same pictures; at least one
   PictureChange change = {};            ///< of all data sets
 };

@@ -26,7 +26,7 @@ struct DatasetArguments {
   fs::path out;
   Shard shard;
   std::vector<std::string> words;  ///< of the command line, but for --shard and --out
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool dry_run = false;
 };

@@ -16,7 +16,7 @@ namespace stereobench::harness {
 struct CalibrationLook {
   const Experiment& experiment;  ///< whose cameras and detector look
   worlds::CalibrationSceneSettings settings;
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   std::vector<std::uint64_t> seeds;
 };
 

@@ -84,7 +84,7 @@ struct OnlookerResult {
 /// @return one result an onlooker: the log with truth, and how vision scored
 /// @throws std::runtime_error when this machine has no such back end or a mesh cannot be read
 std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlookers, const StreamSeeds& seeds,
-                                            renderer::Backend backend = renderer::Backend::kOsmesa,
+                                            renderer::Backend backend = renderer::Backend::kSoftware,
                                             const renderer::FormReader& read = renderer::read_form);
 
 /// Drives through a scenario once: at each step of the path the world is rendered, exposed, observed (or
@@ -94,7 +94,7 @@ std::vector<OnlookerResult> record_together(const std::vector<Onlooker>& onlooke
 /// @return the log with truth, and how vision scored
 /// @throws std::runtime_error as record_together; DetectorFault when the program does not do what it should
 Recording record(const Experiment& experiment, const StreamSeeds& seeds, const Listeners& listeners,
-                 renderer::Backend backend = renderer::Backend::kOsmesa, const Detector& detector = {},
+                 renderer::Backend backend = renderer::Backend::kSoftware, const Detector& detector = {},
                  const renderer::FormReader& read = renderer::read_form);
 
 }  // namespace stereobench::harness

@@ -18,7 +18,7 @@ struct Invocation {
   /// "key=value": --set, and what other options put in place of filters, seeds and the detector
   std::vector<std::string> overrides;
   std::filesystem::path folder;  ///< from which a detector's command is called
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
 };
 
 /// The content of invocation.json.

@@ -18,7 +18,7 @@ struct SuiteArguments {
   std::vector<std::string> only;   ///< patterns of the cases that are run; empty: all
   std::filesystem::path baseline;  ///< a folder; empty: the usual one
   std::string detector;            ///< in place of those of all cases with pictures; empty: as they say
-  renderer::Backend backend = renderer::Backend::kOsmesa;
+  renderer::Backend backend = renderer::Backend::kSoftware;
   RunArguments run;            ///< seeds in place of those of all cases, jobs, folder of the results
   bool until_decided = false;  ///< more and more seeds of the baseline, until they decide
   int max_seeds = 80;

@@ -28,13 +28,15 @@ void refuse_wide_vectors() {
 }
 
 std::unique_ptr<Context> create_context(Backend backend) {
-  switch (backend) {
+  switch (drawn_by(backend)) {
     case Backend::kOsmesa:
       return create_osmesa_context();
     case Backend::kEgl:
       return create_egl_context(EglDevice::kSoftware);
     case Backend::kEglGpu:
       return create_egl_context(EglDevice::kGraphicsCard);
+    case Backend::kSoftware:
+      break;  // is drawn by one of the others
   }
   throw std::invalid_argument("make_context: no such back end");
 }
@@ -56,6 +58,12 @@ void Context::leave() const {
 Context::Procedure Context::procedure(const char* name) const {
   const Procedure found = find(name);
   if (found == nullptr) throw std::runtime_error(fmt::format("renderer: this OpenGL has no {}", name));
+  return found;
+}
+
+Backend drawn_by(Backend backend) {
+  if (backend != Backend::kSoftware) return backend;
+  static const Backend found = has_osmesa() ? Backend::kOsmesa : Backend::kEgl;
   return found;
 }
 

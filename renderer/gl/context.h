@@ -36,6 +36,10 @@ class Context {
   virtual Procedure find(const char* name) const = 0;
 };
 
+/// Says what draws. The answer is the same as long as the process lives.
+/// @return kOsmesa or kEgl for kSoftware; any other back end is itself
+Backend drawn_by(Backend backend);
+
 /// Creates a context and makes it current.
 /// @throws std::runtime_error when this machine has no such back end, or with LP_NATIVE_VECTOR_WIDTH above
 ///   256, which crashes the rasteriser of those in software

@@ -47,8 +47,9 @@ struct Egl {
 Egl::Egl() {
   void* const library = ::dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    throw std::runtime_error(fmt::format(
-        "renderer: there is no EGL here: {}; install libegl1 or render with osmesa", ::dlerror()));
+    throw std::runtime_error(
+        fmt::format("renderer: there is no EGL here: {}; install it (Debian: libegl1) or render with osmesa",
+                    ::dlerror()));
   }
   GetProcAddress = reinterpret_cast<PFNEGLGETPROCADDRESSPROC>(::dlsym(library, "eglGetProcAddress"));
   if (GetProcAddress == nullptr) throw std::runtime_error("renderer: this EGL has no eglGetProcAddress");
@@ -139,8 +140,8 @@ std::unique_ptr<Context> create_egl_context(EglDevice wanted) {
   }
   throw std::runtime_error(
       wanted == EglDevice::kSoftware
-          ? "renderer: EGL has no OpenGL 4.5 by llvmpipe here; install libegl-mesa0 and libgl1-mesa-dri or "
-            "render with osmesa"
+          ? "renderer: EGL has no OpenGL 4.5 by llvmpipe here; install Mesa's (Debian: libegl-mesa0, "
+            "libgl1-mesa-dri) or render with osmesa"
           : fmt::format("renderer: none of EGL's {} devices is a graphics card with OpenGL 4.5 that may be "
                         "used; render with osmesa or egl",
                         devices.size()));

@@ -3,25 +3,30 @@
 #include <array>
 #include <stdexcept>
 
-#include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <fmt/core.h>
+
+#include "renderer/gl/gl.h"
+#include "renderer/gl/idle_code.h"
 
 namespace stereobench::renderer {
 namespace {
 
 constexpr int kWindow_px = 4;  // OSMesa demands a window to draw to; pictures go to framebuffer objects
 
-/// The functions of OSMesa that are called, named as there without their "OSMesa". The library is never
-/// unloaded.
+using OsmesaHandle = struct OsmesaState*;
+
+/// The functions of OSMesa that are called. They are declared here, as are the numbers below: Mesa 25.1
+/// dropped the header with the library, and what is built without them runs with a library of before.
 struct Osmesa {
   /// @throws std::runtime_error when there is no OSMesa, or one that lacks a function
   Osmesa();
 
-  decltype(&OSMesaCreateContextAttribs) CreateContextAttribs;
-  decltype(&OSMesaDestroyContext) DestroyContext;
-  decltype(&OSMesaMakeCurrent) MakeCurrent;
-  decltype(&OSMesaGetProcAddress) GetProcAddress;
+  OsmesaHandle (*create)(const int* attributes, OsmesaHandle sharer);
+  void (*destroy)(OsmesaHandle handle);
+  GLboolean (*make_current)(OsmesaHandle handle, void* window, GLenum type, GLsizei width_px,
+                            GLsizei height_px);
+  Context::Procedure (*procedure)(const char* name);
 };
 
 template <typename Function>
@@ -30,16 +35,22 @@ void fetch(void* library, const char* name, Function& function) {
   if (function == nullptr) throw std::runtime_error(fmt::format("renderer: this OSMesa has no {}", name));
 }
 
+/// Null where there is none: `dlerror` then says why.
+void* open_osmesa() {
+  return ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+}
+
 Osmesa::Osmesa() {
-  void* const library = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+  void* const library = open_osmesa();
   if (library == nullptr) {
     throw std::runtime_error(fmt::format(
-        "renderer: there is no OSMesa here: {}; install libosmesa6 or render with egl", ::dlerror()));
+        "renderer: there is no OSMesa here: {}; install it (Debian: libosmesa6) or render with egl",
+        ::dlerror()));
   }
-  fetch(library, "OSMesaCreateContextAttribs", CreateContextAttribs);
-  fetch(library, "OSMesaDestroyContext", DestroyContext);
-  fetch(library, "OSMesaMakeCurrent", MakeCurrent);
-  fetch(library, "OSMesaGetProcAddress", GetProcAddress);
+  fetch(library, "OSMesaCreateContextAttribs", create);
+  fetch(library, "OSMesaDestroyContext", destroy);
+  fetch(library, "OSMesaMakeCurrent", make_current);
+  fetch(library, "OSMesaGetProcAddress", procedure);
 }
 
 const Osmesa& osmesa() {
@@ -47,48 +58,46 @@ const Osmesa& osmesa() {
   return functions;
 }
 
-OSMesaContext create_handle() {
-  constexpr std::array<int, 13> kAttributes = {OSMESA_FORMAT,
-                                               OSMESA_RGBA,
-                                               OSMESA_DEPTH_BITS,
-                                               0,
-                                               OSMESA_PROFILE,
-                                               OSMESA_CORE_PROFILE,
-                                               OSMESA_CONTEXT_MAJOR_VERSION,
-                                               4,
-                                               OSMESA_CONTEXT_MINOR_VERSION,
-                                               5,
-                                               0,
-                                               0,
-                                               0};
-  return osmesa().CreateContextAttribs(kAttributes.data(), nullptr);
+OsmesaHandle create_handle() {
+  constexpr int kFormat = 0x22, kDepthBits = 0x30, kProfile = 0x33, kMajorVersion = 0x36,
+                kMinorVersion = 0x37;
+  constexpr int kCoreProfile = 0x34;
+  constexpr std::array<int, 11> kAttributes = {
+      kFormat, GL_RGBA, kDepthBits, 0, kProfile, kCoreProfile, kMajorVersion, 4, kMinorVersion, 5, 0};
+  return osmesa().create(kAttributes.data(), nullptr);
 }
 
 class OsmesaContext final : public Context {
  public:
   OsmesaContext() : handle_(create_handle()) {
     if (handle_ == nullptr) {
-      throw std::runtime_error(
-          "renderer: OSMesa has no OpenGL 4.5 core profile; install libosmesa6 22.3 or newer");
+      throw std::runtime_error("renderer: OSMesa has no OpenGL 4.5 core profile; install Mesa 22.3 or newer");
     }
   }
   ~OsmesaContext() override {
     leave();
-    osmesa().DestroyContext(handle_);
+    osmesa().destroy(handle_);
   }
 
  private:
   bool bind() const override {
-    return osmesa().MakeCurrent(handle_, window_.data(), GL_UNSIGNED_BYTE, kWindow_px, kWindow_px) == GL_TRUE;
+    return osmesa().make_current(handle_, window_.data(), GL_UNSIGNED_BYTE, kWindow_px, kWindow_px) ==
+           GL_TRUE;
   }
-  void unbind() const override { osmesa().MakeCurrent(nullptr, nullptr, 0, 0, 0); }
-  Procedure find(const char* name) const override { return osmesa().GetProcAddress(name); }
+  void unbind() const override { osmesa().make_current(nullptr, nullptr, 0, 0, 0); }
+  Procedure find(const char* name) const override { return osmesa().procedure(name); }
 
-  OSMesaContext handle_;
+  OsmesaHandle handle_;
   mutable std::array<unsigned char, std::size_t{kWindow_px} * kWindow_px * 4> window_{};
 };
 
 }  // namespace
+
+bool has_osmesa() {
+  const bool opens = open_osmesa() != nullptr;
+  release_code(kCompiler);
+  return opens;
+}
 
 std::unique_ptr<Context> create_osmesa_context() {
   return std::make_unique<OsmesaContext>();

@@ -7,6 +7,9 @@
 
 namespace stereobench::renderer {
 
+/// Opens the library, if this machine has it; it is never closed.
+bool has_osmesa();
+
 /// @throws std::runtime_error when OSMesa has no OpenGL 4.5
 std::unique_ptr<Context> create_osmesa_context();
 

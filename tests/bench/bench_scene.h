@@ -15,7 +15,7 @@ namespace stereobench {
 
 /// A rendered pair and what copying it costs.
 struct Bench {
-  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kOsmesa,
+  explicit Bench(Scene shown, renderer::Backend backend = renderer::Backend::kSoftware,
                  renderer::LightDepth depth = renderer::LightDepth::kEightBits)
       : scene(std::move(shown)),
         renderer(scene.world, scene.rig, backend, depth),

@@ -29,7 +29,7 @@ void render_pair(benchmark::State& state, const Scene& scene) {
 
 /// With light of 16 bits, for cameras that do not store it as it is.
 void render_pair_fine(benchmark::State& state, const Scene& scene) {
-  Bench bench(scene, renderer::Backend::kOsmesa, renderer::LightDepth::kSixteenBits);
+  Bench bench(scene, renderer::Backend::kSoftware, renderer::LightDepth::kSixteenBits);
   bench.run(state, [&] { benchmark::DoNotOptimize(bench.renderer.render(scene.pose)); });
 }
 

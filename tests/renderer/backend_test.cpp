@@ -1,17 +1,19 @@
-/// The back ends side by side: what they call themselves, and that the two in software give the same bytes,
-/// also when both live in one process, where two copies of Mesa share libglapi and LLVM.
+/// The back ends side by side: what they call themselves, which one is the default, and that the two in
+/// software give the same bytes, also when both live in one process, where two copies of Mesa share libglapi
+/// and LLVM.
 
 #include "renderer/backend.h"
 
 #include <cstdlib>
 #include <optional>
 
-#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/gl/context.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/frames.h"
+#include "tests/renderer/in_software.h"
 #include "tests/renderer/random_scene.h"
 
 namespace stereobench::renderer {
@@ -22,22 +24,13 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using testing::ThrowsMessage;
 
-bool has_libegl() {
-  return ::dlopen("libEGL.so.1", RTLD_LAZY) != nullptr;
-}
+class InSoftware : public test::EachInSoftware {};
+class Egl : public test::BothInSoftware {};
 
-class InSoftware : public testing::TestWithParam<Backend> {
+/// A rasteriser that is not llvmpipe comes through OSMesa alone: EGL's is asked what it is.
+class OtherRasteriser : public test::OnMachinesWith {
  protected:
-  void SetUp() override {
-    if (GetParam() == Backend::kEgl && !has_libegl()) GTEST_SKIP() << "no libEGL.so.1 on this machine";
-  }
-};
-
-class Egl : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_libegl()) GTEST_SKIP() << "no libEGL.so.1 on this machine";
-  }
+  void SetUp() override { need(Backend::kOsmesa); }
 };
 
 TEST_P(InSoftware, SaysWhatItIsAndRendersItsTestFrame) {
@@ -62,7 +55,7 @@ TEST_P(InSoftware, NewContextsGiveTheSameBytes) {
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(same(frame, test::room_frame(1, GetParam())));
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, InSoftware, testing::Values(Backend::kOsmesa, Backend::kEgl));
+INSTANTIATE_TEST_SUITE_P(Backends, InSoftware, test::kInSoftware);
 
 TEST_F(Egl, GivesTheBytesOfOsmesa) {
   for (std::uint64_t room = 0; room < 8; ++room) {
@@ -104,7 +97,7 @@ void expect_alike(const StereoFrame& a, const StereoFrame& b, double depth_share
 
 // Mesa's other rasteriser interprets shaders and has its own way with triangles, blending and depth. It
 // claims OpenGL 3.3 only, but can what is used here.
-TEST(OtherRasteriser, SeesWhatLlvmpipeSees) {
+TEST_F(OtherRasteriser, SeesWhatLlvmpipeSees) {
   const auto frames = test::frames_of_process(
       "GALLIUM_DRIVER=softpipe MESA_GL_VERSION_OVERRIDE=4.5 MESA_GLSL_VERSION_OVERRIDE=450", Backend::kOsmesa,
       2);
@@ -125,7 +118,7 @@ TEST(GraphicsCard, SeesWhatLlvmpipeSees) {
   }
   EXPECT_EQ(render_test_frame(Backend::kEglGpu).complaint, "");
   for (std::uint64_t room = 0; room < 8; ++room) {
-    expect_alike(test::room_frame(room, Backend::kEglGpu), test::room_frame(room, Backend::kOsmesa),
+    expect_alike(test::room_frame(room, Backend::kEglGpu), test::room_frame(room, Backend::kSoftware),
                  kDepthShare);
   }
 }
@@ -146,6 +139,15 @@ TEST(Fingerprint, ChangesWithEachOfItsParts) {
   EXPECT_NE(usual, fingerprint({"4.5 Mesa 22.3.7", info.gl_renderer, info.gl_vendor}, {"", 1}));
   EXPECT_NE(usual, fingerprint({info.gl_version, "llvmpipe (128 bits)", info.gl_vendor}, {"", 1}));
   EXPECT_NE(usual, fingerprint(info, {"", 2}));
+}
+
+// Red where the default is egl, or osmesa, on every machine.
+TEST(Software, IsOsmesaWhereItsLibraryIsAndEglElse) {
+  const Backend expected = test::has_library(Backend::kOsmesa) ? Backend::kOsmesa : Backend::kEgl;
+  EXPECT_EQ(drawn_by(Backend::kSoftware), expected);
+  EXPECT_STREQ(name_of(Backend::kSoftware), name_of(expected));
+  EXPECT_TRUE(same(test::room_frame(1, Backend::kSoftware), test::room_frame(1, expected)));
+  for (const Backend backend : kBackends) EXPECT_EQ(drawn_by(backend), backend);
 }
 
 TEST(BackendName, IsReadBackAndAnUnknownOneIsRefused) {

@@ -2,12 +2,12 @@
 /// own. Threads share out tiles and vectors hold pixels side by side: neither touches arithmetic. Fused
 /// multiply-add does, which the rasteriser uses where the CPU has it.
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "renderer/backend.h"
 #include "tests/renderer/frames.h"
+#include "tests/renderer/in_software.h"
 
 namespace stereobench::renderer {
 namespace {
@@ -16,13 +16,8 @@ constexpr int kRooms = 3;
 constexpr const char* kLesserGlibc = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA";
 constexpr const char* kLesserOpenCv = "OPENCV_CPU_DISABLE=SSE4.1,SSE4.2,AVX,FP16,AVX2";
 
-class Determinism : public testing::TestWithParam<Backend> {
+class Determinism : public test::EachInSoftware {
  protected:
-  void SetUp() override {
-    if (GetParam() == Backend::kEgl && ::dlopen("libEGL.so.1", RTLD_LAZY) == nullptr) {
-      GTEST_SKIP() << "no libEGL.so.1 on this machine";
-    }
-  }
   std::vector<StereoFrame> frames(const char* environment) const {
     return test::frames_of_process(environment, GetParam(), kRooms);
   }
@@ -58,7 +53,7 @@ TEST_P(Determinism, SameIdsAndColoursWithinALevelOnCpusWithoutFusedMultiplyAdd) 
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Determinism, testing::Values(Backend::kOsmesa, Backend::kEgl));
+INSTANTIATE_TEST_SUITE_P(Backends, Determinism, test::kInSoftware);
 
 }  // namespace
 }  // namespace stereobench::renderer

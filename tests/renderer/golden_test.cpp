@@ -46,9 +46,9 @@ Parts parts_of(const std::string& fingerprint) {
 
 /// What goldens.txt should say of this machine.
 Golden golden_of_this_machine() {
-  Golden golden{fingerprint(backend_info(Backend::kOsmesa), render_test_frame(Backend::kOsmesa)), {}};
+  Golden golden{fingerprint(backend_info(Backend::kSoftware), render_test_frame(Backend::kSoftware)), {}};
   for (std::uint64_t room = 0; room < kGoldenRooms; ++room)
-    golden.rooms += fmt::format(" {:016x}", test::hash_of(test::room_frame(room, Backend::kOsmesa)));
+    golden.rooms += fmt::format(" {:016x}", test::hash_of(test::room_frame(room, Backend::kSoftware)));
   return golden;
 }
 

@@ -107,7 +107,7 @@ std::vector<CalibrationBin> measured_bins(double radius_sd_m, const std::vector<
   std::vector<harness::CalibrationSample> samples;
   const harness::Experiment experiment = cameras(radius_sd_m);
   for (const harness::CalibrationTake& take : harness::take_calibration_scenes(
-           {experiment, {kDepths, true}, renderer::Backend::kOsmesa, seeds}, jobs))
+           {experiment, {kDepths, true}, renderer::Backend::kSoftware, seeds}, jobs))
     samples.insert(samples.end(), take.samples.begin(), take.samples.end());
   const harness::FittedNoise as_stated;
   return harness::bin_samples(samples, as_stated, kDepths.nearest_m, kDepths.farthest_m, kBins);

@@ -22,7 +22,7 @@ namespace {
 struct ScenarioOptions {
   std::string seeds, filters;  ///< empty: as the scenario says
   int particles = 0;
-  std::string backend;
+  std::string backend;  ///< empty: in software
 };
 
 std::shared_ptr<PyScenario> scenario_of(const std::filesystem::path& file,
@@ -32,7 +32,7 @@ std::shared_ptr<PyScenario> scenario_of(const std::filesystem::path& file,
   ScenarioArguments& arguments = scenario->arguments;
   arguments.scenario = file;
   arguments.overrides = overrides;
-  arguments.backend = renderer::backend_named(options.backend);
+  if (!options.backend.empty()) arguments.backend = renderer::backend_named(options.backend);
   if (!options.seeds.empty()) arguments.run.seeds = parse_seeds_option(options.seeds);
   if (!options.filters.empty()) arguments.run.filters = parse_filters(options.filters);
   arguments.run.particles = options.particles;

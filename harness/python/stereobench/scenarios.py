@@ -31,13 +31,13 @@ class Scenario(_core.Scenario):
     source: path of a YAML file, or a dict; paths in a dict are absolute.
     set: values by their key paths, {"camera.noise_sd_levels": 4}; text stands as --set takes it.
     seeds: [0, 1] or "0..9"; filters: names; particles: of each particle filter; None is as the scenario says.
-    backend: what renders: "osmesa", "egl" or "egl-gpu".
+    backend: what renders: "osmesa", "egl" or "egl-gpu"; None is osmesa where its library is, else egl.
     Raises Error with the program's message, e.g. for an unknown key.
     """
 
-    def __init__(self, source, set=None, *, seeds=None, filters=None, particles=None, backend="osmesa"):
+    def __init__(self, source, set=None, *, seeds=None, filters=None, particles=None, backend=None):
         overrides = [_override(key, value) for key, value in (set or {}).items()]
-        options = (overrides, _list_text(seeds), _list_text(filters), particles or 0, backend)
+        options = (overrides, _list_text(seeds), _list_text(filters), particles or 0, backend or "")
         if not isinstance(source, dict):
             self._made_of = (os.fspath(source), *options)
             super().__init__(*self._made_of)

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "renderer/gl/context_osmesa.h"
 #include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {
@@ -38,6 +39,22 @@ class EglOption : public testing::Test {
   }
 };
 
+class BothOptions : public EglOption {
+ protected:
+  void SetUp() override {
+    EglOption::SetUp();
+    if (!renderer::has_osmesa()) GTEST_SKIP() << "no libOSMesa.so.8 on this machine";
+  }
+};
+
+/// An environment without a library. A file of its name that is no library stops the search for another, as
+/// if there were none.
+/// @param folder for that file
+Environment without(const std::string& library, const TestFolder& folder) {
+  folder.write(library, "");
+  return {"LD_LIBRARY_PATH=" + folder.path().string()};
+}
+
 /// The commands that render, a short one of each.
 std::vector<std::vector<std::string>> rendering_commands() {
   return {{"run", kBallCircle, "--set", "path.laps=0.02"},
@@ -53,19 +70,17 @@ TEST(BackendOption, AnUnknownOneIsOneLine) {
   }
 }
 
-// A file of that name that is no library stops the search for another, as if there were none.
 // Mutations: a command that renders with osmesa whatever it is told; a program that is linked with libEGL.
-TEST(BackendOption, WithoutLibeglOsmesaRendersAndTheOthersAreOneLine) {
+TEST_F(BothOptions, WithoutLibeglOsmesaRendersAndTheOthersAreOneLine) {
   const TestFolder scratch;
-  scratch.write("libEGL.so.1", "");
-  const Environment no_egl = {"LD_LIBRARY_PATH=" + scratch.path().string()};
+  const Environment no_egl = without("libEGL.so.1", scratch);
   EXPECT_EQ(run_stereobench({"doctor"}, no_egl).exit_code, 0);
   for (const auto& command : rendering_commands()) {
     for (const char* backend : {"egl", "egl-gpu"}) {
       std::vector<std::string> arguments = with(command, {"--backend", backend});
       if (command != std::vector<std::string>{"doctor"})
         arguments = with(arguments, {"--out", (scratch.path() / command.front() / backend).string()});
-      expect_one_line(run_stereobench(arguments, no_egl), "install libegl1");
+      expect_one_line(run_stereobench(arguments, no_egl), "install it (Debian: libegl1)");
     }
   }
 }
@@ -73,12 +88,13 @@ TEST(BackendOption, WithoutLibeglOsmesaRendersAndTheOthersAreOneLine) {
 TEST_F(EglOption, WithoutADriverIsOneLine) {
   const TestFolder scratch;
   const Environment no_driver = {"__EGL_VENDOR_LIBRARY_DIRS=" + scratch.path().string()};
-  expect_one_line(run_stereobench({"doctor", "--backend", "egl"}, no_driver), "install libegl-mesa0");
+  expect_one_line(run_stereobench({"doctor", "--backend", "egl"}, no_driver),
+                  "install Mesa's (Debian: libegl-mesa0,");
   expect_one_line(run_stereobench({"doctor", "--backend", "egl-gpu"}, no_driver), "none of EGL's 0 devices");
 }
 
 // Mutation: a display of X11's, which the variable asks for, instead of a device's.
-TEST_F(EglOption, DoctorFindsTheRasteriserAndThePixelsOfOsmesa) {
+TEST_F(BothOptions, DoctorFindsTheRasteriserAndThePixelsOfOsmesa) {
   const Outcome osmesa = run_stereobench({"doctor"});
   const Outcome egl = run_stereobench({"doctor", "--backend", "egl"}, {"EGL_PLATFORM=x11"});
   ASSERT_EQ(egl.exit_code, 0) << egl.err;
@@ -99,7 +115,7 @@ TEST(Doctor, FingerprintsSeeTheSmallestDifferenceOfPixels) {
 }
 
 // Property: back ends of equal pixels give equal results; run.json differs in the name alone.
-TEST_F(EglOption, RunsAsOsmesaDoesAndSaysSo) {
+TEST_F(BothOptions, RunsAsOsmesaDoesAndSaysSo) {
   const TestFolder scratch;
   const auto json_of = [&](const std::string& backend) {
     const std::filesystem::path out = scratch.path() / backend;
@@ -119,6 +135,43 @@ TEST_F(EglOption, RunsAsOsmesaDoesAndSaysSo) {
             bytes_of(scratch.path() / "osmesa/frames/seed0_step0000.png"));
 }
 
+// Red where a command takes osmesa for the default, where the name is written that was asked for and not that
+// which drew, and where the program needs libOSMesa to start.
+TEST_F(EglOption, WithoutLibosmesaItIsTheDefault) {
+  const TestFolder scratch;
+  const Environment no_osmesa = without("libOSMesa.so.8", scratch);
+  const auto run = [&](const std::string& name, const std::vector<std::string>& options) {
+    const std::string out = (scratch.path() / name).string();
+    const Outcome outcome =
+        run_stereobench(with({"run", kBallCircle, "--set", "path.laps=0.05", "--seeds", "0", "--particles",
+                              "10", "--set", "gates=[]", "--out", out},
+                             options),
+                        no_osmesa);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return bytes_of(out + "/run.json");
+  };
+  const std::string by_default = run("default", {});
+  EXPECT_EQ(nlohmann::json::parse(by_default)["renderer"]["backend"], "egl");
+  EXPECT_EQ(by_default, run("egl", {"--backend", "egl"}));
+  EXPECT_THAT(line_of(run_stereobench({"doctor"}, no_osmesa), "GL "), HasSubstr("egl: "));
+  for (const auto& command : rendering_commands()) {
+    const std::vector<std::string> elsewhere = {"--out", (scratch.path() / command.front()).string()};
+    const bool is_doctor = command == std::vector<std::string>{"doctor"};
+    expect_one_line(run_stereobench(with(with(command, {"--backend", "osmesa"}),
+                                         is_doctor ? std::vector<std::string>() : elsewhere),
+                                    no_osmesa),
+                    "install it (Debian: libosmesa6) or render with egl");
+  }
+}
+
+// Red where the search ends at the first library that is not there.
+TEST(BackendOption, WithoutAnyIsOneLine) {
+  const TestFolder scratch;
+  without("libOSMesa.so.8", scratch);
+  const Environment neither = without("libEGL.so.1", scratch);
+  expect_one_line(run_stereobench({"doctor"}, neither), "install it (Debian: libegl1) or render with osmesa");
+}
+
 TEST_F(EglOption, SweepsWithIt) {
   const TestFolder scratch;
   const Outcome outcome =
@@ -130,11 +183,11 @@ TEST_F(EglOption, SweepsWithIt) {
 }
 
 // Mutation: the back end left out of the data set's identity.
-TEST_F(EglOption, ADataSetIsNotFinishedByAnotherBackEnd) {
+TEST_F(BothOptions, ADataSetIsNotFinishedByAnotherBackEnd) {
   const TestFolder scratch;
   const std::vector<std::string> render = {"render",         kBallCircle, "--set",
                                            "path.laps=0.02", "--out",     (scratch.path() / "data").string()};
-  ASSERT_EQ(run_stereobench(render).exit_code, 0);
+  ASSERT_EQ(run_stereobench(with(render, {"--backend", "osmesa"})).exit_code, 0);
   expect_one_line(run_stereobench(with(render, {"--backend", "egl"})),
                   "holds a data set of another backend;");
 }

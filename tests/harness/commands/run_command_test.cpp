@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "renderer/backend.h"
 #include "tests/harness/commands/program.h"
 
 namespace stereobench::harness {
@@ -43,7 +44,7 @@ TEST(RunCommand, RunJsonHasTheKeysThatStay) {
       nlohmann::json::parse(result_of(with(kShortDrive, {"--set", "camera.noise_sd_levels=1"}), "run.json"));
   for (const char* key : {"schema", "scenario", "seeds", "renderer", "vision", "filters"})
     EXPECT_TRUE(json.contains(key)) << key;
-  EXPECT_EQ(json["renderer"]["backend"], "osmesa");
+  EXPECT_EQ(json["renderer"]["backend"], renderer::name_of(renderer::Backend::kSoftware));
   for (const char* key : {"recall", "precision", "misidentified", "range_rms_m", "bearing_rms_rad"})
     EXPECT_TRUE(json["vision"][key].is_number()) << key;
   for (const char* name : {"dead_reckoning", "fastslam2", "ufastslam"}) {
@@ -258,7 +259,7 @@ INSTANTIATE_TEST_SUITE_P(Mrclam, RealRobot,
 TEST(DoctorCommand, SaysWhatItRunsOnAndThatATestFrameIsRight) {
   const Outcome outcome = run_stereobench({"doctor"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  for (const char* part : {"osmesa", "OpenCV", "CPU", "test frame"})
+  for (const char* part : {"llvmpipe", "OpenCV", "CPU", "test frame"})
     EXPECT_THAT(outcome.out, HasSubstr(part));
 }
 

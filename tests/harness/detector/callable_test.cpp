@@ -41,7 +41,7 @@ TEST(CallableDetector, IsAskedInPlaceOfOursAndScoredAlike) {
     return balls;
   };
   const Recording plain = record(experiment, 0, {});
-  const Recording wrong = record(experiment, 0, {}, renderer::Backend::kOsmesa, off);
+  const Recording wrong = record(experiment, 0, {}, renderer::Backend::kSoftware, off);
   EXPECT_EQ(plain.detector, "stereobench");
   EXPECT_EQ(wrong.detector, "callable");
   ASSERT_EQ(frames.size(), scenario.path.size());

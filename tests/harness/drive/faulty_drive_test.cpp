@@ -24,7 +24,7 @@ Seen seen_on(const std::string& scenario, std::vector<std::string> overrides, co
   listeners.on_frame = [&](const FrameEvent& event) {
     seen.lines.push_back(detections_line(event.step, event.observations));
   };
-  seen.recording = record(experiment, 3, listeners, renderer::Backend::kOsmesa, detector);
+  seen.recording = record(experiment, 3, listeners, renderer::Backend::kSoftware, detector);
   return seen;
 }
 

@@ -21,7 +21,7 @@ const std::vector<std::string> kDrive = {"path.laps=0.12",           "rig.width_
 
 Recording recorded(const std::vector<std::string>& overrides, const Detector& detector = {}) {
   const Experiment experiment = read_experiment(scenario_path("ball_circle"), with(kDrive, overrides));
-  return record(experiment, 3, {}, renderer::Backend::kOsmesa, detector);
+  return record(experiment, 3, {}, renderer::Backend::kSoftware, detector);
 }
 
 double rms(const std::vector<double>& values) {

@@ -46,7 +46,7 @@ void expect_same(const Recording& replayed, const Recording& recorded) {
 TEST(SeenDrive, GivesWhatTheDriveGives) {
   const StreamSeeds seeds(5);
   const Experiment plain = experiment_with({});
-  const SeenDrive seen = see_together({&plain}, seeds, renderer::Backend::kOsmesa, [](double) {}).front();
+  const SeenDrive seen = see_together({&plain}, seeds, renderer::Backend::kSoftware, [](double) {}).front();
   const SeenDrive kept = seen_drive_from_bytes(to_bytes(seen));
   ASSERT_GT(kept.frames.size(), 4U);
   for (const std::vector<std::string>& behind : std::vector<std::vector<std::string>>{
@@ -66,7 +66,7 @@ TEST(SeenDrive, KeepsTheDetectorsOwnAnswers) {
   const StreamSeeds seeds(5);
   const Experiment perfect = experiment_with(
       {"perfect_detections={places: true, names: true}", "detector_noise={miss_probability: 0.5}"});
-  const SeenDrive seen = see_together({&perfect}, seeds, renderer::Backend::kOsmesa, [](double) {}).front();
+  const SeenDrive seen = see_together({&perfect}, seeds, renderer::Backend::kSoftware, [](double) {}).front();
   const Experiment plain = experiment_with({});
   expect_same(recording_of(plain, seeds, seen), record(plain, seeds, {}));
 }
@@ -76,7 +76,7 @@ TEST(SeenDrive, ShowsTheSamePicturesToSeveral) {
   const StreamSeeds seeds(5);
   const Experiment plain = experiment_with({"detector_noise={centre_sd_px: 1}"});
   const Experiment wrong = experiment_with({"believed_rig={baseline_m: 0.13}"});
-  const auto seen = see_together({&plain, &wrong}, seeds, renderer::Backend::kOsmesa, [](double) {});
+  const auto seen = see_together({&plain, &wrong}, seeds, renderer::Backend::kSoftware, [](double) {});
   ASSERT_EQ(seen.size(), 2U);
   expect_same(recording_of(plain, seeds, seen[0]), record(plain, seeds, {}));
   expect_same(recording_of(wrong, seeds, seen[1]), record(wrong, seeds, {}));

@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr FrameName kFrame = {1, 3};
-constexpr auto kBackend = renderer::Backend::kOsmesa;
+constexpr auto kBackend = renderer::Backend::kSoftware;
 
 /// A world with balls, walls, meshes and a floor.
 struct Circle {

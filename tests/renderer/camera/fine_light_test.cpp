@@ -26,7 +26,7 @@ TEST_P(FineLight, IsTheSamePictureToTheRounding) {
   vision::StereoRig rig = test::small_rig();
   if (has_lens) rig.distortion = {.k1 = -0.25, .k2 = 0.08, .p1 = 0.001};
   const StereoFrame coarse = Renderer(world, rig).render(pose);
-  const StereoFrame fine = Renderer(world, rig, Backend::kOsmesa, LightDepth::kSixteenBits).render(pose);
+  const StereoFrame fine = Renderer(world, rig, Backend::kSoftware, LightDepth::kSixteenBits).render(pose);
   for (const auto& [a, b] : {std::pair(&coarse.left, &fine.left), std::pair(&coarse.right, &fine.right)}) {
     EXPECT_TRUE(test::same(a->ball_id, b->ball_id));
     EXPECT_TRUE(test::same(a->depth_m, b->depth_m));
@@ -55,7 +55,7 @@ std::set<int> stored_greens(const worlds::CameraSensor& sensor) {
   worlds::World world = test::flat_sky({{{0.6, 0.0, 0.9}, 0.25, 1}});
   world.light = {.towards_light = {-1.0, 0.3, 0.2}, .ambient = 0.0, .diffuse = 0.1};
   const vision::StereoRig rig = test::rig_looking_up();
-  const StereoFrame frame = Renderer(world, rig, Backend::kOsmesa, light_for(sensor)).render({});
+  const StereoFrame frame = Renderer(world, rig, Backend::kSoftware, light_for(sensor)).render({});
   const cv::Mat stored = expose(frame, sensor, 0, 0).left;
   std::set<int> levels;
   for (int v = 0; v < stored.rows; ++v)

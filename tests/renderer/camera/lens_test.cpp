@@ -111,7 +111,7 @@ Blurs blurs_behind(const vision::Distortion& lens) {
   for (const Eigen::Vector3d& at : places)
     world.balls.push_back({middle_m + turn * (at - Eigen::Vector3d(0.0, 0.0, 15.0)), kBallRadius_m, 0});
   const cv::Mat picture =
-      Renderer(world, rig, Backend::kOsmesa, LightDepth::kSixteenBits).render({}).left.colour;
+      Renderer(world, rig, Backend::kSoftware, LightDepth::kSixteenBits).render({}).left.colour;
   Eigen::Vector2d sum[2] = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   int balls[2] = {0, 0};
   for (const Eigen::Vector3d& at : places) {

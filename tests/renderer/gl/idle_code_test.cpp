@@ -31,19 +31,19 @@ double compiler_mb() {
 
 // LLVM calls all over itself when it is loaded, and not again: 36 MB. Mutation: contexts that do not release.
 TEST(IdleCode, IsNotKeptByAContext) {
-  const auto context = make_context(Backend::kOsmesa);
+  const auto context = make_context(Backend::kSoftware);
   EXPECT_LT(compiler_mb(), 2.0);
 }
 
 // Mutation: renderers that do not release.
 TEST(IdleCode, IsNotKeptOnceAPairIsDrawn) {
-  const StereoFrame frame = test::room_frame(1, Backend::kOsmesa);
+  const StereoFrame frame = test::room_frame(1, Backend::kSoftware);
   EXPECT_LT(compiler_mb(), 2.0);
-  EXPECT_TRUE(test::same(frame, test::room_frame(1, Backend::kOsmesa))) << "it is called again";
+  EXPECT_TRUE(test::same(frame, test::room_frame(1, Backend::kSoftware))) << "it is called again";
 }
 
 TEST(IdleCode, IsAllThatLibrariesOfANameHave) {
-  const auto context = make_context(Backend::kOsmesa);
+  const auto context = make_context(Backend::kSoftware);
   EXPECT_GT(release_code(kCompiler), std::size_t{10} << 20U);
   EXPECT_LT(compiler_mb(), 0.1);
 }

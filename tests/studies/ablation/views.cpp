@@ -78,7 +78,7 @@ DrivenFrames drive(const std::string& scenario, std::vector<std::string> overrid
   const harness::Detector nobody = [](const harness::DetectorInput&) {
     return std::vector<vision::BallObservation>();
   };
-  harness::record(experiment, seed, listeners, renderer::Backend::kOsmesa, nobody);
+  harness::record(experiment, seed, listeners, renderer::Backend::kSoftware, nobody);
   return frames;
 }
 
