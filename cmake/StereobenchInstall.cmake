@@ -2,8 +2,18 @@
 # find_package(stereobench) reads (`dev`), and the package for Python (`python`). A component is a Debian package, too.
 include(CMakePackageConfigHelpers)
 
-set(STEREOBENCH_PYTHON_DIR lib/python3/dist-packages CACHE STRING "folder of Python's modules")
-set(STEREOBENCH_ZSH_DIR ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions CACHE STRING "folder of zsh's completions")
+# Where the system's Python and zsh look below /usr.
+if(EXISTS /etc/debian_version)
+  set(python_folder lib/python3/dist-packages)
+  set(zsh_folder vendor-completions)
+else()
+  get_property(minor GLOBAL PROPERTY STEREOBENCH_PYTHON_MINOR)
+  string(REGEX REPLACE "\\.$" "" version "3.${minor}")
+  set(python_folder ${CMAKE_INSTALL_LIBDIR}/python${version}/site-packages)
+  set(zsh_folder site-functions)
+endif()
+set(STEREOBENCH_PYTHON_DIR ${python_folder} CACHE STRING "folder of Python's modules")
+set(STEREOBENCH_ZSH_DIR ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} CACHE STRING "folder of zsh's completions")
 set(packaging ${CMAKE_SOURCE_DIR}/packaging)
 set(made ${CMAKE_BINARY_DIR}/packaging)
 set(executable PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -58,18 +68,22 @@ else()
   message(STATUS "man pages are left out: help2man is missing (apt-get install help2man)")
 endif()
 
-# Documents: a folder for each Debian package, with what Debian asks of each.
 set(documents ${CMAKE_INSTALL_DATADIR}/doc)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${documents}/stereobench COMPONENT program)
+install(FILES ${CMAKE_SOURCE_DIR}/docs/glossary.md DESTINATION ${documents}/stereobench/docs COMPONENT program)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/guide ${CMAKE_SOURCE_DIR}/docs/pictures
+        DESTINATION ${documents}/stereobench/docs COMPONENT program)
+if(NOT EXISTS /etc/debian_version)
+  return()
+endif()
+
+# What Debian asks of each of its packages, in a folder of the package.
 foreach(text IN ITEMS packaging/changelog=changelog.Debian CHANGELOG.md=changelog)
   string(REGEX MATCH "(.*)=(.*)" text ${text})
   execute_process(COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/${CMAKE_MATCH_1} OUTPUT_FILE ${made}/${CMAKE_MATCH_2}.gz
                   COMMAND_ERROR_IS_FATAL ANY)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${CMAKE_MATCH_1})
 endforeach()
-install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${documents}/stereobench COMPONENT program)
-install(FILES ${CMAKE_SOURCE_DIR}/docs/glossary.md DESTINATION ${documents}/stereobench/docs COMPONENT program)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/guide ${CMAKE_SOURCE_DIR}/docs/pictures
-        DESTINATION ${documents}/stereobench/docs COMPONENT program)
 foreach(pair IN ITEMS program=stereobench dev=libstereobench-dev python=python3-stereobench)
   string(REGEX MATCH "(.*)=(.*)" pair ${pair})
   set(component ${CMAKE_MATCH_1})
