@@ -32,7 +32,7 @@ Four turns(const Four& x, double y) {
 
 // A pixel as (B, G, R, 1), its four bytes at once.
 Colour colour_of(const std::uint8_t* bgr) {
-  const std::uint32_t bytes = bgr[0] | bgr[1] << 8U | bgr[2] << 16U | 1U << 24U;
+  const std::uint32_t bytes = bgr[0] | std::uint32_t{bgr[1]} << 8U | std::uint32_t{bgr[2]} << 16U | 1U << 24U;
   const auto words = cv::v_expand_low(cv::v_expand_low(cv::v_reinterpret_as_u8(cv::v_setall_u32(bytes))));
   Colour colour;
   cv::v_store(colour.data(), cv::v_cvt_f32(cv::v_reinterpret_as_s32(words)));
