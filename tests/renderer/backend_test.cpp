@@ -141,7 +141,8 @@ TEST(Fingerprint, ChangesWithEachOfItsParts) {
   EXPECT_NE(usual, fingerprint(info, {"", 2}));
 }
 
-// Red where the default is egl, or osmesa, on every machine.
+// Red, here or without_osmesa, where the default is egl, or osmesa, on every machine, and where it is always
+// called osmesa.
 TEST(Software, IsOsmesaWhereItsLibraryIsAndEglElse) {
   const Backend expected = test::has_library(Backend::kOsmesa) ? Backend::kOsmesa : Backend::kEgl;
   EXPECT_EQ(drawn_by(Backend::kSoftware), expected);

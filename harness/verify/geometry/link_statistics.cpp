@@ -6,8 +6,8 @@
 namespace stereobench::harness {
 
 double scale_px(LinkKind kind) {
-  constexpr double kMeasured_px = 0.5, kExact_px = 0.05;
-  return is_measured(kind) ? kMeasured_px : kExact_px;
+  constexpr double kMeasured_px = 0.5, kUnmeasured_px = 0.05;
+  return is_measured(kind) ? kMeasured_px : kUnmeasured_px;
 }
 
 double quantile(std::vector<double> values, double share) {
