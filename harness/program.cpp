@@ -86,13 +86,13 @@ int run_command_line(int argc, const char* const* argv) {
   return action();
 }
 
+}  // namespace
+
 int run_words(const std::vector<std::string>& words) {
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
   return run_command_line(static_cast<int>(pointers.size()), pointers.data());
 }
-
-}  // namespace
 
 void add_commands(CLI::App& program, Action& action) {
   add_run_command(program, action);

@@ -17,21 +17,12 @@ struct VerifyArguments {
   std::string format;
 };
 
-Verification verification_of(const VerifyArguments& arguments,
-                             const std::function<void(double)>& on_progress) {
-  if (arguments.format.empty() && is_collection(arguments.folder))
-    return verify_collection(arguments.folder, on_progress);
-  const DatasetReader& reader =
-      arguments.format.empty() ? reader_of(arguments.folder) : dataset_reader(arguments.format);
-  return verify_dataset(arguments.folder, reader, on_progress);
-}
-
 int verify(const VerifyArguments& arguments) {
   const std::string name = fs::absolute(arguments.folder / "").parent_path().filename().string();
   Verification found;
   {
     Progress progress("verify " + name, 1.0);
-    found = verification_of(arguments, [&](double done) { progress.show(done); });
+    found = verify_folder(arguments.folder, arguments.format, [&](double done) { progress.show(done); });
   }
   for (const Fault& fault : found.faults) fmt::print("{}\n", line_of(fault));
   fmt::print("{}: {}, {}; checked: {}\n", name, found.format,

@@ -16,15 +16,4 @@ RunResult run_into(const std::filesystem::path& out, const ScenarioArguments& ar
   return result;
 }
 
-RunResult run_here_into(const std::filesystem::path& out, const ScenarioArguments& arguments,
-                        const Experiment& experiment, std::vector<DriveTask> tasks, const std::string& pixels,
-                        const std::function<Detector()>& detector) {
-  RunFolder folder(out, arguments, experiment, pixels);
-  for (DriveTask& task : tasks) {
-    task.detector = detector();
-    folder.add(score_seed(drive_seed(task, [](double) {}), task.parts));
-  }
-  return folder.finish();
-}
-
 }  // namespace stereobench::harness

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,11 +19,5 @@ namespace stereobench::harness {
 RunResult run_into(const std::filesystem::path& out, const ScenarioArguments& arguments,
                    const Experiment& experiment, const std::vector<DriveTask>& tasks,
                    const std::string& pixels);
-
-/// The same in this process, with a detector that is called here.
-/// @param detector made anew for each drive
-RunResult run_here_into(const std::filesystem::path& out, const ScenarioArguments& arguments,
-                        const Experiment& experiment, std::vector<DriveTask> tasks, const std::string& pixels,
-                        const std::function<Detector()>& detector);
 
 }  // namespace stereobench::harness

@@ -54,4 +54,11 @@ Verification verify_collection(const fs::path& folder, const std::function<void(
   return result;
 }
 
+Verification verify_folder(const fs::path& folder, const std::string& format,
+                           const std::function<void(double)>& on_progress) {
+  if (format.empty() && is_collection(folder)) return verify_collection(folder, on_progress);
+  const DatasetReader& reader = format.empty() ? reader_of(folder) : dataset_reader(format);
+  return verify_dataset(folder, reader, on_progress);
+}
+
 }  // namespace stereobench::harness

@@ -15,4 +15,11 @@ bool is_collection(const std::filesystem::path& folder);
 Verification verify_collection(const std::filesystem::path& folder,
                                const std::function<void(double)>& on_progress);
 
+/// Checks a folder, whichever of the two it is.
+/// @param format of a data set whose folder does not tell it; empty: the folder tells
+/// @param on_progress is told the share that is done, 0 to 1
+/// @throws std::runtime_error, one line, where there is no data set of a known format
+Verification verify_folder(const std::filesystem::path& folder, const std::string& format,
+                           const std::function<void(double)>& on_progress);
+
 }  // namespace stereobench::harness

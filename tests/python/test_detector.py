@@ -46,8 +46,27 @@ def test_the_same_answers_score_the_same(circle):
     assert without_names(stepped) == without_names(run)
 
 
+def test_jobs_change_nothing(circle):
+    """Two drives ask at once. Red where an answer goes to the drive that asked last."""
+    def detector(frame):
+        return [{"colour": 3, "left_px": [500 + float(frame.left.mean()), 380.2], "right_px": [402.9, 380.2],
+                 "centre_sd_px": 0.5}]
+
+    assert sb.run(circle, detector=detector, jobs=2).text == sb.run(circle, detector=detector).text
+
+
+def test_a_frame_can_be_made(circle):
+    """As a test of a detector does. Red where rows and columns are swapped, or left and right."""
+    frame = sb.Drive(circle).frame(0)
+    again = sb.Frame(3, 7, frame.left, frame.right, frame.setup)
+    assert (again.step, again.stamp_ns, again.setup) == (3, 7, frame.setup)
+    assert np.array_equal(again.left, frame.left) and np.array_equal(again.right, frame.right)
+    with pytest.raises(ValueError, match="height x width x 3"):
+        sb.Frame(0, 0, frame.left[0], frame.right, {})
+
+
 def test_what_a_detector_raises_is_raised(circle):
-    """Red where the exception becomes another one on its way through C++."""
+    """Red where the exception becomes another one on its way from the worker."""
     class Mine(Exception):
         pass
 

@@ -73,7 +73,7 @@ def test_other_threads_go_on_while_frames_are_rendered(circle):
 
 
 def test_other_threads_go_on_while_a_run_goes_on(circle):
-    """Red where _run keeps the lock."""
+    """Red where the caller waits for its worker with the lock."""
     ticks, seconds = ticks_during(lambda: sb.run(circle, detector=lambda frame: []))
     assert len(ticks) > 20 * seconds
 
@@ -100,7 +100,7 @@ def test_a_drive_is_one_threads(circle):
 
 
 def test_a_detector_may_use_threads(circle):
-    """Red where detector_of calls Python without the lock."""
+    """Red where a detector is called with a lock of ours."""
     seen = []
 
     def detector(frame):

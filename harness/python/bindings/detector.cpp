@@ -6,6 +6,7 @@
 
 #include "harness/detector/detection_lines.h"
 #include "harness/detector/detector_process.h"
+#include "harness/detector/detector_registry.h"
 #include "harness/detector/protocol.h"
 #include "harness/json/json_line.h"
 #include "harness/python/bindings/bindings.h"
@@ -15,6 +16,8 @@ namespace py = pybind11;
 
 namespace stereobench::harness::bindings {
 namespace {
+
+using Picture = py::array_t<std::uint8_t, py::array::c_style>;
 
 py::object json_module() {
   return py::module_::import("json");
@@ -43,6 +46,26 @@ std::shared_ptr<Object> held(Object object) {
   });
 }
 
+/// @param setup of the drive
+Detector detector_of(const std::shared_ptr<py::function>& callable, const DetectorSetup& setup) {
+  const py::gil_scoped_acquire lock;
+  const auto told = held(setup_dict(setup));
+  return [callable, told, setup](const DetectorInput& input) {
+    const py::gil_scoped_acquire acquire;
+    const py::object answer =
+        (*callable)(PyFrame{input.frame, input.stamp_ns, {input.pair.left, input.pair.right}, *told});
+    return balls_of(answer, input.frame, setup);
+  };
+}
+
+/// A picture's own memory. @throws pybind11::value_error unless the array is H x W x 3
+cv::Mat picture_of(const Picture& array) {
+  if (array.ndim() != 3 || array.shape(2) != 3)
+    throw py::value_error("expected a picture of height x width x 3");
+  const auto rows = static_cast<int>(array.shape(0)), cols = static_cast<int>(array.shape(1));
+  return cv::Mat(rows, cols, CV_8UC3, const_cast<std::uint8_t*>(array.data())).clone();
+}
+
 }  // namespace
 
 py::object setup_dict(const DetectorSetup& setup) {
@@ -63,19 +86,21 @@ py::object dicts_of(const std::vector<vision::BallObservation>& balls, std::size
   return json_module().attr("loads")(detections_line(frame, balls))["balls"];
 }
 
-Detector detector_of(const py::function& callable, const DetectorSetup& setup) {
-  const auto function = held(callable);
-  const auto told = held(setup_dict(setup));
-  return [function, told, setup](const DetectorInput& input) {
-    const py::gil_scoped_acquire acquire;
-    const py::object answer =
-        (*function)(PyFrame{input.frame, input.stamp_ns, {input.pair.left, input.pair.right}, *told});
-    return balls_of(answer, input.frame, setup);
-  };
+void register_callable(const std::string& name, const py::function& callable) {
+  // Never dropped: the registry outlives the interpreter.
+  const std::shared_ptr<py::function> function(new py::function(callable), [](py::function*) {});
+  register_detector({name, [function](const DetectorSetup& setup) { return detector_of(function, setup); }});
 }
 
 void add_frame(py::module_& module) {
+  module.def("_register_detector", register_callable, py::arg("name"), py::arg("callable"));
   py::class_<PyFrame, std::shared_ptr<PyFrame>>(module, "Frame", "A stereo pair as a detector may see it.")
+      .def(py::init([](std::size_t step, std::int64_t stamp_ns, const Picture& left, const Picture& right,
+                       const py::object& setup) {
+             return PyFrame{step, stamp_ns, {picture_of(left), picture_of(right)}, setup};
+           }),
+           "left, right: uint8, H x W x 3, BGR, which are copied.", py::arg("step"), py::arg("stamp_ns"),
+           py::arg("left"), py::arg("right"), py::arg("setup"))
       .def_readonly("step", &PyFrame::step, "Step of the path, from 0.")
       .def_readonly("stamp_ns", &PyFrame::stamp_ns)
       .def_readonly("setup", &PyFrame::setup,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <string>
 #include <vector>
 
 #include <pybind11/pybind11.h>
@@ -31,8 +31,9 @@ std::vector<vision::BallObservation> balls_of(const pybind11::object& balls, std
 /// The reverse.
 pybind11::object dicts_of(const std::vector<vision::BallObservation>& balls, std::size_t frame);
 
-/// A callable of Python as a detector. It takes the interpreter's lock for each call.
-/// @param setup of the drive
-Detector detector_of(const pybind11::function& callable, const DetectorSetup& setup);
+/// Lets `--detector NAME` mean a callable of Python. It takes the interpreter's lock for each call.
+/// @param callable is given a Frame, and returns a list of dicts
+/// @throws std::invalid_argument for a name that is taken
+void register_callable(const std::string& name, const pybind11::function& callable);
 
 }  // namespace stereobench::harness::bindings

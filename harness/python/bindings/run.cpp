@@ -1,17 +1,19 @@
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "harness/commands/kept_drives.h"
-#include "harness/io/atomic_file.h"
 #include "harness/json/json_text.h"
+#include "harness/program.h"
 #include "harness/python/bindings/bindings.h"
-#include "harness/python/bindings/detector.h"
 #include "harness/python/bindings/scenario.h"
 #include "harness/regression/gates.h"
 #include "harness/run_command/run_scenario.h"
 #include "harness/study_commands/sweep_run.h"
+#include "harness/verify/verify_collection.h"
 
 namespace py = pybind11;
 
@@ -19,31 +21,18 @@ namespace stereobench::harness::bindings {
 namespace {
 
 /// A result's text, and what its gates say: a line for each that is broken.
-struct Outcome {
-  std::string json;
-  std::string broken;
-};
+using Outcome = std::pair<std::string, std::string>;
 
-/// @param detector None: as the scenario says. Seeds are then driven in forked processes, so that this
-///   process may not have rendered before.
-Outcome run(const PyScenario& scenario, const std::filesystem::path& out, int jobs,
-            const py::object& detector) {
+Outcome run(const PyScenario& scenario, const std::filesystem::path& out, int jobs) {
   ScenarioArguments arguments = scenario.arguments;
   arguments.run.jobs = jobs;
   const Experiment& experiment = scenario.experiment;
   const auto gates = gates_of(experiment);
-  const DetectorSetup setup = detector_setup(experiment.scenario);
-  std::optional<Detector> look;
-  if (!detector.is_none()) look = detector_of(detector.cast<py::function>(), setup);
-  const py::gil_scoped_release release;
   check_metrics(gates, result_without_values(experiment));
-  const std::string pixels = look ? pixels_here(scenario) : pixels_of(experiment.scenario, arguments.backend);
+  const std::string pixels = pixels_of(experiment.scenario, arguments.backend);
   const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kRunParts);
   prepare_output_folder(out);
-  const RunResult result =
-      look ? run_here_into(out, arguments, experiment, tasks, pixels, [&] { return *look; })
-           : run_into(out, arguments, experiment, tasks, pixels);
-  const nlohmann::ordered_json json = run_json(result);
+  const nlohmann::ordered_json json = run_json(run_into(out, arguments, experiment, tasks, pixels));
   const auto broken = broken_gates(json, gates);
   return {json_text(json), broken.empty() ? "" : gate_report(broken, gates.size())};
 }
@@ -59,15 +48,23 @@ Outcome sweep(const PyScenario& scenario, const std::vector<std::string>& variat
   return {sweep_json(outcome.sweep).dump(2) + "\n", outcome.broken == 0 ? "" : outcome.gate_lines};
 }
 
+std::vector<std::string> verify(const std::filesystem::path& folder, const std::string& format) {
+  std::vector<std::string> lines;
+  for (const Fault& fault : verify_folder(folder, format, [](double) {}).faults)
+    lines.push_back(line_of(fault));
+  return lines;
+}
+
 }  // namespace
 
+/// All but _verify fork: they are called in a process that has not rendered before.
 void add_run(py::module_& module) {
-  py::class_<Outcome>(module, "_Outcome")
-      .def_readonly("json", &Outcome::json)
-      .def_readonly("broken", &Outcome::broken);
-  module.def("_run", run, py::arg("scenario"), py::arg("out"), py::arg("jobs"), py::arg("detector"));
+  const py::call_guard<py::gil_scoped_release> unlocked;
+  module.def("_run", run, py::arg("scenario"), py::arg("out"), py::arg("jobs"), unlocked);
   module.def("_sweep", sweep, py::arg("scenario"), py::arg("variations"), py::arg("out"), py::arg("jobs"),
-             py::arg("paired_to"), py::arg("adaptive"), py::call_guard<py::gil_scoped_release>());
+             py::arg("paired_to"), py::arg("adaptive"), unlocked);
+  module.def("_command", run_words, py::arg("words"), unlocked);
+  module.def("_verify", verify, py::arg("folder"), py::arg("format"), unlocked);
 }
 
 }  // namespace stereobench::harness::bindings

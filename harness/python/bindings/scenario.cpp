@@ -23,6 +23,7 @@ struct ScenarioOptions {
   std::string seeds, filters;  ///< empty: as the scenario says
   int particles = 0;
   std::string backend;  ///< empty: in software
+  std::string detector;  ///< empty: as the scenario says
 };
 
 std::shared_ptr<PyScenario> scenario_of(const std::filesystem::path& file,
@@ -36,6 +37,7 @@ std::shared_ptr<PyScenario> scenario_of(const std::filesystem::path& file,
   if (!options.seeds.empty()) arguments.run.seeds = parse_seeds_option(options.seeds);
   if (!options.filters.empty()) arguments.run.filters = parse_filters(options.filters);
   arguments.run.particles = options.particles;
+  arguments.detector = options.detector;
   scenario->experiment = read_experiment(arguments);
   return scenario;
 }
@@ -91,12 +93,12 @@ void add_scenario(py::module_& module) {
   py::class_<PyScenario, std::shared_ptr<PyScenario>>(module, "Scenario")
       .def(py::init([](const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const std::string& seeds, const std::string& filters, int particles,
-                       const std::string& backend) {
+                       const std::string& backend, const std::string& detector) {
              const py::gil_scoped_release release;
-             return scenario_of(file, overrides, {seeds, filters, particles, backend});
+             return scenario_of(file, overrides, {seeds, filters, particles, backend, detector});
            }),
            py::arg("file"), py::arg("overrides"), py::arg("seeds"), py::arg("filters"), py::arg("particles"),
-           py::arg("backend"))
+           py::arg("backend"), py::arg("detector"))
       .def_property_readonly("name", [](const PyScenario& s) { return world_part(s).name; })
       .def_property_readonly("description", [](const PyScenario& s) { return world_part(s).description; })
       .def_property_readonly(

@@ -1,38 +1,81 @@
-"""A process of its own for `run` and `sweep`, which fork: the caller's may have rendered, or have threads.
+"""A process of its own for what forks: the caller's may have rendered, or have threads.
 
-Reads a call as JSON from standard input, and answers in JSON on standard output.
+A call is JSON on standard input, its answer JSON on standard output.
 """
+import contextlib
 import json
 import os
+import socket
 import subprocess
 import sys
 
+from stereobench import _detector
 
-def call(function, scenario, *arguments):
-    """What _core's function says of a scenario (dict): "json" and "broken". Raises what it raises."""
+#: What results call a detector in Python.
+CALLABLE = "callable"
+
+
+def _process(control):
+    """The interpreter that works. control: a socket that it inherits."""
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
-    words = json.dumps([function, scenario._made_of, arguments])
-    done = subprocess.run([sys.executable, "-m", "stereobench._worker"], input=words, stdout=subprocess.PIPE, text=True,
-                          env=os.environ | {"PYTHONPATH": path})
+    return subprocess.Popen([sys.executable, "-m", "stereobench._worker"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                            pass_fds=[control.fileno()], env=os.environ | {"PYTHONPATH": path})
+
+
+def _answer_of(words, detector):
+    """(exit code, answer) of a worker. words: function, scenario and arguments."""
+    here, there = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with here:
+        with there:
+            process = _process(there)
+            call = json.dumps([*words, None if detector is None else there.fileno()])
+        with process:
+            try:
+                with contextlib.suppress(BrokenPipeError):
+                    process.stdin.write(call.encode())
+                    process.stdin.close()
+                if detector is not None:
+                    _detector.answer_until(process.stdout, here, detector)
+                return process.stdout.read(), process.wait()
+            except BaseException:
+                process.kill()
+                raise
+
+
+def call(function, *arguments, scenario=None, detector=None):
+    """What a function of _core gives. Raises what it raises, and what the detector raises.
+
+    scenario: a Scenario, its first argument; detector: a callable that takes the place of the scenario's.
+    """
+    if detector is not None and not callable(detector):
+        raise TypeError(f"detector: expected a callable (got {type(detector).__name__})")
+    text, code = _answer_of([function, scenario and scenario._made_of, arguments], detector)
     from stereobench import _core
-    if done.returncode != 0:
-        raise _core.RunCrash(f"the process of {function.strip('_')} ended with {done.returncode}")
-    answer = json.loads(done.stdout)
+    if code != 0:
+        raise _core.RunCrash(f"the process of {function.strip('_')} ended with {code}")
+    answer = json.loads(text)
     if "error" in answer:
         raise {"Error": _core.Error, "RunCrash": _core.RunCrash}.get(answer["error"], ValueError)(answer["message"])
-    return answer
+    return answer["value"]
 
 
 def main():
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "w")
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # commands talk there
     from stereobench import _core
-    function, made_of, arguments = json.loads(sys.stdin.read())
+    function, made_of, arguments, control = json.loads(sys.stdin.read())
+    name = ""
+    if control is not None:
+        name = CALLABLE
+        _core._register_detector(name, _detector.Asker(control))
     try:
-        outcome = getattr(_core, function)(_core.Scenario(*made_of), *arguments)
-        answer = {"json": outcome.json, "broken": outcome.broken}
+        first = [] if made_of is None else [_core.Scenario(*made_of, name)]
+        answer = {"value": getattr(_core, function)(*first, *arguments)}
     except (RuntimeError, ValueError) as error:
         answer = {"error": type(error).__name__, "message": str(error)}
-    sys.stdout.write(json.dumps(answer))
+    json.dump(answer, answers)
+    answers.close()
 
 
 if __name__ == "__main__":
