@@ -19,6 +19,8 @@ _PARTS = {
     "Drive": "drives", "Filter": "drives", "Tally": "drives", "estimates": "drives",
     "MEASUREMENT": "drives", "LANDMARK": "drives",
     "Result": "results", "run": "results", "sweep": "results",
+    "budget": "studies", "attribute": "studies", "sensitivity": "studies",
+    "render": "rendering", "dataset": "rendering", "verify": "rendering",
 }
 
 __all__ = ["datasets", *_PARTS]

@@ -13,7 +13,13 @@ from stereobench.drives import Drive as Drive
 from stereobench.drives import Filter as Filter
 from stereobench.drives import Tally as Tally
 from stereobench.drives import estimates as estimates
+from stereobench.rendering import dataset as dataset
+from stereobench.rendering import render as render
+from stereobench.rendering import verify as verify
 from stereobench.results import Result as Result
 from stereobench.results import run as run
 from stereobench.results import sweep as sweep
 from stereobench.scenarios import Scenario as Scenario
+from stereobench.studies import attribute as attribute
+from stereobench.studies import budget as budget
+from stereobench.studies import sensitivity as sensitivity
