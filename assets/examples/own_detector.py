@@ -5,6 +5,8 @@
 # both pictures, and says where balls are. Run this from the folder that has `assets`, with `stereobench` on Python's path.
 
 # %%
+import os
+
 import cv2
 import numpy as np
 
@@ -64,7 +66,7 @@ for name, result in (("mine", mine), ("ours", ours)):
           f"smoother's ATE {1e3 * result['filters']['smoother']['ate_rms_m']['mean']:.2f} mm")
 
 # %% [markdown]
-# Where does it fail? The truth of a frame has the identity of each pixel.
+# Where does it fail? The truth of a frame has the identity of each pixel: 0 is no ball, k is ball k - 1.
 
 # %%
 for frame in sb.Drive(scenario):
@@ -72,3 +74,19 @@ for frame in sb.Drive(scenario):
     missed = {ball["colour"] for ball in frame.observe()} - found
     if missed:
         print(f"frame {frame.step}: misses the balls of colour {sorted(missed)}")
+
+# %% [markdown]
+# To look at it: green rings are what it found, white outlines are the balls that there are.
+
+# %%
+frame = sb.Drive(scenario).frame(0)
+picture = frame.truth.left.copy()
+outlines, _ = cv2.findContours((frame.truth.left_ids > 0).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+cv2.drawContours(picture, outlines, -1, (255, 255, 255), 2)
+for ball in detector(frame):
+    cv2.circle(picture, np.int32(np.round(ball["left_px"])).tolist(), 30, (0, 255, 0), 3)
+os.makedirs("out", exist_ok=True)
+cv2.imwrite("out/own_detector.png", cv2.resize(picture, None, fx=0.4, fy=0.4, interpolation=cv2.INTER_AREA))
+
+# %% [markdown]
+# ![The first frame, with what the detector found](out/own_detector.png)

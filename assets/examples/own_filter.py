@@ -5,6 +5,9 @@
 # truth. Run this from the folder that has `assets`, with `stereobench` on Python's path.
 
 # %%
+import os
+
+import cv2
 import numpy as np
 
 import stereobench as sb
@@ -103,3 +106,31 @@ result = drive.score([*ours, sb.estimates("mine", drive, poses, covariances, lan
 for name, scored in result["filters"].items():
     print(f"{name:14} ATE {1e3 * scored['ate_rms_m']['mean']:8.3f} mm, landmarks "
           f"{1e3 * (scored['landmark_rms_m']['mean'] or np.nan):8.3f} mm, efficiency {scored['efficiency']:.2f}")
+
+# %% [markdown]
+# The map from above, north up: the path, where each ball is, and its ellipse of three standard deviations, 150 times as
+# large as it is. Balls that were not seen have none.
+
+# %%
+PX_PER_M, SIZE, LARGER = 90, 600, 150
+middle = np.mean([drive.balls["x_m"], drive.balls["y_m"]], axis=1)
+
+
+def pixel(x, y):
+    return np.int32(np.round(SIZE / 2 + PX_PER_M * ([x, y] - middle) * [1, -1])).tolist()
+
+
+picture = np.full((SIZE, SIZE, 3), 255, np.uint8)
+cv2.polylines(picture, [np.array([pixel(*pose[:2]) for pose in poses])], False, (160, 160, 160), 2, cv2.LINE_AA)
+for row in landmarks:
+    variances, axes = np.linalg.eigh(row["covariance"])
+    half_px = np.round(3 * LARGER * PX_PER_M * np.sqrt(variances)).astype(int)
+    angle = -np.degrees(np.arctan2(axes[1, 0], axes[0, 0]))
+    cv2.ellipse(picture, pixel(row["x_m"], row["y_m"]), half_px.tolist(), angle, 0, 360, (200, 80, 0), 2, cv2.LINE_AA)
+for ball in drive.balls:
+    cv2.circle(picture, pixel(ball["x_m"], ball["y_m"]), 3, (0, 0, 200), -1, cv2.LINE_AA)
+os.makedirs("out", exist_ok=True)
+cv2.imwrite("out/own_filter.png", picture)
+
+# %% [markdown]
+# ![The map of the EKF in Python](out/own_filter.png)
