@@ -1,11 +1,15 @@
 """What a detector in Python costs a frame beyond its own work: the pictures as arrays, and its answer as measurements.
+In `run` its pictures come from another process.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 tests/studies/python_cost.py [LAPS of ball_circle]
 The answers are those of our detector, so that all else is the same with and without Python.
 """
 
+import json
+import pathlib
 import statistics
 import sys
+import tempfile
 import time
 
 import stereobench as sb
@@ -34,3 +38,9 @@ for own, ours in zip(sb.Drive(scenario), sb.Drive(scenario)):
     costs.append(python_ms - milliseconds(ours.measure))
 print(f"{len(costs)} frames, {balls / len(costs):.1f} balls a frame: {statistics.median(costs):.2f} ms a frame "
       f"(median), {max(costs):.2f} ms at most")
+
+with tempfile.TemporaryDirectory() as folder:
+    sb.run(scenario, detector=lambda frame: [], out=folder)
+    seconds = json.loads(pathlib.Path(folder, "timing.json").read_text())["seconds"]
+print(f"in run: {1e3 * seconds['observe'] / len(scenario.path):.1f} ms a frame (mean), beside "
+      f"{1e3 * seconds['render'] / len(scenario.path):.1f} ms of rendering")

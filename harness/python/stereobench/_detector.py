@@ -1,36 +1,58 @@
 """A detector that stays in the caller's process, while drives go on in a worker's processes.
 
-Each process that drives has a connection of its own to the caller. It sends what a Frame is made of, and gets the
-detector's answer as JSON.
+Each process that drives has a connection of its own to the caller, and memory that both see. It puts pictures there, says
+what else a Frame is made of, and gets the detector's answer as JSON.
 """
 import contextlib
 import json
+import math
+import mmap
 import os
 import socket
 from multiprocessing.connection import Connection, wait
 
+import numpy as np
+
 
 class Asker:
-    """The detector as the worker knows it.
+    """The detector as the worker's processes know it. The worker itself never asks, and so hands on no connection.
 
     control: file number of the socket to the caller, through which new connections are handed over.
     """
 
     def __init__(self, control):
         self._control = socket.socket(fileno=control)
-        self._process = None
+        self._connection, self._memory = None, b""
 
-    def _connect(self):
+    def _connect(self, size):
+        """size: of the memory, bytes."""
+        memory = os.memfd_create("stereobench")
+        os.ftruncate(memory, size)
         here, there = socket.socketpair()
         with there:
-            socket.send_fds(self._control, [b"new"], [there.fileno()])
-        self._connection, self._process = Connection(here.detach()), os.getpid()
+            socket.send_fds(self._control, [b"new"], [there.fileno(), memory])
+        self._connection, self._memory = Connection(here.detach()), mmap.mmap(memory, size)
+        os.close(memory)
 
     def __call__(self, frame):
-        if self._process != os.getpid():  # the worker has forked
-            self._connect()
-        self._connection.send((frame.step, frame.stamp_ns, frame.left, frame.right, frame.setup))
+        left, right = frame.left, frame.right
+        if len(self._memory) != left.nbytes + right.nbytes:
+            self._connect(left.nbytes + right.nbytes)
+        self._memory[:left.nbytes], self._memory[left.nbytes:] = left.data, right.data
+        self._connection.send((frame.step, frame.stamp_ns, left.shape, right.shape, frame.setup))
         return json.loads(self._connection.recv_bytes())
+
+
+def _accept(control):
+    """{connection: its memory} of what is handed over; empty where nothing is."""
+    numbers = socket.recv_fds(control, 8, 2)[1]
+    if not numbers:
+        return {}
+    connection, memory = numbers
+    try:
+        return {Connection(connection): mmap.mmap(memory, 0)}
+    finally:
+        os.close(memory)
 
 
 def _plain(value):
@@ -40,14 +62,17 @@ def _plain(value):
     return value.tolist()
 
 
-def _answer(connection, detector):
+def _answer(connection, memory, detector):
     """Answers one question. False where the process that asked is gone."""
     from stereobench import _core
     try:
-        parts = connection.recv()
+        step, stamp_ns, left, right, setup = connection.recv()
     except (EOFError, OSError):
         return False
-    text = json.dumps(list(detector(_core.Frame(*parts))), default=_plain)
+    pictures = np.frombuffer(memory, np.uint8)
+    split = math.prod(left)
+    frame = _core.Frame(step, stamp_ns, pictures[:split].reshape(left), pictures[split:].reshape(right), setup)
+    text = json.dumps(list(detector(frame)), default=_plain)
     with contextlib.suppress(OSError):  # it is gone in the meantime; recv will say so
         connection.send_bytes(text.encode())
     return True
@@ -58,18 +83,18 @@ def answer_until(ended, control, detector):
 
     ended: a file with something to read when there are no more questions; control: see Asker.
     """
-    connections = []
+    memories = {}
     try:
         while True:
-            ready = wait([ended, control, *connections])
+            ready = wait([ended, control, *memories])
             if ended in ready:
                 return
             for one in ready:
                 if one is control:
-                    connections += [Connection(number) for number in socket.recv_fds(control, 8, 1)[1]]
-                elif not _answer(one, detector):
-                    connections.remove(one)
+                    memories.update(_accept(control))
+                elif not _answer(one, memories[one], detector):
+                    del memories[one]
                     one.close()
     finally:
-        for one in connections:
+        for one in memories:
             one.close()
