@@ -66,6 +66,21 @@ def test_stubs_have_what_there_is():
             assert own - {"__init__"} == stated[name] - {"__init__"}, name
 
 
+def signatures(file):
+    """{name: (arguments, arguments by name alone)} of what is public in a file's functions and classes."""
+    found = {}
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.FunctionDef) and (node.name == "__init__" or not node.name.startswith("_")):
+            found[node.name] = [arg.arg for arg in node.args.args], [arg.arg for arg in node.args.kwonlyargs]
+    return found
+
+
+@pytest.mark.parametrize("name", ["results", "scenarios", "studies", "rendering"])
+def test_stubs_have_the_signatures(name):
+    """Red where an argument is added, renamed or moved without its stub."""
+    assert signatures(PACKAGE / f"{name}.pyi") == signatures(PACKAGE / f"{name}.py")
+
+
 def test_public_names_have_docstrings():
     for name in sb.__all__:
         if name not in ("MEASUREMENT", "LANDMARK"):

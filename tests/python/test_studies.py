@@ -64,7 +64,7 @@ def test_at_least_is_the_other_limit(field):
 
 
 def test_a_detector_in_python_answers_as_a_program_does(tmp_path):
-    """Red where a study asks ours, or an answer goes to another frame."""
+    """Red where a study asks ours, or a frame is told another step."""
     file = tmp_path / "detector.py"
     file.write_text(PROGRAM % "dict(%s, left_px=[500.0 + said['frame'], 380.2])" % ", ".join(
         f"{key}={value}" for key, value in BALL.items() if key != "left_px"))
@@ -137,7 +137,7 @@ def test_what_another_function_saw_is_not_taken_over(tmp_path):
     ({"limit": None}, []),
 ])
 def test_errors_are_the_programs_line(program, options, words):
-    """Red where the text is ours, or a vain option is left out."""
+    """Red where the text is ours, or no limit is taken for one."""
     given = {"vary": NOISE, "metric": METRIC, "limit": 0.02} | options
     rest = {"--vary": "detector_noise.centre_sd_px=0..2", "--metric": METRIC, "--limit": "0.02"}
     rest = [word for pair in rest.items() for word in pair if pair[0] != (words or ["--limit"])[0]]
