@@ -19,7 +19,7 @@ def true_poses(scenario):
 
 
 def test_state(field):
-    """Red where a covariance is transposed or a landmark's columns are swapped."""
+    """Red where the columns of a covariance are one, or a landmark's x and y are swapped."""
     drive, one = driven(field)
     assert len(one) == len(drive) and one.pose.shape == (3,) and one.covariance.shape == (3, 3)
     assert np.allclose(one.covariance, one.covariance.T)

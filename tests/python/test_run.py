@@ -22,14 +22,15 @@ def stepped(scenario, balls_of=lambda frame: None):
 
 
 def test_run_has_the_bytes_of_the_program(program, circle, tmp_path):
-    """Red where an option of Scenario does not reach the experiment, or `completed` leaves the noise check out."""
+    """Red where an option of Scenario does not reach the experiment."""
     program("run", BALL_CIRCLE, *set_words(SHORT), "--seeds", "0,1", "--filters", "ekf,smoother", "--out", tmp_path)
     assert sb.run(circle).text == (tmp_path / "run.json").read_text()
 
 
 @pytest.mark.parametrize("name", ["circle", "field"])
 def test_the_loop_has_the_bytes_of_run(name, request):
-    """Red where the drive's stage gets another seed, the told start is not used, or a step is logged twice."""
+    """Red where the drive's stage gets another seed, the tally keeps no logs to check the noise by, or a filter takes a step
+    twice."""
     scenario = request.getfixturevalue(name)
     assert stepped(scenario).text == sb.run(scenario).text
 
