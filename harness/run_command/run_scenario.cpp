@@ -16,4 +16,12 @@ RunResult run_into(const std::filesystem::path& out, const ScenarioArguments& ar
   return result;
 }
 
+RunResult run_here_into(const std::filesystem::path& out, const ScenarioArguments& arguments,
+                        const Experiment& experiment, const std::vector<DriveTask>& tasks,
+                        const std::string& pixels) {
+  RunFolder folder(out, arguments, experiment, pixels);
+  for (const DriveTask& task : tasks) folder.add(score_seed(drive_seed(task, [](double) {}), task.parts));
+  return folder.finish();
+}
+
 }  // namespace stereobench::harness

@@ -20,4 +20,9 @@ RunResult run_into(const std::filesystem::path& out, const ScenarioArguments& ar
                    const Experiment& experiment, const std::vector<DriveTask>& tasks,
                    const std::string& pixels);
 
+/// The same in this process, which may have rendered before: one drive after the other, and none is kept.
+RunResult run_here_into(const std::filesystem::path& out, const ScenarioArguments& arguments,
+                        const Experiment& experiment, const std::vector<DriveTask>& tasks,
+                        const std::string& pixels);
+
 }  // namespace stereobench::harness

@@ -1,5 +1,7 @@
 """A detector in Python: what it is shown, and what its answers become."""
 
+import concurrent.futures
+
 import numpy as np
 import pytest
 
@@ -65,8 +67,9 @@ def test_a_frame_can_be_made(circle):
         sb.Frame(0, 0, frame.left[0], frame.right, {})
 
 
-def test_what_a_detector_raises_is_raised(circle):
-    """Red where the exception becomes another one on its way from the worker."""
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_what_a_detector_raises_is_raised(circle, jobs):
+    """Red where the exception becomes another one on its way through C++, or from the worker."""
     class Mine(Exception):
         pass
 
@@ -74,18 +77,37 @@ def test_what_a_detector_raises_is_raised(circle):
         raise Mine("no model")
 
     with pytest.raises(Mine, match="no model"):
-        sb.run(circle, detector=detector)
+        sb.run(circle, detector=detector, jobs=jobs)
 
 
+def test_each_thread_has_its_own_detector(circle):
+    """Red where drives of one process ask the detector that was given last."""
+    def found_by(colour):
+        ball = {"colour": colour, "left_px": [511.5, 380.2], "right_px": [402.9, 380.2], "centre_sd_px": 0.5}
+        seen = []
+
+        def detector(frame):
+            seen.append(frame.step)
+            return [ball]
+
+        return sb.run(circle, detector=detector).text, seen
+
+    alone = [found_by(colour) for colour in (3, 4)]
+    assert alone[0][0] != alone[1][0]
+    with concurrent.futures.ThreadPoolExecutor(2) as threads:
+        assert list(threads.map(found_by, (3, 4))) == alone
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
 @pytest.mark.parametrize("answer, message", [
     ([{"colour": 99, "left_px": [1, 2], "right_px": [0, 2]}], "balls[0].colour: expected"),
     ([{"colour": 1, "left_px": [1, 2]}], "balls[0]"),
     ([{"colours": 1}], "colours"),
     ([7], "balls[0]"),
 ])
-def test_an_answer_that_is_none_is_the_programs_error(circle, answer, message):
+def test_an_answer_that_is_none_is_the_programs_error(circle, answer, message, jobs):
     with pytest.raises(sb.RunCrash) as error:
-        sb.run(circle, detector=lambda frame: answer)
+        sb.run(circle, detector=lambda frame: answer, jobs=jobs)
     assert str(error.value).startswith("detector: frame 0: ") and message in str(error.value)
 
 

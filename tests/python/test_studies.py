@@ -127,11 +127,12 @@ def test_what_another_function_saw_is_not_taken_over(tmp_path):
 
     breaks.drives = 0
     scenario = small(seeds="0..1")
+    cell = {"camera.gain": [1]}
     with pytest.raises(RuntimeError, match="no more"):
-        sb.run(scenario, detector=breaks, out=tmp_path)
+        sb.sweep(scenario, cell, detector=breaks, out=tmp_path)
     assert (tmp_path / "unfinished.drives").exists()
-    result = sb.run(scenario, detector=lambda frame: [BALL], out=tmp_path)
-    assert result.text == sb.run(scenario, detector=lambda frame: [BALL]).text
+    result = sb.sweep(scenario, cell, detector=lambda frame: [BALL], out=tmp_path)
+    assert result.text == sb.sweep(scenario, cell, detector=lambda frame: [BALL]).text
 
 
 @pytest.mark.parametrize("options, words", [

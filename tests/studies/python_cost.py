@@ -1,5 +1,5 @@
 """What a detector in Python costs a frame beyond its own work: the pictures as arrays, and its answer as measurements.
-In `run` its pictures come from another process.
+With several jobs its pictures come from another process.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 tests/studies/python_cost.py [LAPS of ball_circle]
 The answers are those of our detector, so that all else is the same with and without Python.
@@ -39,8 +39,9 @@ for own, ours in zip(sb.Drive(scenario), sb.Drive(scenario)):
 print(f"{len(costs)} frames, {balls / len(costs):.1f} balls a frame: {statistics.median(costs):.2f} ms a frame "
       f"(median), {max(costs):.2f} ms at most")
 
-with tempfile.TemporaryDirectory() as folder:
-    sb.run(scenario, detector=lambda frame: [], out=folder)
-    seconds = json.loads(pathlib.Path(folder, "timing.json").read_text())["seconds"]
-print(f"in run: {1e3 * seconds['observe'] / len(scenario.path):.1f} ms a frame (mean), beside "
-      f"{1e3 * seconds['render'] / len(scenario.path):.1f} ms of rendering")
+for jobs in [1, 2]:
+    with tempfile.TemporaryDirectory() as folder:
+        sb.run(scenario, detector=lambda frame: [], out=folder, jobs=jobs)
+        seconds = json.loads(pathlib.Path(folder, "timing.json").read_text())["seconds"]
+    print(f"in run, jobs={jobs}: {1e3 * seconds['observe'] / len(scenario.path):.2f} ms a frame (mean), beside "
+          f"{1e3 * seconds['render'] / len(scenario.path):.1f} ms of rendering")

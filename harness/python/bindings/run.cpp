@@ -23,16 +23,18 @@ namespace {
 /// A result's text, and what its gates say: a line for each that is broken.
 using Outcome = std::pair<std::string, std::string>;
 
-Outcome run(const PyScenario& scenario, const std::filesystem::path& out, int jobs) {
+/// @param here whether drives are done in this process
+Outcome run(const PyScenario& scenario, const std::filesystem::path& out, int jobs, bool here) {
   ScenarioArguments arguments = scenario.arguments;
   arguments.run.jobs = jobs;
   const Experiment& experiment = scenario.experiment;
   const auto gates = gates_of(experiment);
   check_metrics(gates, result_without_values(experiment));
-  const std::string pixels = pixels_of(experiment.scenario, arguments.backend);
+  const std::string pixels = here ? pixels_here(scenario) : pixels_of(experiment.scenario, arguments.backend);
   const auto tasks = drive_tasks(arguments, {}, experiment, pixels, kRunParts);
   prepare_output_folder(out);
-  const nlohmann::ordered_json json = run_json(run_into(out, arguments, experiment, tasks, pixels));
+  const auto run_in = here ? run_here_into : run_into;
+  const nlohmann::ordered_json json = run_json(run_in(out, arguments, experiment, tasks, pixels));
   const auto broken = broken_gates(json, gates);
   return {json_text(json), broken.empty() ? "" : gate_report(broken, gates.size())};
 }
@@ -57,10 +59,11 @@ std::vector<std::string> verify(const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-/// All but _verify fork: they are called in a process that has not rendered before.
+/// All but _verify and a run that is done here fork: they are called in a process that has not rendered
+/// before.
 void add_run(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> unlocked;
-  module.def("_run", run, py::arg("scenario"), py::arg("out"), py::arg("jobs"), unlocked);
+  module.def("_run", run, py::arg("scenario"), py::arg("out"), py::arg("jobs"), py::arg("here"), unlocked);
   module.def("_sweep", sweep, py::arg("scenario"), py::arg("variations"), py::arg("out"), py::arg("jobs"),
              py::arg("paired_to"), py::arg("adaptive"), unlocked);
   module.def("_command", run_words, py::arg("words"), unlocked);

@@ -22,7 +22,7 @@ namespace {
 struct ScenarioOptions {
   std::string seeds, filters;  ///< empty: as the scenario says
   int particles = 0;
-  std::string backend;  ///< empty: in software
+  std::string backend;   ///< empty: in software
   std::string detector;  ///< empty: as the scenario says
 };
 

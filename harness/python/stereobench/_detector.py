@@ -1,6 +1,6 @@
-"""A detector that stays in the caller's process, while drives go on in a worker's processes.
+"""A detector that stays in the caller's process, where drives go on there, or in a worker's processes.
 
-Each process that drives has a connection of its own to the caller, and memory that both see. It puts pictures there, says
+Each process of a worker that drives has a connection of its own to the caller, and memory that both see. It puts pictures there, says
 what else a Frame is made of, and gets the detector's answer as JSON.
 """
 import contextlib
@@ -9,9 +9,40 @@ import math
 import mmap
 import os
 import socket
+import threading
 from multiprocessing.connection import Connection, wait
 
 import numpy as np
+
+
+#: What results call a detector in Python.
+CALLABLE = "callable"
+
+_here = threading.local()  # .detector: what drives of this thread ask
+_is_registered = []
+_registers = threading.Lock()
+
+
+def check(detector):
+    """Raises TypeError unless it can be called, or is None."""
+    if detector is not None and not callable(detector):
+        raise TypeError(f"detector: expected a callable (got {type(detector).__name__})")
+
+
+@contextlib.contextmanager
+def called_here(detector):
+    """The name under which drives in this thread ask a detector, with pictures that are not copied."""
+    from stereobench import _core
+    check(detector)
+    with _registers:
+        if not _is_registered:
+            _core._register_detector(CALLABLE, lambda frame: _here.detector(frame))
+            _is_registered.append(CALLABLE)
+    before, _here.detector = getattr(_here, "detector", None), detector
+    try:
+        yield CALLABLE
+    finally:
+        _here.detector = before
 
 
 class Asker:

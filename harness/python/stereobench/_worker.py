@@ -11,10 +11,6 @@ import sys
 
 from stereobench import _detector
 
-#: What results call a detector in Python.
-CALLABLE = "callable"
-
-
 def _process(control):
     """The interpreter that works. control: a socket that it inherits."""
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -48,8 +44,7 @@ def call(function, *arguments, scenario=None, detector=None):
 
     scenario: a Scenario, its first argument; detector: a callable that takes the place of the scenario's.
     """
-    if detector is not None and not callable(detector):
-        raise TypeError(f"detector: expected a callable (got {type(detector).__name__})")
+    _detector.check(detector)
     text, code = _answer_of([function, scenario and scenario._made_of, arguments], detector)
     from stereobench import _core
     if code != 0:
@@ -67,7 +62,7 @@ def main():
     function, made_of, arguments, control = json.loads(sys.stdin.read())
     name = ""
     if control is not None:
-        name = CALLABLE
+        name = _detector.CALLABLE
         _core._register_detector(name, _detector.Asker(control))
     try:
         first = [] if made_of is None else [_core.Scenario(*made_of, name)]

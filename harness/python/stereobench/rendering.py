@@ -2,7 +2,7 @@
 import os
 import pathlib
 
-from stereobench import _core, _worker
+from stereobench import _core, _detector, _worker
 from stereobench.results import _jobs
 from stereobench.scenarios import _file_of, _option_words
 
@@ -29,7 +29,7 @@ def render(scenario, out, *, format=None, truth=None, truth_format=None, frames=
     """
     words = scenario._camera_words() + _option_words(
         format=format, truth=truth, truth_format=truth_format, frames=frames, every=every, crop=crop, scale=scale,
-        picture=picture, detector=None if detector is None else _worker.CALLABLE)
+        picture=picture, detector=None if detector is None else _detector.CALLABLE)
     return _write("render", words, out, jobs, detector)
 
 

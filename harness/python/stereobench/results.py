@@ -5,7 +5,7 @@ import os
 import pathlib
 import tempfile
 
-from stereobench import _worker
+from stereobench import _core, _detector, _worker
 from stereobench.scenarios import _list_text
 
 
@@ -48,7 +48,10 @@ def run(scenario, *, detector=None, jobs=None, out=None):
     out: folder for the files of `stereobench run`; None: they are not kept.
     """
     with _folder_for(out, detector) as folder:
-        return Result(*_worker.call("_run", folder, _jobs(jobs, detector), scenario=scenario, detector=detector))
+        if detector is None or _jobs(jobs, detector) > 1:
+            return Result(*_worker.call("_run", folder, _jobs(jobs, detector), False, scenario=scenario, detector=detector))
+        with _detector.called_here(detector) as name:
+            return Result(*_core._run(_core.Scenario(*scenario._made_of, name), folder, 1, True))
 
 
 def sweep(scenario, vary, *, paired_to=None, adaptive=0, detector=None, jobs=None, out=None):

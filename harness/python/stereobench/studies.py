@@ -1,7 +1,7 @@
 """Studies, as the program makes them: budgets, whose an error is, and what matters to it."""
 import pathlib
 
-from stereobench import _worker
+from stereobench import _detector, _worker
 from stereobench.results import Result, _folder_for, _jobs
 from stereobench.scenarios import _option_words
 
@@ -14,7 +14,7 @@ def _range(ends):
 def _study(command, scenario, words, file, *, detector, jobs, out):
     """The Result of a command whose answer is a file."""
     with _folder_for(out, detector) as folder:
-        options = _option_words(detector=None if detector is None else _worker.CALLABLE, jobs=_jobs(jobs, detector),
+        options = _option_words(detector=None if detector is None else _detector.CALLABLE, jobs=_jobs(jobs, detector),
                                 out=folder, quiet=True)
         _worker.call("_command", ["stereobench", command, *scenario._words(), *words, *options], detector=detector)
         return Result(pathlib.Path(folder, file).read_text(encoding="utf-8"))
