@@ -89,13 +89,13 @@ KneeRange knee_range(const MeanSquares& data) {
 }
 
 /// The knee between two at which the score is above and not above 0: its root (Alefeld, Potra and Shi 1995).
-double best_knee(const MeanSquares& data, double low, double high) {
+double best_knee(const MeanSquares& data, double low, double score_low, double high, double score_high) {
   constexpr double kRelativeError = 1e-9;
   std::uintmax_t most_steps = 200;  // halvings alone need 35
   const auto score_at = [&](double log_knee) { return score(data, slam::exponential(log_knee)); };
   const auto is_near = [](double below, double above) { return above - below < kRelativeError; };
-  const auto [below, above] = boost::math::tools::toms748_solve(score_at, slam::logarithm(low),
-                                                                slam::logarithm(high), is_near, most_steps);
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      score_at, slam::logarithm(low), slam::logarithm(high), score_low, score_high, is_near, most_steps);
   return slam::exponential(0.5 * (below + above));
 }
 
@@ -108,8 +108,9 @@ FloorAndSlope fit(const MeanSquares& data) {
   };
   if (!(moment(constant) > kRounding * moment(0.0))) return {.floor = std::sqrt(constant), .slope = 0.0};
   const auto [low, high] = knee_range(data);
-  if (score(data, low) <= 0.0) return {.floor = 0.0, .slope = std::sqrt(slope_squared(data, low))};
-  const double knee = score(data, high) > 0.0 ? high : best_knee(data, low, high);
+  const double score_low = score(data, low), score_high = score(data, high);
+  if (score_low <= 0.0) return {.floor = 0.0, .slope = std::sqrt(slope_squared(data, low))};
+  const double knee = score_high > 0.0 ? high : best_knee(data, low, score_low, high, score_high);
   const double slope = std::sqrt(slope_squared(data, knee));
   return {.floor = knee * slope, .slope = slope};
 }

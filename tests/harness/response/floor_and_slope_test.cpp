@@ -90,6 +90,20 @@ TEST(FloorAndSlope, HasNoSlopeWhereErrorsDoNotGrow) {
   EXPECT_DOUBLE_EQ(found.floor, 1.0);
 }
 
+// Far above all levels the score is rounding alone, whose sign changes from call to call. Mutation: the score
+// at the ends computed again from their logarithms.
+TEST(FloorAndSlope, FindsALawWhereErrorsHardlyGrow) {
+  slam::RandomStream random(2, slam::Stream::kOracle);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double growth = slam::exponential(-28.0 + 14.0 * random.uniform());  // 1e-12 to 1e-6
+    std::vector<double> squares;
+    for (const double level : kSixLevels) squares.push_back(1.0 + growth * (level + 0.2 * random.normal()));
+    const FloorAndSlope found = fit(kSixLevels, squares);
+    EXPECT_NEAR(found.floor, 1.0, 1e-5);
+    EXPECT_LT(found.slope, 1e-2);
+  }
+}
+
 // Mutation: a level of weight 0 kept (its NaN spoils all).
 TEST(FloorAndSlope, LeavesOutLevelsWithoutWeight) {
   std::vector<double> squares = squares_of({.floor = 0.3, .slope = 1.0}, kSixLevels);
