@@ -77,7 +77,9 @@ function(stereobench_discover_suites tests label)
   add_custom_command(TARGET ${tests} POST_BUILD BYPRODUCTS ${suites} VERBATIM
                      COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tests}> -D LABEL=${label} -D OUT=${suites}
                              -P ${CMAKE_SOURCE_DIR}/cmake/discover_suites.cmake)
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
+  file(WRITE ${suites}.if_built "if(EXISTS ${suites})\n  include(${suites})\nelse()\n"
+                                "  add_test(${tests}_NOT_BUILT ${tests}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites}.if_built)
 endfunction()
 
 # stereobench_tests(<module> LABEL <unit|render|e2e> LINKS <libraries...> HEADERS <headers...>): the executable

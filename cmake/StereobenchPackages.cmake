@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # What the program opens at run time, and the letters of its charts.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6 | libegl1, fonts-dejavu-core")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, python3")  # python3: for the example of a detector
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, python3")  # python3: for the example of a detector
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-stereobench, python3-opencv, ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "testbench of stereo vision and SLAM with exact truth
 stereobench renders a robot's drive through a world of coloured balls, rooms
