@@ -72,6 +72,12 @@ def test_other_threads_go_on_while_frames_are_rendered(circle):
     assert len(ticks) >= 3
 
 
+def test_other_threads_go_on_while_a_run_goes_on(circle):
+    """Red where _run keeps the lock."""
+    ticks, seconds = ticks_during(lambda: sb.run(circle, detector=lambda frame: []))
+    assert len(ticks) > 20 * seconds
+
+
 def test_other_threads_go_on_while_a_data_set_is_verified(circle, tmp_path):
     """Red where _verify keeps the lock."""
     folder = sb.render(circle, tmp_path, frames="0") / "seed_0"
@@ -98,3 +104,17 @@ def test_a_drive_is_one_threads(circle):
     for thread in threads:
         thread.join()
     assert all("another thread" in error for error in errors)
+
+
+def test_a_detector_may_use_threads(circle):
+    """Red where detector_of calls Python without the lock."""
+    seen = []
+
+    def detector(frame):
+        thread = threading.Thread(target=lambda: seen.append(int(frame.left.mean())))
+        thread.start()
+        thread.join()
+        return []
+
+    sb.run(circle, detector=detector)
+    assert len(seen) == 2 * len(circle.path)

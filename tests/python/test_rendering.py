@@ -32,6 +32,13 @@ def test_render_writes_the_files_of_the_program(program, circle, tmp_path):
     assert_same_files(here, tmp_path / "there")
 
 
+def test_a_folder_has_the_answers_of_one_function(circle, tmp_path):
+    """Red where a data set that is there, of another function's answers, is taken for this one's."""
+    sb.render(circle, tmp_path / "out", frames="0", detector=lambda frame: [])
+    with pytest.raises(sb.Error, match="out: expected an empty folder"):
+        sb.render(circle, tmp_path / "out", frames="0", detector=lambda frame: [])
+
+
 def test_the_loader_opens_what_is_written(circle, tmp_path):
     """The pictures are those of a drive. Red where another frame or seed is written."""
     pytest.importorskip("cv2")

@@ -3,6 +3,7 @@
 import filecmp
 import json
 import os
+import subprocess
 import sys
 
 import pytest
@@ -133,6 +134,18 @@ def test_what_another_function_saw_is_not_taken_over(tmp_path):
     assert (tmp_path / "unfinished.drives").exists()
     result = sb.sweep(scenario, cell, detector=lambda frame: [BALL], out=tmp_path)
     assert result.text == sb.sweep(scenario, cell, detector=lambda frame: [BALL]).text
+
+
+def test_a_folder_that_another_process_works_in_is_left_alone(tmp_path):
+    """Red where its drives are removed."""
+    lines = "import fcntl, sys; drives = open(sys.argv[1], 'w'); fcntl.lockf(drives, fcntl.LOCK_EX); print(flush=True); input()"
+    drives = tmp_path / "unfinished.drives"
+    with subprocess.Popen([sys.executable, "-c", lines, drives], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
+        other.stdout.readline()
+        with pytest.raises(sb.Error, match="another stereobench is writing"):
+            sb.sweep(small(), {"camera.gain": [1]}, detector=lambda frame: [], out=tmp_path)
+        assert drives.exists()
+        other.communicate(b"\n")
 
 
 @pytest.mark.parametrize("options, words", [

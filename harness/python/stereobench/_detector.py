@@ -1,4 +1,4 @@
-"""A detector that stays in the caller's process, where drives go on there, or in a worker's processes.
+"""A detector stays in the caller's process. Drives go on there, or in a worker's processes.
 
 Each process of a worker that drives has a connection of its own to the caller, and memory that both see. It puts pictures there, says
 what else a Frame is made of, and gets the detector's answer as JSON.
@@ -52,6 +52,7 @@ class Asker:
     """
 
     def __init__(self, control):
+        os.set_inheritable(control, False)
         self._control = socket.socket(fileno=control)
         self._connection, self._memory = None, b""
 

@@ -12,19 +12,19 @@ import sys
 from stereobench import _detector
 
 def _process(control):
-    """The interpreter that works. control: a socket that it inherits."""
+    """The interpreter that works. control: a socket that it inherits, or None."""
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
     return subprocess.Popen([sys.executable, "-m", "stereobench._worker"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                            pass_fds=[control.fileno()], env=os.environ | {"PYTHONPATH": path})
+                            pass_fds=[] if control is None else [control.fileno()], env=os.environ | {"PYTHONPATH": path})
 
 
 def _answer_of(words, detector):
-    """(exit code, answer) of a worker. words: function, scenario and arguments."""
+    """(answer, exit code) of a worker. words: function, scenario and arguments."""
     here, there = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with here:
         with there:
-            process = _process(there)
+            process = _process(None if detector is None else there)
             call = json.dumps([*words, None if detector is None else there.fileno()])
         with process:
             try:
@@ -51,7 +51,8 @@ def call(function, *arguments, scenario=None, detector=None):
         raise _core.RunCrash(f"the process of {function.strip('_')} ended with {code}")
     answer = json.loads(text)
     if "error" in answer:
-        raise {"Error": _core.Error, "RunCrash": _core.RunCrash}.get(answer["error"], ValueError)(answer["message"])
+        kinds = {"Error": _core.Error, "RunCrash": _core.RunCrash, "TypeError": TypeError, "ValueError": ValueError}
+        raise kinds.get(answer["error"], RuntimeError)(answer["message"])
     return answer["value"]
 
 
@@ -67,7 +68,7 @@ def main():
     try:
         first = [] if made_of is None else [_core.Scenario(*made_of, name)]
         answer = {"value": getattr(_core, function)(*first, *arguments)}
-    except (RuntimeError, ValueError) as error:
+    except Exception as error:  # the caller raises it
         answer = {"error": type(error).__name__, "message": str(error)}
     json.dump(answer, answers)
     answers.close()

@@ -24,9 +24,12 @@ def render(scenario, out, *, format=None, truth=None, truth_format=None, frames=
     truth_format: "exact", "tiff" or "kitti".
     frames: steps that get pictures, "0..90:10"; every: each K-th pair.
     crop: x, y, width, height of what is kept, px; scale: "1/2" makes a pixel of 2 x 2; picture: "grey", "linear16", ...
-    detector: a callable whose answers are the log's observations, as for run; jobs: as for run.
+    detector: a callable whose answers are the log's observations, as for run; `out` is then empty or not there.
+    jobs: as for run.
     Without seeds of its own, the first seed of a scenario is rendered.
     """
+    if detector is not None and os.path.isdir(out) and os.listdir(out):
+        raise _core.Error(f"{os.fspath(out)}: expected an empty folder: nothing says which function its answers are of")
     words = scenario._camera_words() + _option_words(
         format=format, truth=truth, truth_format=truth_format, frames=frames, every=every, crop=crop, scale=scale,
         picture=picture, detector=None if detector is None else _detector.CALLABLE)

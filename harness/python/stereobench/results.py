@@ -1,5 +1,6 @@
 """Runs and sweeps, as the program makes them."""
 import contextlib
+import fcntl
 import json
 import os
 import pathlib
@@ -12,13 +13,24 @@ from stereobench.scenarios import _list_text
 class Result(dict):
     """What run.json, sweep.json or the file of a study says, as a dict. Numbers that do not exist are None.
 
-    text: the file's content; broken_gates: a line for each limit of the scenario that is not kept.
+    text: the file's content; broken_gates: of run and sweep, a line for each limit of the scenario that is not kept.
     """
 
     def __init__(self, text, broken=""):
         super().__init__(json.loads(text))
         self.text = text
         self.broken_gates = [line for line in broken.splitlines() if line]
+
+
+def _remove_drives(file):
+    """Removes what a killed call left, which may be of another function."""
+    with contextlib.suppress(FileNotFoundError), open(file, "r+b") as drives:
+        try:
+            fcntl.lockf(drives, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise _core.Error(f"{file}: another stereobench is writing to this folder; wait for it, or choose another "
+                              "folder") from None
+        file.unlink()
 
 
 @contextlib.contextmanager
@@ -28,14 +40,14 @@ def _folder_for(out, detector):
         with tempfile.TemporaryDirectory(prefix="stereobench_") as folder:
             yield folder
         return
-    if detector is not None:  # what a killed call left there may be of another function
-        pathlib.Path(out, "unfinished.drives").unlink(missing_ok=True)
+    if detector is not None:
+        _remove_drives(pathlib.Path(out, "unfinished.drives"))
     yield os.fspath(out)
 
 
 def _jobs(jobs, detector=None):
     """Processes: by default one a CPU, and one where a detector is to see its frames in order."""
-    return jobs or (len(os.sched_getaffinity(0)) if detector is None else 1)
+    return int(jobs or 0) or (len(os.sched_getaffinity(0)) if detector is None else 1)
 
 
 def run(scenario, *, detector=None, jobs=None, out=None):
