@@ -5,12 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "harness/collection/collection_record.h"
+#include "harness/io/file_list.h"
 #include "harness/shards/shard_record.h"
 
 namespace stereobench::harness {
 namespace {
 
 ShardState state_of(const std::filesystem::path& folder) {
+  const bool is_collection = std::filesystem::exists(folder / kCollectionFile);
+  if (is_collection && std::filesystem::exists(folder / kManifest))
+    return ShardState::kFinished;  // all of it
   if (!std::filesystem::exists(folder / kShardFile)) return ShardState::kNotBegun;
   if (read_shard_record(folder).is_finished) return ShardState::kFinished;
   return is_under_way(folder) ? ShardState::kRunning : ShardState::kStopped;

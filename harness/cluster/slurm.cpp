@@ -1,5 +1,6 @@
 #include "harness/cluster/slurm.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <set>
@@ -68,6 +69,7 @@ std::vector<QueuedTask> tasks_in_queue(const Words& jobs) {
     const auto [end, error] = std::from_chars(task.data(), task.data() + task.size(), number);
     if (error != std::errc() || end != task.data() + task.size()) continue;
     std::getline(words >> std::ws, reason);
+    std::ranges::replace(reason, '_', ' ');  // some versions write it so
     tasks.push_back({job, number, reason.starts_with(kHeldReason)});
   }
   return tasks;

@@ -20,7 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes sure that no data set lies there that a collection of this record has not.
+std::string index_csv(const std::vector<IndexLine>& lines) {
+  std::string csv = std::string(kIndexHeader) + "\n";
+  for (const IndexLine& line : lines) {
+    const CollectionEntry& entry = *line.entry;
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", entry.folder, entry.split, entry.name, entry.variation,
+                       entry.format, entry.scenario, entry.seed, line.pairs);
+  }
+  return csv;
+}
+
+}  // namespace
+
 void refuse_strangers(const fs::path& folder, const CollectionRecord& record) {
   if (holds_rendering(folder))
     throw std::runtime_error(fmt::format(
@@ -35,18 +46,6 @@ void refuse_strangers(const fs::path& folder, const CollectionRecord& record) {
           fmt::format("{}: is a data set that {} no longer has; remove it or choose another folder",
                       (folder / before.folder).string(), record.name));
 }
-
-std::string index_csv(const std::vector<IndexLine>& lines) {
-  std::string csv = std::string(kIndexHeader) + "\n";
-  for (const IndexLine& line : lines) {
-    const CollectionEntry& entry = *line.entry;
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", entry.folder, entry.split, entry.name, entry.variation,
-                       entry.format, entry.scenario, entry.seed, line.pairs);
-  }
-  return csv;
-}
-
-}  // namespace
 
 std::optional<FinishedEntry> finished_entry(const fs::path& folder, const CollectionEntry& entry) {
   const fs::path place = folder / entry.folder;
@@ -103,8 +102,8 @@ CollectionTotals finish_collection(const fs::path& folder, const CollectionRecor
     files[name] = sha256_of(text);
   }
   written.move_into_place();
-  fs::remove(folder / kShardFile);  // of a part that the others came to
-  sync_file_system(folder);         // the manifest says that all of it is there
+  for (const char* part : {kShardFile, kShardLock}) fs::remove(folder / part);  // that the others came to
+  sync_file_system(folder);  // the manifest says that all of it is there
   write_file_atomically(folder / kManifest, manifest_text(files));
   return totals;
 }

@@ -26,6 +26,10 @@ struct FinishedEntry {
 std::optional<FinishedEntry> finished_entry(const std::filesystem::path& folder,
                                             const CollectionEntry& entry);
 
+/// Makes sure that a folder, if it is there, has no data set that a collection of this record has not.
+/// @throws std::runtime_error, one line, where it has, or is a data set itself
+void refuse_strangers(const std::filesystem::path& folder, const CollectionRecord& record);
+
 /// Begins a collection in a folder, or takes it up: writes collection.json where it is not there, or says
 /// something else, and removes the manifest, since the collection is not finished from now on.
 /// @throws std::runtime_error, one line, when the folder holds a data set of its own, or one that the

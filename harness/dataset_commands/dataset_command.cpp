@@ -12,7 +12,6 @@
 #include "harness/commands/dataset_talk.h"
 #include "harness/commands/scenario_arguments.h"
 #include "harness/commands/talk.h"
-#include "harness/io/sha256.h"
 #include "harness/process/interruption.h"
 #include "harness/shards/shard_record.h"
 
@@ -24,8 +23,7 @@ namespace fs = std::filesystem;
 struct DatasetArguments {
   fs::path file;
   fs::path out;
-  Shard shard;
-  std::vector<std::string> words;  ///< of the command line, but for --shard and --out
+  std::optional<Shard> shard;
   renderer::Backend backend = renderer::Backend::kSoftware;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool dry_run = false;
@@ -68,13 +66,19 @@ void render_drives(const Collection& collection, const std::vector<RenderTask>& 
   }
 }
 
-ShardRecord record_of_shard(const DatasetArguments& arguments, const CollectionPlan& plan,
-                            std::size_t drives) {
-  return {.command = arguments.words,
+fs::path default_folder(const Collection& collection, const std::optional<Shard>& shard) {
+  return fs::path("out") /
+         (shard ? fmt::format("{}_shard_{}_of_{}", collection.name, shard->number, shard->count)
+                : collection.name);
+}
+
+/// A part goes on where drives were added to its collection: each data set says what it is made from.
+ShardRecord record_of_shard(const Collection& collection, const Shard& shard, std::size_t drives) {
+  return {.command = {"stereobench", "dataset", collection.name},
           .folder = fs::current_path(),
           .version = STEREOBENCH_VERSION,
-          .shard = arguments.shard,
-          .plan = sha256_of(collection_json(plan.record)),
+          .shard = shard,
+          .plan = {},
           .pixels = {},
           .store = {},
           .drives = drives};
@@ -82,18 +86,21 @@ ShardRecord record_of_shard(const DatasetArguments& arguments, const CollectionP
 
 int make_dataset(const DatasetArguments& arguments) {
   const Collection collection = read_collection(arguments.file);
-  const fs::path out = arguments.out.empty() ? fs::path("out") / collection.name : arguments.out;
+  const Shard shard = arguments.shard.value_or(Shard{});
+  const fs::path out = arguments.out.empty() ? default_folder(collection, arguments.shard) : arguments.out;
   const CollectionPlan plan = plan_collection(collection, arguments.backend, out);
-  const std::vector<RenderTask> drives = drives_of(plan, arguments.shard);
+  const std::vector<RenderTask> drives = drives_of(plan, shard);
   for (const RenderTask& drive : drives) require_room(drive.datasets, out);
   warn_of_scenarios(plan);
   if (arguments.dry_run) {
     say_what_would_be_done(collection, drives);
     return kPassed;
   }
-  begin_collection(out, plan.record);
+  refuse_strangers(out, plan.record);
+  prepare_output_folder(out);
   std::optional<ShardWork> shard_work;
-  if (arguments.shard.count > 1) shard_work.emplace(out, record_of_shard(arguments, plan, drives.size()));
+  if (arguments.shard) shard_work.emplace(out, record_of_shard(collection, shard, drives.size()));
+  begin_collection(out, plan.record);
   say_that_work_is_kept();
   render_drives(collection, drives, arguments.jobs);
   if (shard_work) shard_work->finish();
@@ -102,8 +109,8 @@ int make_dataset(const DatasetArguments& arguments) {
     fmt::print(
         "{}: part {} of {} is done; {} of {} data sets are missing in {}: render the other parts, and "
         "join them with `stereobench merge`\n",
-        collection.name, arguments.shard.number, arguments.shard.count, missing.size(),
-        plan.record.datasets.size(), (out / "").string());
+        collection.name, shard.number, shard.count, missing.size(), plan.record.datasets.size(),
+        (out / "").string());
     return kPassed;
   }
   const CollectionTotals totals = finish_collection(out, plan.record);
@@ -119,7 +126,8 @@ void add_dataset_command(CLI::App& program, Action& action) {
       "dataset", "render a collection: several scenarios, seeds and variations, with splits");
   auto arguments = std::make_shared<DatasetArguments>();
   command->add_option("collection", arguments->file, "the collection's file (YAML)")->required();
-  command->add_option("-o,--out", arguments->out, "folder for the result (default: out/<name>)");
+  command->add_option("-o,--out", arguments->out,
+                      "folder for the result (default: out/<name>, out/<name>_shard_I_of_N)");
   command
       ->add_option("-j,--jobs", arguments->jobs,
                    "processes at a time, a drive each; the results do not depend on it")
@@ -129,7 +137,7 @@ void add_dataset_command(CLI::App& program, Action& action) {
           "--shard",
           [arguments](const std::string& text) {
             arguments->shard = parse_shard(text);
-            if (arguments->shard.number == 0)
+            if (arguments->shard->number == 0)
               throw std::runtime_error(
                   "--shard: expected 1 or more; drives of a collection are cut by count");
           },
@@ -144,10 +152,7 @@ void add_dataset_command(CLI::App& program, Action& action) {
       "was;\n"
       "what is complete is left as it is.\n\n"
       "Example: stereobench dataset assets/datasets/quick.yaml --out out/quick --jobs 2");
-  command->callback([arguments, command, &action] {
-    arguments->words = whole_words_of(*command);
-    action = [arguments] { return make_dataset(*arguments); };
-  });
+  command->callback([arguments, &action] { action = [arguments] { return make_dataset(*arguments); }; });
 }
 
 }  // namespace stereobench::harness

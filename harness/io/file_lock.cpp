@@ -1,6 +1,7 @@
 #include "harness/io/file_lock.h"
 
 #include <cerrno>
+#include <cstring>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -39,8 +40,9 @@ bool is_in_use(const std::filesystem::path& file) {
 }
 
 FileLock::FileLock(const std::filesystem::path& file)
-    : descriptor_(::open(file.c_str(), O_RDWR | O_CLOEXEC)) {
-  if (descriptor_ < 0) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+    : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
   lock_file(descriptor_, F_WRLCK, file);
 }
 

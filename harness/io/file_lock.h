@@ -18,6 +18,7 @@ bool is_in_use(const std::filesystem::path& file);
 /// A file that is taken as long as this lives.
 class FileLock {
  public:
+  /// @param file is made where it is not there. Nothing may replace it
   /// @throws std::runtime_error where it cannot be opened, or as lock_file
   explicit FileLock(const std::filesystem::path& file);
   ~FileLock();

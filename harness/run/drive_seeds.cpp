@@ -185,7 +185,7 @@ void drive_seeds(const std::vector<DriveTask>& tasks, int jobs, const std::strin
 void drive_into(AnswerStore& store, const std::vector<DriveTask>& tasks, int jobs, const std::string& what,
                 const OnSeed& on_seed) {
   constexpr std::size_t kResultsOfAThread = 8;  // a result of `run` has a megabyte
-  const auto threads = static_cast<std::size_t>(jobs);
+  const auto threads = static_cast<std::size_t>(std::max(1, jobs));
   std::size_t next = 0;
   const auto hand_on = [&] {
     while (next < tasks.size() && store.holds(tasks[next].key)) {

@@ -38,19 +38,15 @@ bool is_same_shard(const ShardRecord& one, const ShardRecord& other) {
 }  // namespace
 
 ShardWork::ShardWork(std::filesystem::path folder, ShardRecord record)
-    : folder_(std::move(folder)), record_(std::move(record)) {
+    : folder_(std::move(folder)), record_(std::move(record)), lock_(folder_ / kShardLock) {
   const std::filesystem::path file = folder_ / kShardFile;
-  const bool was_begun = std::filesystem::exists(file);
-  if (was_begun && !is_same_shard(read_shard_record(folder_), record_))
+  if (std::filesystem::exists(file) && !is_same_shard(read_shard_record(folder_), record_))
     throw std::runtime_error(
         fmt::format("{}: is of another shard, of another command, or of files that have changed since; "
                     "remove the folder, "
                     "or choose another one with --out",
                     file.string()));
-  std::optional<FileLock> before;  // the file is replaced
-  if (was_begun) before.emplace(file);
   write_file_atomically(file, shard_json(record_));
-  lock_.emplace(file);
 }
 
 void ShardWork::finish() {
@@ -59,7 +55,7 @@ void ShardWork::finish() {
 }
 
 bool is_under_way(const std::filesystem::path& folder) {
-  return is_in_use(folder / kShardFile);
+  return is_in_use(folder / kShardLock);
 }
 
 ShardRecord read_shard_record(const std::filesystem::path& folder) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,9 @@ namespace stereobench::harness {
 
 /// The record of a shard, in its folder, from the shard's start.
 inline constexpr const char* kShardFile = "shard.json";
+
+/// An empty file beside it, which the process holds that does the shard.
+inline constexpr const char* kShardLock = "shard.lock";
 
 struct ShardRecord {
   std::vector<std::string> command;  ///< words of the command line that the whole work is, but for --out
@@ -41,7 +43,7 @@ class ShardWork {
  private:
   std::filesystem::path folder_;
   ShardRecord record_;
-  std::optional<FileLock> lock_;
+  FileLock lock_;
 };
 
 /// Whether a process is at the shard of a folder.

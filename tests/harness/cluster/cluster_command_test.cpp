@@ -90,7 +90,7 @@ TEST_F(ClusterCommand, ReleasesWhatSlurmHoldsAsANodeFailed) {
   ASSERT_EQ(cluster("submit").exit_code, 0);
   EXPECT_EQ(run_script("measure.sbatch"), 0);
   write_program("scontrol", "echo \"scontrol $@\" >> " + path("asked").string());
-  set_queue("2 0 launch failed requeued held\\n2 1 JobHeldUser\\n2 2 Priority\\n17 3 launch failed\\n");
+  set_queue("2 0 launch_failed_requeued_held\\n2 1 JobHeldUser\\n2 2 Priority\\n17 3 launch failed\\n");
   const std::string before = asked();
   const Outcome resumed = cluster("resume");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;

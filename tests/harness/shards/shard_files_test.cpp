@@ -66,7 +66,7 @@ TEST(ShardRecord, OfOtherWorkIsNotTakenUp) {
 }
 
 // A child does the shard until this process has looked. Mutations: no lock; one that ends when shard.json is
-// written; a lock of a file that is then replaced, which another process gets as well.
+// written; a lock of shard.json, which is replaced.
 TEST(ShardWork, IsDoneByOneProcess) {
   const TestFolder folder;
   std::array<int, 2> begun{}, seen{};
