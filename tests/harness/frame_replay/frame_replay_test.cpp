@@ -11,6 +11,7 @@
 #include "harness/experiment/write_experiment.h"
 #include "harness/io/sha256.h"
 #include "harness/run/seed_drive.h"
+#include "renderer/backend.h"
 #include "tests/test_folder.h"
 
 namespace stereobench::harness {
@@ -162,7 +163,7 @@ TEST_F(ResultFolder, IsReadBack) {
   EXPECT_EQ(read.scenario, invocation_.scenario);
   EXPECT_EQ(read.overrides, invocation_.overrides);
   EXPECT_EQ(read.folder, invocation_.folder);
-  EXPECT_EQ(read.backend, invocation_.backend);
+  EXPECT_STREQ(renderer::name_of(read.backend), renderer::name_of(invocation_.backend));
 }
 
 // Mutations: hashes that are not compared; of the scenario alone.
