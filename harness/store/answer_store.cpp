@@ -11,6 +11,7 @@
 #include "harness/io/file_lock.h"
 
 namespace stereobench::harness {
+
 AnswerStore::AnswerStore(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail_with_errno(file_, "cannot be written", errno);

@@ -3,7 +3,7 @@
 usage: PYTHONPATH=build/release/python /usr/bin/python3 tests/python/example_pages.py SOURCE_DIR OUT_DIR [NAME...]
 Runs assets/examples/NAME.py cell by cell in a folder of its own, and writes NAME.md and its pictures to OUT_DIR. Those of
 the guide are in docs/guide/examples. jupytext and nbconvert would do it: the one is not in Debian 12, the other starts a
-kernel and needs some forty packages.
+kernel and needs some thirty packages.
 """
 
 import contextlib
