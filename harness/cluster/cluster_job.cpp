@@ -113,9 +113,9 @@ ClusterJob read_cluster_job(const std::filesystem::path& file) {
   if (job.command.front() == kDatasetCommand) {
     job.measures = false;
     if (job.overlap > 0)
-      throw std::runtime_error(
-          fmt::format("{}: overlap: expected 0 with a dataset, whose shards share no drives (got {})",
-                      file.string(), job.overlap));
+      worlds::YamlMap(top, job_keys())
+          .at("overlap")
+          .fail("expected 0 with a dataset, whose shards share no drives");
   }
   const std::filesystem::path out = job.out.empty() ? std::filesystem::path("out") / job.name : job.out;
   job.out = (job.folder() / out).lexically_normal();

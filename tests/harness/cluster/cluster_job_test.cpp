@@ -57,6 +57,7 @@ TEST(ClusterJob, SaysWhatIsWrongWithIt) {
       {"job: a/b\ncommand: [run, a.yaml]\nshards: 2\n", "job.yaml:1: job"},
       {"job: noise\ncommand: [run, a.yaml]\nshards: 0\n", "job.yaml:3: shards"},
       {good + "slurm: {nodes: 3}\n", "job.yaml:4: slurm.nodes: unknown key"},
+      {"job: noise\ncommand: [dataset, a.yaml]\nshards: 2\noverlap: 1\n", "job.yaml:4: overlap: expected 0"},
   };
   for (const auto& [text, expected] : cases) {
     const std::string complaint = WrittenJob(text).complaint();
