@@ -126,8 +126,11 @@ std::vector<DriveTask> drive_tasks(const ScenarioArguments& arguments,
     wanted.snapshots = is_first ? parts.snapshots : 0;
     wanted.pairs = is_first ? parts.pairs : std::min(parts.pairs, kPairsOfLaterSeeds);
     wanted.log = parts.log && tasks.size() < kCheckedLogs;
-    DriveTask& task = tasks.emplace_back(
-        DriveTask{&experiment, streams.world, wanted, arguments.backend, {}, {}, {}, streams});
+    DriveTask& task = tasks.emplace_back(DriveTask{.experiment = &experiment,
+                                                   .seed = streams.world,
+                                                   .parts = wanted,
+                                                   .backend = arguments.backend,
+                                                   .streams = streams});
     task.key = key_of(basis.drive, task);
     task.kind = kind;
     if (!shares_looks) continue;

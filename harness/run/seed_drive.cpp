@@ -27,7 +27,7 @@ bool is_snapshot_step(std::size_t step, std::size_t count, std::size_t steps) {
 /// @param drive must live as long as the onlooker, and so must `worst`
 Onlooker onlooker_of(const DriveTask& task, SeedDrive& drive, WorstPairs& worst,
                      const std::function<void(double)>& on_progress) {
-  Onlooker onlooker{.experiment = task.experiment, .detector = task.detector};
+  Onlooker onlooker{.experiment = task.experiment};
   onlooker.listeners.on_progress = on_progress;
   onlooker.listeners.on_frame = [&task, &drive, &worst](const FrameEvent& event) {
     const worlds::Scenario& scenario = task.experiment->scenario;

@@ -50,7 +50,6 @@ struct DriveTask {
   std::uint64_t seed = 0;
   SeedParts parts = {};
   renderer::Backend backend = renderer::Backend::kSoftware;
-  Detector detector = {};                   ///< who looks; empty: as the experiment says
   std::string key = {};                     ///< SHA-256 of all that the drive is made from; needed to keep it
   std::string kind = {};                    ///< the same without its seeds: tasks of a kind cost the same
   std::optional<StreamSeeds> streams = {};  ///< where parts have seeds of their own; none: all have `seed`

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/detector/detector.h"
+#include "harness/detector/detector_registry.h"
 #include "harness/experiment/experiment.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/run/assemble.h"
@@ -76,15 +76,17 @@ vision::BallObservation imagined() {
 
 // End to end: what a detector imagines is in the filters' maps, as nobody's. Mutation: as above.
 TEST(SightingsOf, WhatADetectorImaginesIsInTheMap) {
-  Experiment experiment = read_experiment(
-      scenario_path("ball_circle"),
-      {"path.laps=0.05", "rig.width_px=256", "rig.height_px=192", "rig.focal_px=222", "filters=[fastslam2]"});
+  if (find_detector("imagines") == nullptr)
+    register_detector({"imagines", [](const DetectorSetup&) -> Detector {
+                         return [](const DetectorInput&) { return std::vector{imagined()}; };
+                       }});
+  Experiment experiment = read_experiment(scenario_path("ball_circle"),
+                                          {"path.laps=0.05", "rig.width_px=256", "rig.height_px=192",
+                                           "rig.focal_px=222", "filters=[fastslam2]", "detector=imagines"});
   worlds::Scenario& scenario = experiment.scenario;
   std::erase_if(scenario.world.balls, [](const worlds::Ball& ball) { return ball.colour == 17; });
   scenario.world.meshes.clear();  // stands name their balls by place
-  const DriveTask task{.experiment = &experiment, .detector = [](const DetectorInput&) {
-                         return std::vector<vision::BallObservation>{imagined()};
-                       }};
+  const DriveTask task{.experiment = &experiment};
   const RunResult result = assemble("name", "osmesa", {drive_seed(task, [](double) {})});
   EXPECT_EQ(result.vision->spurious, static_cast<long>(scenario.path.size()));
   EXPECT_EQ(result.filters.front().summary.landmarks_spurious, 1);
