@@ -24,6 +24,12 @@ const std::vector<std::string> kSmall = {
     "--frames",          "0..2",  "--set",           "rig.width_px=320", "--set",
     "rig.height_px=240", "--set", "rig.focal_px=280"};
 
+/// Of which some are late, and some are lost.
+const std::vector<std::string> kManyFrames = {"--frames", "0..15",
+                                              "--set",    "shutter.drop_probability=0.3",
+                                              "--set",    "shutter.late_probability=0.3",
+                                              "--set",    "shutter.late_s=0.03"};
+
 /// @param more behind a small rig
 std::vector<std::string> small_rig(const std::vector<std::string>& more) {
   return with(kSmall, more);
@@ -73,16 +79,13 @@ INSTANTIATE_TEST_SUITE_P(
                   "colmap,nerfstudio",
                   {"--frames", "2..5", "--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0.01]", "--set",
                    "rig.right_turn_deg=[0.4, -0.3, 0.5]", "--set", "rig.pitch_down_deg=8"}},
-        CleanCase{"scenes_with_late_and_lost_frames",
-                  kBend,
-                  kSceneFormats,
-                  {"--set", "shutter.drop_probability=0.3", "--set", "shutter.late_probability=0.3", "--set",
-                   "shutter.late_s=0.03", "--set", "shutter.right_delay_s=0.01"}},
+        CleanCase{"scenes_with_late_and_lost_frames", kBend, kSceneFormats,
+                  with(kManyFrames, {"--set", "shutter.right_delay_s=0.01"})},
         CleanCase{"recordings", kBend, kRecordings, {"--frames", "2..7"}},
         CleanCase{"recordings_behind_a_lens",
                   kBend,
                   kRecordings,
-                  {"--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0.01]", "--set",
+                  {"--frames", "0..15", "--set", "rig.distortion=[-0.2, 0.05, 0.001, -0.001, 0.01]", "--set",
                    "rig.pitch_down_deg=8", "--set", "shutter.drop_probability=0.3"}},
         CleanCase{"recordings_of_ball_circle", scenario_path("ball_circle"), kRecordings,
                   small_rig({"--set", "path.laps=0.2"})},
@@ -124,11 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "shutter.late_s=0.03", "--set", "shutter.right_delay_s=0.01", "--set", "path.overlap_m=0"},
                   true},
         CleanCase{"known_log", kBend, "mrclam", kLogFrames},
-        CleanCase{"late_and_lost_frames",
-                  kBend,
-                  "plain,kitti-stereo-2012",
-                  {"--set", "shutter.drop_probability=0.3", "--set", "shutter.late_probability=0.3", "--set",
-                   "shutter.late_s=0.03", "--set", "path.overlap_m=0", "--truth", "balls,disparity"}},
+        CleanCase{"late_and_lost_frames", kBend, "plain,kitti-stereo-2012",
+                  with(kManyFrames, {"--set", "path.overlap_m=0", "--truth", "balls,disparity"})},
         CleanCase{
             "right_camera_late",
             kBend,
