@@ -35,7 +35,7 @@ endif()
 set(STEREOBENCH_COMMON_HEADERS <algorithm> <cmath> <filesystem> <functional> <limits> <map> <memory> <optional> <set>
     <span> <sstream> <stdexcept> <string> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 
-# The compiler reads up to six sources of one folder at once, where CMAKE_UNITY_BUILD is on: it then makes templates
+# The compiler reads up to twelve sources of one folder at once, where CMAKE_UNITY_BUILD is on: it then makes templates
 # that they share once. Names in anonymous namespaces are therefore unique within a folder.
 function(stereobench_unite target sources)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
@@ -47,7 +47,7 @@ function(stereobench_unite target sources)
       set(count 0)
       set(last_room ${room})
     endif()
-    math(EXPR part "${count} / 6")
+    math(EXPR part "${count} / 12")
     math(EXPR count "${count} + 1")
     file(RELATIVE_PATH group ${CMAKE_SOURCE_DIR} ${room})
     string(REPLACE "/" "_" group ${group})

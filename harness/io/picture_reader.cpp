@@ -17,19 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, std::string_view what) {
+[[noreturn]] void refuse_picture(const fs::path& file, std::string_view what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
 /// A file's picture. @param decode of its bytes
 template <class Decode>
 cv::Mat decoded(const fs::path& file, const Decode& decode) {
-  if (!fs::exists(file)) refuse(file, "no such file");
-  if (fs::is_directory(file)) refuse(file, "expected a picture (got a folder)");
+  if (!fs::exists(file)) refuse_picture(file, "no such file");
+  if (fs::is_directory(file)) refuse_picture(file, "expected a picture (got a folder)");
   try {
     return decode(renderer::picture_bytes(file));
   } catch (const std::runtime_error& error) {
-    refuse(file, error.what());
+    refuse_picture(file, error.what());
   }
 }
 
@@ -45,7 +45,7 @@ cv::Mat read_exact_png(const fs::path& file) {
 
 cv::Mat read_picture(const fs::path& file) {
   cv::Mat picture = read_levels(file);
-  if (picture.channels() != 3) refuse(file, "has no colour, by which balls are found");
+  if (picture.channels() != 3) refuse_picture(file, "has no colour, by which balls are found");
   return picture;
 }
 
@@ -58,7 +58,7 @@ cv::Mat read_grey_picture(const fs::path& file) {
 worlds::Encoding encoding_of(const std::string& asked, std::span<const fs::path> files) {
   if (asked != "auto") return asked == "srgb" ? worlds::Encoding::kSrgb : worlds::Encoding::kLinear;
   const auto is_srgb = [](const fs::path& file) {
-    if (!fs::is_regular_file(file)) refuse(file, "no such file");
+    if (!fs::is_regular_file(file)) refuse_picture(file, "no such file");
     return renderer::said_of_levels(renderer::picture_bytes(file)) == renderer::SaidOfLevels::kSrgb;
   };
   for (const fs::path& file : files)

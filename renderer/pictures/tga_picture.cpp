@@ -9,7 +9,7 @@ namespace stereobench::renderer {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 18;
-constexpr std::size_t kLongestRun = 128;  // pixels of a packet
+constexpr std::size_t kLongestPacket = 128;  // pixels of a packet
 
 enum class TgaKind { kPalette = 1, kColour = 2, kGrey = 3 };
 
@@ -95,7 +95,8 @@ std::vector<std::uint8_t> unpacked(PictureBytes bytes, const TgaHeader& header) 
     const PictureBytes all = take(pixels * size);
     return {all.begin(), all.end()};
   }
-  if (bytes.size() < pixels / kLongestRun) refuse_broken("it is cut short");  // before there is room for it
+  if (bytes.size() < pixels / kLongestPacket)
+    refuse_broken("it is cut short");  // before there is room for it
   std::vector<std::uint8_t> raw;
   raw.reserve(pixels * size);
   for (std::size_t left = pixels; left > 0;) {
