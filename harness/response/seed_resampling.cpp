@@ -31,9 +31,9 @@ std::vector<SeedCounts> drawn_seeds(std::size_t seeds) {
 }
 
 Interval percentile_interval(std::vector<double> drawn, std::size_t seeds, double level) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNoBound = std::numeric_limits<double>::quiet_NaN();
   std::erase_if(drawn, [](double value) { return std::isnan(value); });
-  if (drawn.empty()) return {kNone, kNone};
+  if (drawn.empty()) return {kNoBound, kNoBound};
   std::ranges::sort(drawn);
   const auto count = static_cast<double>(seeds);
   const double t = student_t_bound(level, static_cast<long>(seeds) - 1) * widening(count);
