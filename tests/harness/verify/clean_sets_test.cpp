@@ -24,7 +24,7 @@ const std::vector<std::string> kSmall = {
     "--frames",          "0..2",  "--set",           "rig.width_px=320", "--set",
     "rig.height_px=240", "--set", "rig.focal_px=280"};
 
-/// Of which some are late, and some are lost.
+/// Sixteen frames, of which some are late and some are lost.
 const std::vector<std::string> kManyFrames = {"--frames", "0..15",
                                               "--set",    "shutter.drop_probability=0.3",
                                               "--set",    "shutter.late_probability=0.3",
